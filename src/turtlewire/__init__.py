@@ -1,0 +1,1 @@
+"""ROS 2's transform system for Python, without a ROS installation."""

@@ -1,0 +1,294 @@
+"""The contract of a middleware: bytes in, bytes out, QoS, names and the graph. No messages.
+
+A middleware implements the abstract classes below; everything above it (rclpy, the TF listener, the command line) uses nothing else.
+Topic and service names are fully qualified ROS names (``/turtle1/pose``); a middleware mangles them itself. ``cdr`` always means a
+serialized message with its four encapsulation bytes (``00 01 00 00``).
+
+Threading: every method may be called from any thread. :meth:`WaitSet.wait` blocks without the GIL. A subscription that was made with
+``on_message`` is served by the context's own reader thread, which the context starts, owns and joins in :meth:`Context.close`;
+all other entities are polled by their owner after a :class:`WaitSet` reports them ready.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .qos import QoS
+
+__all__ = [
+    "Client",
+    "Context",
+    "EndpointInfo",
+    "Entity",
+    "Graph",
+    "MessageInfo",
+    "Node",
+    "NodeInfo",
+    "Publisher",
+    "RequestId",
+    "Service",
+    "Subscription",
+    "TypeId",
+    "WaitSet",
+]
+
+
+class TypeId(NamedTuple):
+    """What a peer must know of a type.
+
+    Attributes:
+        name: ROS name, for example ``tf2_msgs/msg/TFMessage`` or ``turtlesim/srv/Spawn_Request``.
+        type_hash: ``RIHS01_`` and 64 hex digits.
+    """
+
+    name: str
+    type_hash: str
+
+
+class MessageInfo(NamedTuple):
+    """What is known of a received message beside its bytes.
+
+    Attributes:
+        source_timestamp_ns: When the sender wrote it, system time.
+        received_timestamp_ns: When it was taken here, system time.
+        publisher_gid: 16 bytes that identify the publisher.
+    """
+
+    source_timestamp_ns: int
+    received_timestamp_ns: int
+    publisher_gid: bytes
+
+
+class RequestId(NamedTuple):
+    """Identifies a service request: the client's 8-byte id and its sequence number."""
+
+    client_id: int
+    sequence_number: int
+
+
+class NodeInfo(NamedTuple):
+    """A node that the graph knows."""
+
+    name: str
+    namespace: str
+    enclave: str
+
+
+class EndpointInfo(NamedTuple):
+    """One end of a topic (service endpoints are topics too; :class:`Graph` splits them).
+
+    Attributes:
+        kind: ``"publisher"`` or ``"subscription"``.
+        topic: Demangled ROS name, or the raw DDS name when it is not a ROS topic.
+        type_name: ROS name (``turtlesim/msg/Pose``), or the raw DDS name.
+        type_hash: ``RIHS01_...`` or an empty string when the peer says none.
+        node: The node that owns it, or None when no node claims it.
+        gid: 16 bytes.
+        qos: As the peer announced it.
+    """
+
+    kind: str
+    topic: str
+    type_name: str
+    type_hash: str
+    node: NodeInfo | None
+    gid: bytes
+    qos: QoS
+
+
+class Entity(ABC):
+    """Something with a lifetime on the wire; waitable ones can be attached to a :class:`WaitSet`."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Leave the wire. Idempotent; returns without waiting for other parties."""
+
+
+class Publisher(Entity):
+    """Writes messages of one type to one topic."""
+
+    topic: str
+    gid: bytes
+
+    @abstractmethod
+    def publish(self, cdr: bytes) -> None:
+        """Send one message.
+
+        Raises:
+            WireError: The middleware refused it (closed, or blocked for longer than its limit).
+        """
+
+    @abstractmethod
+    def subscription_count(self) -> int:
+        """How many matching subscriptions are known at the moment."""
+
+
+class Subscription(Entity):
+    """Receives messages of one topic. Waitable (ready: messages can be taken)."""
+
+    topic: str
+
+    @abstractmethod
+    def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
+        """Take up to ``limit`` waiting messages, oldest first; an empty list when there are none."""
+
+    @abstractmethod
+    def publisher_count(self) -> int:
+        """How many matching publishers are known at the moment."""
+
+
+class Client(Entity):
+    """Sends requests to a service. Waitable (ready: responses can be taken)."""
+
+    service: str
+
+    @abstractmethod
+    def send_request(self, cdr: bytes) -> int:
+        """Send a request; its sequence number comes back with the response."""
+
+    @abstractmethod
+    def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
+        """Take up to ``limit`` responses to requests of this client as ``(sequence_number, cdr)``."""
+
+    @abstractmethod
+    def is_ready(self) -> bool:
+        """Whether a server is there that would receive a request and whose response would arrive here."""
+
+
+class Service(Entity):
+    """Answers requests. Waitable (ready: requests can be taken)."""
+
+    service: str
+
+    @abstractmethod
+    def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
+        """Take up to ``limit`` waiting requests, oldest first."""
+
+    @abstractmethod
+    def send_response(self, request_id: RequestId, cdr: bytes) -> None:
+        """Answer a request. A client that has gone away is no error."""
+
+
+class WaitSet(Entity):
+    """Waits for several entities at once. One thread waits at a time; any thread may attach, detach and wake."""
+
+    @abstractmethod
+    def attach(self, entity: Subscription | Client | Service) -> None:
+        """Include an entity in this and later waits."""
+
+    @abstractmethod
+    def detach(self, entity: Subscription | Client | Service) -> None:
+        """Exclude an entity. Closing it detaches it as well."""
+
+    @abstractmethod
+    def wait(self, timeout_ns: int | None = None) -> list[Entity]:
+        """Block until an attached entity is ready, :meth:`wake` is called, or the time is over.
+
+        Args:
+            timeout_ns: None waits forever, 0 looks once.
+
+        Returns:
+            The ready entities, empty after a wake-up or at the end of the time. An entity stays ready until all of its data
+            is taken (level-triggered). A wake-up that came while nobody waited ends the next wait at once.
+        """
+
+    @abstractmethod
+    def wake(self) -> None:
+        """End the current or the next :meth:`wait`. Safe from any thread and from a signal's helper thread."""
+
+
+class Node(Entity):
+    """A named member of the graph that owns endpoints. Closing it closes them."""
+
+    name: str
+    namespace: str
+
+    @abstractmethod
+    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+        """Announce and return a publisher of ``topic`` (a fully qualified ROS name)."""
+
+    @abstractmethod
+    def create_subscription(
+        self, topic: str, type_id: TypeId, qos: QoS, on_message: Callable[[bytes, MessageInfo], None] | None = None
+    ) -> Subscription:
+        """Announce and return a subscription.
+
+        Args:
+            topic: Fully qualified ROS name.
+            type_id: What to match.
+            qos: What is requested.
+            on_message: When given, the context's reader thread calls it for every message, and the subscription cannot be attached
+                to a wait set. It must be short and must not raise (an exception is reported once and the message is lost).
+        """
+
+    @abstractmethod
+    def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
+        """Announce and return a client of ``service`` (a fully qualified ROS name)."""
+
+    @abstractmethod
+    def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
+        """Announce and return the server of ``service`` (a fully qualified ROS name)."""
+
+
+class Graph(ABC):
+    """What this process knows of all nodes and endpoints, its own included."""
+
+    @abstractmethod
+    def nodes(self) -> list[NodeInfo]:
+        """All known nodes, duplicates (two nodes of one name) included."""
+
+    @abstractmethod
+    def endpoints(self) -> list[EndpointInfo]:
+        """All known endpoints, those of services included (demangled to ``rq/…`` names unless asked below)."""
+
+    @abstractmethod
+    def topic_names_and_types(self, *, demangle: bool = True) -> dict[str, list[str]]:
+        """Topic name to sorted type names; services hidden and names demangled unless ``demangle`` is False."""
+
+    @abstractmethod
+    def service_names_and_types(self) -> dict[str, list[str]]:
+        """Service name to sorted type names (``turtlesim/srv/Spawn``)."""
+
+    @abstractmethod
+    def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
+        """Block until ``predicate()`` is true, tested at once and after every change of the graph (no polling).
+
+        Args:
+            predicate: Called without locks held, on the calling thread.
+            timeout_ns: None waits forever.
+
+        Returns:
+            The last value of the predicate. Closing the context ends the wait.
+        """
+
+    @abstractmethod
+    def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
+        """Call ``on_change`` on the context's reader thread after changes; returns a function that ends it."""
+
+
+class Context(ABC):
+    """One participant of a domain. A process normally has one."""
+
+    domain_id: int
+    gid: bytes
+
+    @property
+    @abstractmethod
+    def graph(self) -> Graph:
+        """The graph as this participant sees it; discovery of it starts at the first use."""
+
+    @abstractmethod
+    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> Node:
+        """Announce a node."""
+
+    @abstractmethod
+    def create_wait_set(self) -> WaitSet:
+        """A new, empty wait set."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Close everything, end the reader thread and all waits, and join. Idempotent; always returns."""
