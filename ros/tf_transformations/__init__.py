@@ -1,0 +1,127 @@
+"""Quaternions, Euler angles and 4x4 matrices: the functions of ROS 2's ``tf_transformations`` 1.1.1.
+
+Quaternions are ``(x, y, z, w)``, angles radians, matrices ``(4, 4)`` arrays that act on column vectors from the left. Euler angles name
+their axes: ``"sxyz"`` is roll, pitch, yaw about the static x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
+
+What deals with one quaternion works on plain floats, so that a node that only needs :func:`quaternion_from_euler` starts without NumPy;
+everything else loads it at its first use.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._quaternions import (
+    euler_from_quaternion,
+    quaternion_about_axis,
+    quaternion_conjugate,
+    quaternion_from_euler,
+    quaternion_inverse,
+    quaternion_multiply,
+)
+
+if TYPE_CHECKING:
+    from ._arcball import Arcball, arcball_constrain_to_axis, arcball_map_to_sphere, arcball_nearest_axis
+    from ._arrays import (
+        quaternion_slerp,
+        random_quaternion,
+        random_rotation_matrix,
+        random_vector,
+        superimposition_matrix,
+        unit_vector,
+        vector_norm,
+    )
+    from ._matrices import (
+        ROTATION_IDENTITY,
+        SHEAR_IDENTITY,
+        TRANSLATION_IDENTITY,
+        ZOOM_IDENTITY,
+        clip_matrix,
+        compose_matrix,
+        concatenate_matrices,
+        decompose_matrix,
+        euler_from_matrix,
+        euler_matrix,
+        identity_matrix,
+        inverse_matrix,
+        is_same_transform,
+        orthogonalization_matrix,
+        projection_from_matrix,
+        projection_matrix,
+        quaternion_from_matrix,
+        quaternion_matrix,
+        reflection_from_matrix,
+        reflection_matrix,
+        rotation_from_matrix,
+        rotation_matrix,
+        scale_from_matrix,
+        scale_matrix,
+        shear_from_matrix,
+        shear_matrix,
+        translation_from_matrix,
+        translation_matrix,
+    )
+
+__all__ = [
+    "ROTATION_IDENTITY",
+    "SHEAR_IDENTITY",
+    "TRANSLATION_IDENTITY",
+    "ZOOM_IDENTITY",
+    "Arcball",
+    "arcball_constrain_to_axis",
+    "arcball_map_to_sphere",
+    "arcball_nearest_axis",
+    "clip_matrix",
+    "compose_matrix",
+    "concatenate_matrices",
+    "decompose_matrix",
+    "euler_from_matrix",
+    "euler_from_quaternion",
+    "euler_matrix",
+    "identity_matrix",
+    "inverse_matrix",
+    "is_same_transform",
+    "orthogonalization_matrix",
+    "projection_from_matrix",
+    "projection_matrix",
+    "quaternion_about_axis",
+    "quaternion_conjugate",
+    "quaternion_from_euler",
+    "quaternion_from_matrix",
+    "quaternion_inverse",
+    "quaternion_matrix",
+    "quaternion_multiply",
+    "quaternion_slerp",
+    "random_quaternion",
+    "random_rotation_matrix",
+    "random_vector",
+    "reflection_from_matrix",
+    "reflection_matrix",
+    "rotation_from_matrix",
+    "rotation_matrix",
+    "scale_from_matrix",
+    "scale_matrix",
+    "shear_from_matrix",
+    "shear_matrix",
+    "superimposition_matrix",
+    "translation_from_matrix",
+    "translation_matrix",
+    "unit_vector",
+    "vector_norm",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import _arcball, _arrays, _matrices
+
+    for module in (_matrices, _arrays, _arcball):
+        if hasattr(module, name):
+            value = globals()[name] = getattr(module, name)
+            return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

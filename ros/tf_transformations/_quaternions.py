@@ -1,0 +1,149 @@
+"""One quaternion at a time, on plain floats: no NumPy is imported here."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    Quaternion = tuple[float, float, float, float]
+    #: ``"sxyz"``, or the numbers (inner axis, parity, repetition, frame) that stand for it.
+    Axes = str | Sequence[int]
+
+#: Below this, a sine or a cosine says nothing about its angle any more.
+EPSILON = 4.0 * 2.0**-52
+
+
+def axis_order(axes: Axes) -> tuple[int, int, int, bool]:
+    """Read the name of an Euler convention.
+
+    Args:
+        axes: ``s`` (static axes) or ``r`` (rotating axes) and three letters of which no two neighbours are equal; or the same as
+            numbers ``(first axis, parity, repetition, frame)``.
+
+    Returns:
+        The three axes as 0, 1, 2 in the order of the angles, and whether they turn along.
+
+    Raises:
+        KeyError: There is no such convention.
+    """
+    if isinstance(axes, str):
+        frame, letters = axes[:1].lower(), axes[1:].lower()
+        known = frame in {"s", "r"} and len(letters) == 3 and set(letters) <= set("xyz")
+        if known and letters[0] != letters[1] != letters[2]:
+            return "xyz".index(letters[0]), "xyz".index(letters[1]), "xyz".index(letters[2]), frame == "r"
+    elif len(axes) == 4 and axes[0] in {0, 1, 2} and set(axes[1:]) <= {0, 1}:
+        first, parity, repetition, rotating = axes
+        second = (first + 1 + parity) % 3
+        third = first if repetition else 3 - first - second
+        return (third, second, first, True) if rotating else (first, second, third, False)
+    raise KeyError(f"unknown axes {axes!r}: expected 's' or 'r' and three of x, y, z without equal neighbours, as in 'sxyz'")
+
+
+def euler_from_rotation(rotation: Sequence[Sequence[float]], axes: Axes = "sxyz") -> tuple[float, float, float]:
+    """Angles of a 3x3 rotation given as three rows; the last angle is 0 where only the sum of two is determined."""
+    i, j, k, rotating = axis_order(axes)
+    if rotating:
+        i, k = k, i
+    repeated = i == k
+    if repeated:
+        k = 3 - i - j
+    # Against the cyclic order x, y, z the same formulas hold with all angles negated.
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    if repeated:
+        sine = math.hypot(rotation[i][j], rotation[i][k])
+        determined = sine > EPSILON
+        first = math.atan2(rotation[i][j], rotation[i][k])
+        second = math.atan2(sine, rotation[i][i])
+        third = math.atan2(rotation[j][i], -rotation[k][i])
+    else:
+        cosine = math.hypot(rotation[i][i], rotation[j][i])
+        determined = cosine > EPSILON
+        first = math.atan2(rotation[k][j], rotation[k][k])
+        second = math.atan2(-rotation[k][i], cosine)
+        third = math.atan2(rotation[j][i], rotation[i][i])
+    if not determined:
+        first, third = math.atan2(-rotation[j][k], rotation[j][j]), 0.0
+    angles = (sign * first, sign * second, sign * third)
+    return angles[::-1] if rotating else angles
+
+
+def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, float, float], ...]:
+    """Three rows of the rotation matrix; the quaternion need not be normalised, and one that is zero means no rotation."""
+    x, y, z, w = quaternion
+    norm = x * x + y * y + z * z + w * w
+    if norm < EPSILON / 4.0:
+        return (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    s = 2.0 / norm
+    return (
+        (1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)),
+        (s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)),
+        (s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)),
+    )
+
+
+def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quaternion:
+    """Hamilton product: the rotation ``quaternion0``, followed by the rotation ``quaternion1``."""
+    x1, y1, z1, w1 = quaternion1
+    x0, y0, z0, w0 = quaternion0
+    return (
+        w1 * x0 + x1 * w0 + y1 * z0 - z1 * y0,
+        w1 * y0 - x1 * z0 + y1 * w0 + z1 * x0,
+        w1 * z0 + x1 * y0 - y1 * x0 + z1 * w0,
+        w1 * w0 - x1 * x0 - y1 * y0 - z1 * z0,
+    )
+
+
+def quaternion_conjugate(quaternion: Sequence[float]) -> Quaternion:
+    """The opposite rotation of a unit quaternion."""
+    x, y, z, w = quaternion
+    return -x, -y, -z, w
+
+
+def quaternion_inverse(quaternion: Sequence[float]) -> Quaternion:
+    """The quaternion whose product with this one is ``(0, 0, 0, 1)``, also when this one is not normalised."""
+    x, y, z, w = quaternion
+    norm = x * x + y * y + z * z + w * w
+    return -x / norm, -y / norm, -z / norm, w / norm
+
+
+def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quaternion:
+    """Rotation by ``angle`` [rad] about ``axis`` (three numbers, of any length but zero)."""
+    x, y, z = axis
+    scale = math.sin(angle / 2.0) / math.sqrt(x * x + y * y + z * z)
+    return x * scale, y * scale, z * scale, math.cos(angle / 2.0)
+
+
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Quaternion:
+    """Quaternion of three angles.
+
+    Args:
+        ai: Angle about the first axis of ``axes`` [rad]; roll, by default.
+        aj: Angle about the second axis [rad]; pitch, by default.
+        ak: Angle about the third axis [rad]; yaw, by default.
+        axes: Convention of the angles, for example ``"sxyz"`` or ``"rzyx"``.
+
+    Returns:
+        ``(x, y, z, w)``.
+
+    Raises:
+        KeyError: There is no such convention.
+    """
+    *order, rotating = axis_order(axes)
+    product: Quaternion | None = None
+    for axis, angle in zip(order, (ai, aj, ak), strict=True):
+        turn = [0.0, 0.0, 0.0, math.cos(angle / 2.0)]
+        turn[axis] = math.sin(angle / 2.0)
+        if product is None:
+            product = (turn[0], turn[1], turn[2], turn[3])
+        else:
+            product = quaternion_multiply(product, turn) if rotating else quaternion_multiply(turn, product)
+    assert product is not None
+    return product
+
+
+def euler_from_quaternion(quaternion: Sequence[float], axes: Axes = "sxyz") -> tuple[float, float, float]:
+    """Angles [rad] about the three axes of ``axes``; roll, pitch and yaw by default. The quaternion need not be normalised."""
+    return euler_from_rotation(rotation_from_quaternion(quaternion), axes)
