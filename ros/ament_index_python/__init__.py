@@ -1,0 +1,30 @@
+"""The index of installed packages and their resources: ``get_package_share_directory`` and its kin."""
+
+from __future__ import annotations
+
+from ament_index_python.packages import (
+    PackageNotFoundError,
+    get_package_prefix,
+    get_package_share_directory,
+    get_package_share_path,
+    get_packages_with_prefixes,
+)
+from ament_index_python.resources import InvalidResourceNameError, InvalidResourceTypeNameError, get_resource, get_resources, has_resource
+from ament_index_python.resources import get_resource_types as get_resource_types
+from ament_index_python.search_paths import AMENT_PREFIX_PATH_ENV_VAR, get_search_paths
+
+__all__ = [
+    "AMENT_PREFIX_PATH_ENV_VAR",
+    "InvalidResourceNameError",
+    "InvalidResourceTypeNameError",
+    "PackageNotFoundError",
+    "get_package_prefix",
+    "get_package_share_directory",
+    "get_package_share_path",
+    "get_packages_with_prefixes",
+    "get_resource",
+    "get_resource_types",
+    "get_resources",
+    "get_search_paths",
+    "has_resource",
+]

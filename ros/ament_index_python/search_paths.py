@@ -1,0 +1,22 @@
+"""Where the index is looked for."""
+
+from __future__ import annotations
+
+__all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "get_search_paths"]
+
+#: Name of the environment variable that lists the prefixes of sourced workspaces.
+AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
+
+
+def get_search_paths() -> list[str]:
+    """The prefixes to search: those of ``AMENT_PREFIX_PATH`` that exist, then the one this distribution is installed in.
+
+    Raises:
+        OSError: There is neither.
+    """
+    from turtlewire_ros.prefix import prefixes
+
+    paths = prefixes()
+    if not paths:
+        raise OSError(f"Environment variable '{AMENT_PREFIX_PATH_ENV_VAR}' is not set or empty")
+    return paths

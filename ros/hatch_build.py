@@ -1,0 +1,91 @@
+"""Builds the data of the wheel: for each ROS package what ament, colcon and rosdep look for, and the shell files of the prefix.
+
+Every folder here with an ``__init__.py`` is a ROS package. Entry points of the groups ``turtlewire.executables.<package>`` become
+``lib/<package>/<executable>``, as ``ros2 run`` expects them.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+_GROUP = "turtlewire.executables."
+_RULES_URL = "file:///turtlewire/rosdep.yaml"
+
+_PACKAGE_XML = """<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name>
+  <version>{version}</version>
+  <description>{description}</description>
+  <maintainer email="turtlewire@users.noreply.github.com">turtlewire</maintainer>
+  <license>Apache-2.0</license>
+  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+
+_EXECUTABLE = """#!/usr/bin/env python3
+import sys
+
+from {module} import {function}
+
+sys.exit({function}())
+"""
+
+
+class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
+    """Adds the prefix's files to the wheel, editable ones included."""
+
+    def initialize(self, _version: str, build_data: dict[str, Any]) -> None:
+        """Make the files and name them to the wheel builder."""
+        self._folder = Path(tempfile.mkdtemp(prefix="turtlewire-prefix-"))
+        root = Path(self.root)
+        for package in sorted(path.parent.name for path in root.glob("*/__init__.py")):
+            self._add_package(package, root / package)
+        for group, entries in self.metadata.core.entry_points.items():
+            if group.startswith(_GROUP):
+                for name, target in entries.items():
+                    self._add_executable(group.removeprefix(_GROUP), name, target)
+        for source in (root / "turtlewire_ros" / "environment").iterdir():
+            self._write(source.name, source.read_text(encoding="utf-8"))
+        cache = "share/turtlewire/ros_home/rosdep/sources.cache"
+        self._write(f"{cache}/index", f"yaml {_RULES_URL}\n")
+        rules = (root / "turtlewire_ros" / "rosdep" / "rules.yaml").read_text(encoding="utf-8")
+        self._write(f"{cache}/{hashlib.sha1(_RULES_URL.encode(), usedforsecurity=False).hexdigest()}", rules)
+        for path in self._folder.rglob("*"):
+            if path.is_file():
+                build_data["shared_data"][str(path)] = path.relative_to(self._folder).as_posix()
+
+    def finalize(self, _version: str, _build_data: dict[str, Any], _artifact: str) -> None:
+        """Remove the files again; the wheel has them."""
+        shutil.rmtree(self._folder)
+
+    def _add_package(self, name: str, source: Path) -> None:
+        docstring = ast.get_docstring(ast.parse((source / "__init__.py").read_text(encoding="utf-8"))) or name
+        description = escape(docstring.splitlines()[0])
+        self._write(f"share/ament_index/resource_index/packages/{name}", "")
+        self._write(f"share/{name}/package.xml", _PACKAGE_XML.format(name=name, version=self.metadata.version, description=description))
+        self._write(f"share/{name}/COLCON_IGNORE", "")  # else colcon takes a venv in a workspace for sources
+        share = source / "share"
+        for path in share.rglob("*") if share.is_dir() else ():
+            if path.is_file():
+                self._write(f"share/{name}/{path.relative_to(share).as_posix()}", path.read_text(encoding="utf-8"))
+
+    def _add_executable(self, package: str, name: str, target: str) -> None:
+        module, function = target.split(":")
+        path = self._write(f"lib/{package}/{name}", _EXECUTABLE.format(module=module, function=function))
+        path.chmod(0o755)
+
+    def _write(self, path: str, text: str) -> Path:
+        file = self._folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        return file

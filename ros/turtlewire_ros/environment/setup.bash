@@ -1,0 +1,7 @@
+# source <venv>/setup.bash: what `source /opt/ros/jazzy/setup.bash` is on a machine with ROS.
+_turtlewire_root="$(builtin cd "$(dirname "${BASH_SOURCE[0]}")" > /dev/null && pwd)"
+if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/activate" ]; then
+    . "$_turtlewire_root/bin/activate"
+fi
+. "$_turtlewire_root/local_setup.bash"
+unset _turtlewire_root

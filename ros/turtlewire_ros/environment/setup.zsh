@@ -1,0 +1,7 @@
+# source <venv>/setup.zsh: what `source /opt/ros/jazzy/setup.zsh` is on a machine with ROS.
+_turtlewire_root="${0:A:h}"
+if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/activate" ]; then
+    . "$_turtlewire_root/bin/activate"
+fi
+. "$_turtlewire_root/local_setup.zsh"
+unset _turtlewire_root
