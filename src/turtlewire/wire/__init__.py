@@ -1,0 +1,43 @@
+"""Middleware: moves bytes, knows QoS, names and the graph; knows no messages.
+
+:func:`open_context` joins a domain. The contract of what it returns is :mod:`turtlewire.wire.base`.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import WireError
+from . import environment
+
+if TYPE_CHECKING:
+    from .base import Context
+
+__all__ = ["open_context"]
+
+
+def open_context(domain_id: int | None = None, *, middleware: str | None = None) -> Context:
+    """Join a domain.
+
+    Args:
+        domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
+        middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS, the default) or ``local`` (inside this process); None takes
+            ``RMW_IMPLEMENTATION``, or the default.
+
+    Raises:
+        WireError: No such middleware, it is not available on this platform, or the domain cannot be joined.
+    """
+    if domain_id is None:
+        domain_id = environment.domain_id()
+    name = middleware or os.environ.get("RMW_IMPLEMENTATION") or "rmw_cyclonedds_cpp"
+    if name == "rmw_cyclonedds_cpp":
+        from .cyclone.context import CycloneContext
+
+        return CycloneContext(domain_id)
+    if name == "local":
+        from .local import LocalContext
+
+        return LocalContext(domain_id)
+    error = WireError(f"middleware {name!r} is not available")
+    raise error.with_hint("RMW_IMPLEMENTATION may be 'rmw_cyclonedds_cpp' (the default) or 'local' (inside one process).")

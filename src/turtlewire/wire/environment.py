@@ -1,0 +1,84 @@
+"""The environment variables that decide whom a process talks to, read as ROS 2 reads them."""
+
+from __future__ import annotations
+
+import os
+from enum import Enum
+from typing import NamedTuple
+
+from turtlewire.errors import WireError
+from .report import warn_once
+
+__all__ = ["MAX_DOMAIN_ID", "Discovery", "Range", "discovery", "domain_id"]
+
+#: Above it, the ports of a domain would not fit.
+MAX_DOMAIN_ID = 232
+
+
+class Range(Enum):
+    """How far a process looks for others (``ROS_AUTOMATIC_DISCOVERY_RANGE``)."""
+
+    LOCALHOST = "LOCALHOST"
+    SUBNET = "SUBNET"
+    OFF = "OFF"
+    SYSTEM_DEFAULT = "SYSTEM_DEFAULT"
+
+
+class Discovery(NamedTuple):
+    """Whom to look for.
+
+    Attributes:
+        range: How far.
+        static_peers: Addresses that are asked in addition (``ROS_STATIC_PEERS``).
+    """
+
+    range: Range
+    static_peers: tuple[str, ...]
+
+
+def domain_id() -> int:
+    """``ROS_DOMAIN_ID``, or 0.
+
+    Raises:
+        WireError: It is not a number from 0 to 232.
+    """
+    text = os.environ.get("ROS_DOMAIN_ID", "").strip()
+    if not text:
+        return 0
+    if not text.isascii() or not text.isdigit() or int(text) > MAX_DOMAIN_ID:
+        error = WireError(f"ROS_DOMAIN_ID is not an integral number from 0 to {MAX_DOMAIN_ID}: {text!r}")
+        raise error.with_hint("Set it to a number that your robots share, for example: export ROS_DOMAIN_ID=7")
+    return int(text)
+
+
+def discovery() -> Discovery:
+    """What ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY`` and ``ROS_STATIC_PEERS`` say; ``LOCALHOST`` when they say nothing."""
+    peers = tuple(peer.strip() for peer in os.environ.get("ROS_STATIC_PEERS", "").split(";") if peer.strip())
+    localhost_only = os.environ.get("ROS_LOCALHOST_ONLY", "").strip()
+    if localhost_only:
+        warn_once(
+            "ROS_LOCALHOST_ONLY",
+            "ROS_LOCALHOST_ONLY is deprecated but still honored if it is enabled. "
+            "Use ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS instead.",
+        )
+        if localhost_only == "1":
+            warn_once(
+                "ROS_LOCALHOST_ONLY=1",
+                "'localhost_only' is enabled, 'automatic_discovery_range' and 'static_peers' will be ignored.",
+            )
+            return Discovery(Range.LOCALHOST, ())
+    return Discovery(_range(os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip()), peers)
+
+
+def _range(text: str) -> Range:
+    if not text:
+        return Range.LOCALHOST
+    try:
+        return Range[text]
+    except KeyError:
+        warn_once(
+            "ROS_AUTOMATIC_DISCOVERY_RANGE",
+            f"Invalid value '{text}' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming localhost only "
+            "(valid: SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)",
+        )
+        return Range.LOCALHOST

@@ -1,0 +1,241 @@
+"""ROS names: their rules, their expansion, and how the middleware spells them.
+
+A name travels in three spellings::
+
+    ROS           /turtle1/pose             turtlesim/msg/Pose              service /spawn, turtlesim/srv/Spawn
+    DDS           rt/turtle1/pose           turtlesim::msg::dds_::Pose_     rq/spawnRequest and rr/spawnReply
+    as typed      pose, ~/pose, {ns}/pose   (expanded by :func:`expand_topic_name`)
+
+The checks answer with the texts and the index of ROS 2's own validators; who raises what on them is rclpy's business.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+__all__ = [
+    "Fault",
+    "expand_topic_name",
+    "fully_qualified_node_name",
+    "is_hidden",
+    "reply_topic",
+    "request_topic",
+    "service_from_dds",
+    "service_type",
+    "topic_from_dds",
+    "topic_to_dds",
+    "type_from_dds",
+    "type_to_dds",
+    "validate_full_topic_name",
+    "validate_namespace",
+    "validate_node_name",
+    "validate_topic_name",
+]
+
+_TOPIC_MAX = 247
+_NAMESPACE_MAX = 245
+_NODE_MAX = 255
+
+_NOT_IN_NODE = re.compile(r"[^A-Za-z0-9_]")
+_NOT_IN_FULL_TOPIC = re.compile(r"[^A-Za-z0-9_/]")
+_BAD_TOKEN_START = re.compile(r"/[/0-9]")
+_DIGIT_AFTER_SLASH = re.compile(r"/[0-9]")
+_SUBSTITUTION = re.compile(r"\{[^}]*\}")
+_DDS_TYPE = re.compile(r"(.+)::dds_::([^:]+)_")
+
+
+class Fault(NamedTuple):
+    """Why a name is not valid.
+
+    Attributes:
+        message: ROS 2's text, for example ``topic name must not be empty string``.
+        index: Position in the name where it goes wrong.
+    """
+
+    message: str
+    index: int
+
+
+def validate_topic_name(name: str) -> Fault | None:
+    """Check a topic or service name as a user types it: relative, private (``~``) and with substitutions allowed."""
+    if not name:
+        return Fault("topic name must not be empty string", 0)
+    if _is_digit(name[0]):
+        return Fault("topic name token must not start with a number", 0)
+    if name.endswith("/"):
+        return Fault("topic name must not end with a forward slash", len(name) - 1)
+    fault = _check_characters(name)
+    if fault is not None:
+        return fault
+    if name[0] == "~" and len(name) > 1 and name[1] != "/":
+        return Fault("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)
+    digit = _DIGIT_AFTER_SLASH.search(name)
+    if digit is not None:
+        return Fault("topic name token must not start with a number", digit.start() + 1)
+    return None
+
+
+def _check_characters(name: str) -> Fault | None:
+    """The part of the topic rules that goes character by character: braces, tildes, what is allowed where."""
+    opened = -1  # index of the brace that is open
+    for index, char in enumerate(name):
+        inside = opened >= 0
+        if inside and _is_digit(char) and index == opened + 1:
+            return Fault("substitution name must not start with a number", index)
+        if _is_word(char):
+            continue
+        if char == "~":
+            if index != 0:
+                return Fault("topic name must not have tilde '~' unless it is the first character", index)
+        elif char == "}":
+            if not inside:
+                return Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", index)
+            opened = -1
+        elif inside:
+            return Fault("substitution name must not contain characters other than alphanumerics or '_'", index)
+        elif char == "{":
+            opened = index
+        elif char != "/":
+            return Fault("topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'", index)
+    if opened >= 0:
+        return Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", opened)
+    return None
+
+
+def validate_full_topic_name(name: str) -> Fault | None:
+    """Check a fully qualified topic or service name (``/turtle1/pose``)."""
+    return _check_absolute(name, "topic name", "topic name must not end with a '/'") or _check_length(name, "topic length", _TOPIC_MAX)
+
+
+def validate_namespace(namespace: str) -> Fault | None:
+    """Check a namespace: ``/``, or like a fully qualified topic name."""
+    if namespace == "/":
+        return None
+    fault = _check_absolute(namespace, "namespace", "namespace must not end with a '/', unless only a '/'")
+    return fault or _check_length(namespace, "namespace", _NAMESPACE_MAX)
+
+
+def validate_node_name(name: str) -> Fault | None:
+    """Check a node's base name (no slashes)."""
+    if not name:
+        return Fault("node name must not be empty", 0)
+    bad = _NOT_IN_NODE.search(name)
+    if bad is not None:
+        return Fault("node name must not contain characters other than alphanumerics or '_'", bad.start())
+    if _is_digit(name[0]):
+        return Fault("node name must not start with a number", 0)
+    return _check_length(name, "node name length", _NODE_MAX)
+
+
+def _check_absolute(name: str, what: str, ends_with_slash: str) -> Fault | None:
+    if not name:
+        return Fault(f"{what} must not be empty", 0)
+    if name[0] != "/":
+        return Fault(f"{what} must be absolute, it must lead with a '/'", 0)
+    if name.endswith("/"):
+        return Fault(ends_with_slash, len(name) - 1)
+    bad = _NOT_IN_FULL_TOPIC.search(name)
+    if bad is not None:
+        return Fault(f"{what} must not contain characters other than alphanumerics, '_', or '/'", bad.start())
+    bad = _BAD_TOKEN_START.search(name)
+    if bad is None:
+        return None
+    if name[bad.end() - 1] == "/":
+        return Fault(f"{what} must not contain repeated '/'", bad.end() - 1)
+    return Fault(f"{what} must not have a token that starts with a number", bad.end() - 1)
+
+
+def _check_length(name: str, what: str, limit: int) -> Fault | None:
+    return Fault(f"{what} should not exceed '{limit}'", limit - 1) if len(name) > limit else None
+
+
+def _is_digit(char: str) -> bool:
+    return "0" <= char <= "9"
+
+
+def _is_word(char: str) -> bool:
+    return char == "_" or (char.isascii() and char.isalnum())
+
+
+def expand_topic_name(name: str, node_name: str, namespace: str) -> str:
+    """Expand a topic or service name to its fully qualified form.
+
+    Args:
+        name: As typed; already valid by :func:`validate_topic_name`.
+        node_name: Base name of the node, for ``~`` and ``{node}``.
+        namespace: Namespace of the node, for relative names, ``{ns}`` and ``{namespace}``.
+
+    Raises:
+        ValueError: The name has a substitution other than ``{node}``, ``{ns}`` and ``{namespace}``.
+    """
+    node = fully_qualified_node_name(node_name, namespace)
+    if name.startswith("~"):
+        name = node + name[1:]
+    known = {"{node}": node_name, "{ns}": namespace, "{namespace}": namespace}
+
+    def substitute(match: re.Match[str]) -> str:
+        if match.group() not in known:
+            raise ValueError(f"unknown substitution: {match.group()}")
+        return known[match.group()]
+
+    name = _SUBSTITUTION.sub(substitute, name)
+    if name.startswith("/"):
+        return name
+    return f"{namespace.rstrip('/')}/{name}"
+
+
+def fully_qualified_node_name(node_name: str, namespace: str) -> str:
+    """``("turtle", "/")`` becomes ``/turtle``, ``("turtle", "/ns")`` becomes ``/ns/turtle``."""
+    return f"{namespace.rstrip('/')}/{node_name}"
+
+
+def is_hidden(name: str) -> bool:
+    """Whether tools leave this topic, service or node out by default: one of its tokens starts with an underscore."""
+    return any(token.startswith("_") for token in name.split("/"))
+
+
+def topic_to_dds(topic: str) -> str:
+    """``/turtle1/pose`` becomes ``rt/turtle1/pose``."""
+    return "rt" + topic
+
+
+def topic_from_dds(dds_topic: str) -> str | None:
+    """``rt/turtle1/pose`` becomes ``/turtle1/pose``; None when it is not a ROS topic (a service's, or foreign)."""
+    return dds_topic[2:] if dds_topic.startswith("rt/") else None
+
+
+def request_topic(service: str) -> str:
+    """``/spawn`` becomes ``rq/spawnRequest``."""
+    return f"rq{service}Request"
+
+
+def reply_topic(service: str) -> str:
+    """``/spawn`` becomes ``rr/spawnReply``."""
+    return f"rr{service}Reply"
+
+
+def service_from_dds(dds_topic: str) -> str | None:
+    """``rq/spawnRequest`` and ``rr/spawnReply`` become ``/spawn``; None for other topics."""
+    if dds_topic.startswith("rq/") and dds_topic.endswith("Request"):
+        return dds_topic[2:-7]
+    if dds_topic.startswith("rr/") and dds_topic.endswith("Reply"):
+        return dds_topic[2:-5]
+    return None
+
+
+def type_to_dds(type_name: str) -> str:
+    """``turtlesim/msg/Pose`` becomes ``turtlesim::msg::dds_::Pose_``; names that are no ROS names stay."""
+    package, _, base = type_name.rpartition("/")
+    return f"{package.replace('/', '::')}::dds_::{base}_" if package else type_name
+
+
+def type_from_dds(dds_type: str) -> str:
+    """``turtlesim::msg::dds_::Pose_`` becomes ``turtlesim/msg/Pose``; names that are no ROS names stay."""
+    match = _DDS_TYPE.fullmatch(dds_type)
+    return f"{match.group(1).replace('::', '/')}/{match.group(2)}" if match else dds_type
+
+
+def service_type(part_name: str) -> str:
+    """``turtlesim/srv/Spawn_Request`` and ``turtlesim/srv/Spawn_Response`` become ``turtlesim/srv/Spawn``."""
+    return part_name.removesuffix("_Request").removesuffix("_Response")

@@ -1,0 +1,110 @@
+"""Services over two topics, as rmw_cyclonedds does them: requests and replies carry a 16-byte id in front of their fields.
+
+The id is the client's number (``uint64``) and a sequence number (``int64``); the server sends it back, and a client drops replies
+to others.
+"""
+
+from __future__ import annotations
+
+import itertools
+from struct import Struct
+from typing import TYPE_CHECKING
+
+from .base import Client, RequestId, Service
+from .report import warn_once
+
+if TYPE_CHECKING:
+    from .base import Publisher, Subscription
+
+__all__ = ["TopicClient", "TopicService", "join_header", "split_header"]
+
+_ENCAPSULATION = 4
+_HEADER = Struct("<Qq")
+_BODY = _ENCAPSULATION + _HEADER.size
+
+#: One counter per process, as rmw_cyclonedds has.
+_sequence = itertools.count(1)
+
+
+def join_header(request_id: RequestId, cdr: bytes) -> bytes:
+    """Put the id between the encapsulation and the fields of a message."""
+    return cdr[:_ENCAPSULATION] + _HEADER.pack(*request_id) + cdr[_ENCAPSULATION:]
+
+
+def split_header(payload: bytes) -> tuple[RequestId, bytes] | None:
+    """Take the id out again; None when the payload is too short to hold one (a peer on another middleware's service layout)."""
+    if len(payload) < _BODY:
+        return None
+    return RequestId(*_HEADER.unpack_from(payload, _ENCAPSULATION)), payload[:_ENCAPSULATION] + payload[_BODY:]
+
+
+class TopicClient(Client):
+    """A client made of a publisher of requests and a subscription of replies."""
+
+    def __init__(self, service: str, client_id: int, requests: Publisher, replies: Subscription) -> None:
+        self.service = service
+        self.client_id = client_id
+        self.requests = requests
+        self.replies = replies
+
+    def send_request(self, cdr: bytes) -> int:
+        """See :meth:`Client.send_request`."""
+        sequence_number = next(_sequence)
+        self.requests.publish(join_header(RequestId(self.client_id, sequence_number), cdr))
+        return sequence_number
+
+    def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
+        """See :meth:`Client.take`."""
+        responses = []
+        for payload, _ in self.replies.take(limit):
+            split = split_header(payload)
+            if split is None:
+                _warn_short(self.service, "response")
+            elif split[0].client_id == self.client_id:
+                responses.append((split[0].sequence_number, split[1]))
+        return responses
+
+    def is_ready(self) -> bool:
+        """See :meth:`Client.is_ready`."""
+        return self.requests.subscription_count() > 0 and self.replies.publisher_count() > 0
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        self.requests.close()
+        self.replies.close()
+
+
+class TopicService(Service):
+    """A server made of a subscription of requests and a publisher of replies."""
+
+    def __init__(self, service: str, requests: Subscription, replies: Publisher) -> None:
+        self.service = service
+        self.requests = requests
+        self.replies = replies
+
+    def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
+        """See :meth:`Service.take`."""
+        requests = []
+        for payload, _ in self.requests.take(limit):
+            split = split_header(payload)
+            if split is None:
+                _warn_short(self.service, "request")
+            else:
+                requests.append(split)
+        return requests
+
+    def send_response(self, request_id: RequestId, cdr: bytes) -> None:
+        """See :meth:`Service.send_response`."""
+        self.replies.publish(join_header(request_id, cdr))
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        self.requests.close()
+        self.replies.close()
+
+
+def _warn_short(service: str, what: str) -> None:
+    warn_once(
+        f"{service}/{what}",
+        f"dropped a {what} of service {service} that is too short to carry its id; the peer's middleware is not rmw_cyclonedds_cpp",
+    )

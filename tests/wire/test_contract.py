@@ -1,0 +1,427 @@
+"""One suite for all middlewares: what the contract in ``base.py`` promises."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+
+from turtlewire.errors import WireError
+from turtlewire.wire import open_context
+from turtlewire.wire.base import Context, Node, Publisher, RequestId, Subscription, TypeId
+from turtlewire.wire.qos import Durability, History, QoS, Reliability
+
+STRING = TypeId("std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18")
+REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
+RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+SECOND = 1_000_000_000
+LONG = 20 * SECOND
+
+
+def cdr(text: str) -> bytes:
+    """A std_msgs/String, padded to a multiple of four as it travels."""
+    data = b"\x00\x01\x00\x00" + (len(text) + 1).to_bytes(4, "little") + text.encode() + b"\x00"
+    return data + b"\x00" * (-len(data) % 4)
+
+
+@pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
+def middleware(request: pytest.FixtureRequest) -> str:
+    return request.param
+
+
+@pytest.fixture
+def open_here(middleware: str):
+    contexts: list[Context] = []
+
+    def open_one() -> Context:
+        contexts.append(open_context(middleware=middleware))
+        return contexts[-1]
+
+    yield open_one
+    for context in contexts:
+        context.close()
+
+
+@pytest.fixture
+def node(open_here) -> Node:
+    return open_here().create_node("one", "/ns")
+
+
+@pytest.fixture
+def other(open_here) -> Node:
+    """A node of another participant."""
+    return open_here().create_node("other")
+
+
+def wait_until(context: Context, predicate) -> None:
+    assert context.graph.wait_for(predicate, LONG)
+
+
+def connect(node: Node, publisher: Publisher, subscription: Subscription) -> None:
+    wait_until(node.context, lambda: publisher.subscription_count() > 0 and subscription.publisher_count() > 0)
+
+
+def take_all(node: Node, subscription: Subscription, count: int) -> list[bytes]:
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(subscription)
+    taken: list[bytes] = []
+    while len(taken) < count:
+        assert wait_set.wait(LONG) == [subscription]
+        taken += [message for message, _ in subscription.take()]
+    wait_set.close()
+    return taken
+
+
+def test_a_message_arrives_with_its_origin(node: Node, other: Node):
+    subscription = node.create_subscription("/chatter", STRING, QoS())
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, subscription)
+    before = time.time_ns()
+    publisher.publish(cdr("hello"))
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(subscription)
+    assert wait_set.wait(LONG) == [subscription]
+    [(data, info)] = subscription.take()
+    assert data == cdr("hello")
+    assert info.publisher_gid == publisher.gid
+    assert before - SECOND <= info.source_timestamp_ns <= info.received_timestamp_ns <= time.time_ns()
+    assert subscription.take() == []
+    assert wait_set.wait(0) == []
+
+
+def test_messages_keep_their_order_and_readiness_is_level_triggered(node: Node, other: Node):
+    subscription = node.create_subscription("/numbers", STRING, QoS(history=History.KEEP_ALL))
+    publisher = other.create_publisher("/numbers", STRING, QoS(history=History.KEEP_ALL))
+    connect(other, publisher, subscription)
+    sent = [cdr(f"message {number}") for number in range(100)]
+    for message in sent:
+        publisher.publish(message)
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(subscription)
+    received: list[bytes] = []
+    while len(received) < len(sent):
+        assert wait_set.wait(LONG) == [subscription]
+        taken = subscription.take(limit=7)
+        assert 1 <= len(taken) <= 7
+        received += [message for message, _ in taken]
+    assert received == sent
+
+
+def test_keep_last_keeps_the_newest(node: Node, other: Node):
+    subscription = node.create_subscription("/numbers", STRING, QoS(depth=3))
+    marker = node.create_subscription("/marker", STRING, QoS())
+    publisher = other.create_publisher("/numbers", STRING, QoS(depth=3))
+    marker_publisher = other.create_publisher("/marker", STRING, QoS())
+    connect(other, publisher, subscription)
+    connect(other, marker_publisher, marker)
+    for number in range(10):
+        publisher.publish(cdr(str(number)))
+    marker_publisher.publish(cdr("end"))
+    take_all(node, marker, 1)
+    assert [message for message, _ in subscription.take()] == [cdr("7"), cdr("8"), cdr("9")]
+
+
+def test_a_late_joiner_receives_what_is_transient_local(node: Node, other: Node):
+    latched = QoS(depth=2, durability=Durability.TRANSIENT_LOCAL)
+    publisher = other.create_publisher("/latched", STRING, latched)
+    for number in range(5):
+        publisher.publish(cdr(str(number)))
+    volatile = node.create_subscription("/latched", STRING, QoS(depth=10))
+    late = node.create_subscription("/latched", STRING, latched._replace(depth=10))
+    assert take_all(node, late, 2) == [cdr("3"), cdr("4")]
+    publisher.publish(cdr("5"))
+    assert take_all(node, volatile, 1) == [cdr("5")]
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested"),
+    [
+        (QoS(reliability=Reliability.BEST_EFFORT), QoS()),
+        (QoS(), QoS(durability=Durability.TRANSIENT_LOCAL)),
+    ],
+)
+def test_incompatible_qos_does_not_match(node: Node, other: Node, offered: QoS, requested: QoS):
+    subscription = node.create_subscription("/chatter", STRING, requested)
+    publisher = other.create_publisher("/chatter", STRING, offered)
+    fits = other.create_publisher("/chatter", STRING, requested)
+    connect(other, fits, subscription)
+    fits.publish(cdr("fits"))
+    publisher.publish(cdr("does not"))
+    assert publisher.subscription_count() == 0
+    assert subscription.publisher_count() == 1
+    assert take_all(node, subscription, 1) == [cdr("fits")]
+
+
+def test_another_type_does_not_match(node: Node, other: Node):
+    subscription = node.create_subscription("/chatter", STRING, QoS())
+    other.create_publisher("/chatter", TypeId("std_msgs/msg/Int32", STRING.type_hash), QoS())
+    publisher = other.create_publisher("/elsewhere", STRING, QoS())
+    wait_until(node.context, lambda: "/elsewhere" in node.context.graph.topic_names_and_types())
+    assert subscription.publisher_count() == 0
+    assert publisher.subscription_count() == 0
+
+
+def test_on_message_is_called_on_the_reader_thread(node: Node, other: Node):
+    calls: list[tuple[bytes, bytes, str]] = []
+    done = threading.Event()
+
+    def on_message(data: bytes, info) -> None:
+        calls.append((data, info.publisher_gid, threading.current_thread().name))
+        if len(calls) == 3:
+            done.set()
+
+    subscription = node.create_subscription("/chatter", STRING, QoS(), on_message)
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, subscription)
+    for text in ("a", "b", "c"):
+        publisher.publish(cdr(text))
+    assert done.wait(20)
+    assert calls == [(cdr(text), publisher.gid, "turtlewire-reader") for text in ("a", "b", "c")]
+
+
+def test_a_callback_that_raises_is_said_once_and_later_messages_arrive(node: Node, other: Node, capfd):
+    seen: list[bytes] = []
+    done = threading.Event()
+
+    def on_message(data: bytes, _info) -> None:
+        seen.append(data)
+        if data == cdr("last"):
+            done.set()
+        raise ValueError("no thanks")
+
+    topic = f"/raises_{type(node).__name__}"
+    subscription = node.create_subscription(topic, STRING, QoS(), on_message)
+    publisher = other.create_publisher(topic, STRING, QoS())
+    connect(other, publisher, subscription)
+    for text in ("first", "second", "last"):
+        publisher.publish(cdr(text))
+    assert done.wait(20)
+    node.context.close()
+    assert len(seen) == 3
+    assert capfd.readouterr().err.count("no thanks") == 1
+
+
+def test_wake_ends_the_current_and_the_next_wait(node: Node):
+    wait_set = node.context.create_wait_set()
+    wait_set.wake()
+    assert wait_set.wait(LONG) == []
+    assert wait_set.wait(0) == []
+    threading.Timer(0.05, wait_set.wake).start()
+    started = time.monotonic()
+    assert wait_set.wait(None) == []
+    assert time.monotonic() - started < 15
+
+
+def test_wait_ends_in_time(node: Node):
+    wait_set = node.context.create_wait_set()
+    started = time.monotonic()
+    assert wait_set.wait(50_000_000) == []
+    assert 0.04 < time.monotonic() - started < 15
+
+
+def test_detached_and_closed_entities_are_not_reported(node: Node, other: Node):
+    first = node.create_subscription("/chatter", STRING, QoS())
+    second = node.create_subscription("/chatter", STRING, QoS())
+    third = node.create_subscription("/chatter", STRING, QoS())
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    wait_until(other.context, lambda: publisher.subscription_count() == 3)
+    wait_set = node.context.create_wait_set()
+    for subscription in (first, second, third):
+        wait_set.attach(subscription)
+    wait_set.detach(first)
+    second.close()
+    publisher.publish(cdr("x"))
+    assert wait_set.wait(LONG) == [third]
+    wait_until(other.context, lambda: publisher.subscription_count() == 2)
+    wait_set.attach(first)
+    take_first = [message for message, _ in first.take()]
+    assert take_first in ([], [cdr("x")])  # delivered to the other subscription of this process at about the same time
+
+
+def test_an_entity_can_be_attached_while_a_thread_waits(node: Node, other: Node):
+    publisher = other.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    publisher.publish(cdr("x"))
+    wait_set = node.context.create_wait_set()
+    results: list[list] = []
+    thread = threading.Thread(target=lambda: results.append(wait_set.wait(LONG)))
+    thread.start()
+    subscription = node.create_subscription("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    wait_set.attach(subscription)
+    thread.join(20)
+    assert results == [[subscription]]
+
+
+def test_a_service_answers_its_own_client_only(node: Node, other: Node):
+    service = other.create_service("/switch", REQUEST, RESPONSE, QoS())
+    client = node.create_client("/switch", REQUEST, RESPONSE, QoS())
+    bystander = node.create_client("/switch", REQUEST, RESPONSE, QoS())
+    wait_until(node.context, lambda: client.is_ready() and bystander.is_ready())
+    sequence_number = client.send_request(cdr("request"))
+    server_wait = other.context.create_wait_set()
+    server_wait.attach(service)
+    assert server_wait.wait(LONG) == [service]
+    [(request_id, request)] = service.take()
+    assert isinstance(request_id, RequestId)
+    assert request_id.sequence_number == sequence_number
+    assert request == cdr("request")
+    service.send_response(request_id, cdr("response"))
+    client_wait = node.context.create_wait_set()
+    client_wait.attach(client)
+    assert client_wait.wait(LONG) == [client]
+    assert client.take() == [(sequence_number, cdr("response"))]
+    assert bystander.take() == []
+
+
+def test_many_requests_are_answered_each(node: Node, other: Node):
+    service = other.create_service("/switch", REQUEST, RESPONSE, QoS(depth=100))
+    client = node.create_client("/switch", REQUEST, RESPONSE, QoS(depth=100))
+    wait_until(node.context, client.is_ready)
+    sent = {client.send_request(cdr(str(number))): cdr(str(number)) for number in range(50)}
+    server_wait = other.context.create_wait_set()
+    server_wait.attach(service)
+    answered = 0
+    while answered < len(sent):
+        assert server_wait.wait(LONG) == [service]
+        for request_id, request in service.take():
+            service.send_response(request_id, request)
+            answered += 1
+    client_wait = node.context.create_wait_set()
+    client_wait.attach(client)
+    received: dict[int, bytes] = {}
+    while len(received) < len(sent):
+        assert client_wait.wait(LONG) == [client]
+        received.update(client.take())
+    assert received == sent
+
+
+def test_a_client_without_server_is_not_ready(node: Node, other: Node):
+    client = node.create_client("/switch", REQUEST, RESPONSE, QoS())
+    assert not client.is_ready()
+    service = other.create_service("/switch", REQUEST, RESPONSE, QoS())
+    wait_until(node.context, client.is_ready)
+    service.close()
+    wait_until(node.context, lambda: not client.is_ready())
+
+
+def test_the_graph_knows_nodes_and_endpoints(node: Node, other: Node):
+    node.create_subscription("/chatter", STRING, QoS(depth=4))
+    publisher = other.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL, lifespan_ns=5 * SECOND))
+    other.create_service("/switch", REQUEST, RESPONSE, QoS())
+    graph = node.context.graph
+
+    def complete() -> bool:
+        owners = [endpoint.node for endpoint in graph.endpoints()]
+        return len(owners) == 4 and None not in owners
+
+    wait_until(node.context, complete)
+    assert sorted(info.name for info in graph.nodes()) == ["one", "other"]
+    assert {(info.namespace, info.enclave) for info in graph.nodes()} == {("/ns", "/"), ("/", "/")}
+    assert graph.topic_names_and_types() == {"/chatter": ["std_msgs/msg/String"]}
+    assert graph.service_names_and_types() == {"/switch": ["std_srvs/srv/SetBool"]}
+    assert graph.topic_names_and_types(demangle=False) == {
+        "rq/switchRequest": ["std_srvs::srv::dds_::SetBool_Request_"],
+        "rr/switchReply": ["std_srvs::srv::dds_::SetBool_Response_"],
+        "rt/chatter": ["std_msgs::msg::dds_::String_"],
+    }
+    [found] = [endpoint for endpoint in graph.endpoints() if endpoint.gid == publisher.gid]
+    assert (found.kind, found.topic, found.type_name, found.type_hash) == ("publisher", "/chatter", *STRING)
+    assert found.node is not None
+    assert found.node.name == "other"
+    assert found.qos.durability == Durability.TRANSIENT_LOCAL
+    assert found.qos.reliability == Reliability.RELIABLE
+    assert found.qos.lifespan_ns == 5 * SECOND
+
+
+def test_the_graph_forgets_what_is_closed(node: Node, other: Node):
+    graph = node.context.graph
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    wait_until(node.context, lambda: "/chatter" in graph.topic_names_and_types())
+    publisher.close()
+    wait_until(node.context, lambda: "/chatter" not in graph.topic_names_and_types())
+    wait_until(node.context, lambda: len(graph.nodes()) == 2)
+    other.close()
+    wait_until(node.context, lambda: [info.name for info in graph.nodes()] == ["one"])
+    second = other.context.create_node("second")
+    second.create_publisher("/chatter", STRING, QoS())
+    wait_until(node.context, lambda: len(graph.nodes()) == 2 and "/chatter" in graph.topic_names_and_types())
+    other.context.close()
+    wait_until(node.context, lambda: len(graph.nodes()) == 1 and not graph.topic_names_and_types())
+
+
+def test_listeners_of_the_graph_are_called_until_removed(node: Node, other: Node):
+    called = threading.Event()
+    remove = node.context.graph.add_listener(called.set)
+    other.create_publisher("/chatter", STRING, QoS())
+    assert called.wait(20)
+    remove()
+    wait_until(node.context, lambda: "/chatter" in node.context.graph.topic_names_and_types())
+    called.clear()
+    other.create_publisher("/second", STRING, QoS())
+    wait_until(node.context, lambda: "/second" in node.context.graph.topic_names_and_types())
+    assert not called.is_set()
+
+
+def test_waiting_for_the_graph_ends_in_time_and_with_the_context(node: Node):
+    assert node.context.graph.wait_for(lambda: False, 10_000_000) is False
+    threading.Timer(0.05, node.context.close).start()
+    assert node.context.graph.wait_for(lambda: False, None) is False
+
+
+def test_close_ends_everything(node: Node, other: Node):
+    publisher = node.create_publisher("/chatter", STRING, QoS())
+    subscription = node.create_subscription("/chatter", STRING, QoS(), lambda *_: None)
+    wait_set = node.context.create_wait_set()
+    waiting = threading.Thread(target=wait_set.wait)
+    waiting.start()
+    node.context.close()
+    waiting.join(20)
+    assert not waiting.is_alive()
+    node.context.close()
+    subscription.close()
+    assert subscription.take() == []
+    assert publisher.subscription_count() == 0
+    with pytest.raises(WireError, match=r"/chatter.*closed"):
+        publisher.publish(cdr("x"))
+    with pytest.raises(WireError, match="closed"):
+        node.context.create_node("late")
+
+
+def test_no_thread_stays_behind(open_here):
+    before = threading.active_count()
+    context = open_here()
+    node = context.create_node("one")
+    node.create_subscription("/chatter", STRING, QoS(), lambda *_: None)
+    assert isinstance(context.graph.nodes(), list)
+    context.close()
+    assert threading.active_count() == before
+
+
+def test_close_from_the_reader_thread_returns(node: Node, other: Node):
+    done = threading.Event()
+
+    def on_message(_data: bytes, _info) -> None:
+        node.context.close()
+        done.set()
+
+    subscription = node.create_subscription("/chatter", STRING, QoS(), on_message)
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, subscription)
+    publisher.publish(cdr("x"))
+    assert done.wait(20)
+
+
+def test_topics_without_ros_prefix(node: Node, other: Node):
+    bare = QoS(avoid_ros_namespace_conventions=True)
+    subscription = node.create_subscription("/bare", STRING, bare)
+    publisher = other.create_publisher("/bare", STRING, bare)
+    connect(other, publisher, subscription)
+    graph = other.context.graph
+    wait_until(other.context, lambda: "/bare" in graph.topic_names_and_types(demangle=False))
+    assert "/bare" not in graph.topic_names_and_types()
+
+
+def test_an_unknown_middleware_is_named():
+    with pytest.raises(WireError, match="'rmw_nonsense' is not available") as caught:
+        open_context(middleware="rmw_nonsense")
+    assert "rmw_cyclonedds_cpp" in caught.value.hint
