@@ -1,0 +1,371 @@
+"""The turtles and their world: pure arithmetic, stepped from outside, bit for bit the turtlesim of ROS 2 Jazzy.
+
+The model draws nothing, speaks to nobody and owns no clock. :meth:`World.step` moves every turtle by one tick and returns what happened:
+a pose, the pixel under the colour sensor, pen strokes. Who calls it decides how fast time passes.
+
+Positions are metres in a field of 11.088889 m by 11.088889 m, origin in the lower left corner, headings radians counter-clockwise from the
+x axis. As in the original the vertical axis points *down* inside (``Turtle.y_down``) and the integration runs in double precision on it;
+both are needed for equal bits. Strokes are in pixels of the original 500 x 500 image (45 pixels to the metre, rows counted from the top).
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from enum import Enum
+from typing import NamedTuple
+
+__all__ = [
+    "DEFAULT_PEN",
+    "FIELD_SIZE",
+    "IMAGE_SIZE",
+    "PIXELS_PER_METRE",
+    "TICK_NS",
+    "Pen",
+    "Pose",
+    "Rotation",
+    "RotationState",
+    "Stroke",
+    "Turtle",
+    "TurtleTick",
+    "World",
+]
+
+#: One tick, in nanoseconds and in seconds. Every tick integrates exactly this time, however long it really took.
+TICK_NS = 16_000_000
+TICK_S = 0.001 * 16
+#: A velocity command is forgotten after this time.
+COMMAND_LIFETIME_NS = 1_000_000_000
+#: Width and height of the picture, in pixels, and its scale.
+IMAGE_SIZE = 500
+PIXELS_PER_METRE = 45.0
+#: A rotation has arrived when the heading is this close to its goal [rad]; it turns at this speed [rad/s].
+ROTATION_TOLERANCE = 0.02
+ROTATION_SPEED = 1.0
+#: The constant of the original, not math.pi: headings depend on it in their last bits.
+_PI = 3.14159265
+_TWO_PI = 2.0 * _PI
+
+_FLOAT32 = struct.Struct("<f")
+
+
+def _float32(value: float) -> float:
+    """The nearest single-precision number."""
+    return float(_FLOAT32.unpack(_FLOAT32.pack(value))[0])
+
+
+#: Side length of the field [m], in single precision: 11.088889.
+FIELD_SIZE = _float32((IMAGE_SIZE - 1) / PIXELS_PER_METRE)
+
+
+def normalize_angle(angle: float) -> float:
+    """``angle`` [rad, finite] brought into [-pi, pi)."""
+    return angle - _TWO_PI * math.floor((angle + _PI) / _TWO_PI)
+
+
+class Pen(NamedTuple):
+    """What a turtle draws with: colour channels 0..255 and width in pixels of the 500 x 500 image."""
+
+    r: int
+    g: int
+    b: int
+    width: int
+
+
+DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
+
+
+class Pose(NamedTuple):
+    """A turtle's published state: position [m] with y up, heading [rad], speed [m/s, never negative] and turning rate [rad/s]."""
+
+    x: float
+    y: float
+    theta: float
+    linear_velocity: float
+    angular_velocity: float
+
+
+class Stroke(NamedTuple):
+    """A straight pen line in pixels of the 500 x 500 image, from where the turtle was to where it is."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    pen: Pen
+
+
+class TurtleTick(NamedTuple):
+    """What one tick did to one turtle.
+
+    Attributes:
+        turtle: Who.
+        pose: The new pose.
+        teleport_strokes: Drawn before the colour sensor looked.
+        sensor_pixel: Column and row that the colour sensor looks at.
+        move_stroke: Drawn after the colour sensor looked; None when the pen is up or the turtle stands still.
+        clamped_from: Where a wall stopped it, as ``(x, y_down)`` [m]; None when no wall did.
+        rotation: The rotation that was worked on, finished or not; None when there is none.
+    """
+
+    turtle: Turtle
+    pose: Pose
+    teleport_strokes: list[Stroke]
+    sensor_pixel: tuple[int, int]
+    move_stroke: Stroke | None
+    clamped_from: tuple[float, float] | None
+    rotation: Rotation | None
+
+
+class RotationState(Enum):
+    """How far a rotation has come."""
+
+    ACTIVE = "active"
+    SUCCEEDED = "succeeded"
+    CANCELED = "canceled"
+    ABORTED = "aborted"
+
+
+class Rotation:
+    """The task of turning to an absolute heading.
+
+    Attributes:
+        goal: Heading asked for [rad], any finite number.
+        delta: How far the turtle has turned so far, start minus present heading [rad].
+        remaining: What is left to turn, positive counter-clockwise [rad].
+        state: See :class:`RotationState`.
+        cancel_requested: Set to have the next tick end the rotation.
+    """
+
+    __slots__ = ("cancel_requested", "delta", "goal", "remaining", "start", "state")
+
+    def __init__(self, goal: float, start: float) -> None:
+        self.goal = goal
+        self.start = start
+        self.delta = 0.0
+        self.remaining = 0.0
+        self.state = RotationState.ACTIVE
+        self.cancel_requested = False
+
+
+class Turtle:
+    """One turtle. Its attributes are its state between two ticks; see the module's text for units.
+
+    Attributes:
+        name: Name, unique in its world.
+        x: Position to the right [m].
+        y_down: Position downwards from the upper edge [m].
+        theta: Heading [rad].
+        forward: Commanded speed ahead [m/s].
+        lateral: Commanded speed to the left [m/s]; stays 0 unless the world is holonomic.
+        turning: Commanded turning rate [rad/s].
+        pen: What it draws with.
+        pen_on: Whether it draws.
+        rotation: The rotation being worked on, or None.
+    """
+
+    __slots__ = (
+        "_command_is_fresh",
+        "_command_ns",
+        "_teleports",
+        "forward",
+        "lateral",
+        "name",
+        "pen",
+        "pen_on",
+        "rotation",
+        "theta",
+        "turning",
+        "x",
+        "y_down",
+    )
+
+    def __init__(self, name: str, x: float, y: float, theta: float) -> None:
+        self.name = name
+        self.x = x
+        self.y_down = _float32(FIELD_SIZE - y)
+        self.theta = theta
+        self.pen = DEFAULT_PEN
+        self.pen_on = True
+        self.rotation: Rotation | None = None
+        self._stop()
+        self._command_ns = 0
+        self._command_is_fresh = False
+        self._teleports: list[tuple[bool, float, float, float]] = []
+
+    def drive(self, forward: float, lateral: float, turning: float) -> Rotation | None:
+        """Take a velocity command; it holds for one second from the next tick on.
+
+        Returns:
+            The rotation that this command aborted, or None.
+        """
+        self.forward, self.lateral, self.turning = forward, lateral, turning
+        self._command_is_fresh = True
+        return self._abort_rotation()
+
+    def rotate_to(self, heading: float) -> tuple[Rotation, Rotation | None]:
+        """Start turning to an absolute heading [rad].
+
+        Returns:
+            The new rotation, and the one that it aborted, if any.
+        """
+        aborted = self._abort_rotation()
+        self.rotation = Rotation(heading, self.theta)
+        return self.rotation, aborted
+
+    def teleport_absolute(self, x: float, y: float, theta: float) -> None:
+        """Be at (x, y) [m, y up] with heading theta [rad] from the next tick on; the field's edges clamp then."""
+        self._teleports.append((False, x, y, theta))
+
+    def teleport_relative(self, linear: float, angular: float) -> None:
+        """Turn by angular [rad], then jump ahead by linear [m], at the next tick."""
+        self._teleports.append((True, linear, 0.0, angular))
+
+    def set_pen(self, pen: Pen, *, off: bool) -> None:
+        """Lift the pen, leaving its colour as it was, or put down a new one. A width of 0 draws one pixel."""
+        self.pen_on = not off
+        if not off:
+            self.pen = pen if pen.width else pen._replace(width=1)
+
+    def step(self, now_ns: int) -> TurtleTick:
+        """Move by one tick; ``now_ns`` is only compared with the time of the last command."""
+        if self._command_is_fresh:
+            self._command_ns = now_ns
+            self._command_is_fresh = False
+        teleport_strokes = [stroke for teleport in self._teleports if (stroke := self._teleport(*teleport))] if self._teleports else []
+        self._teleports.clear()
+        rotation = self.rotation
+        if rotation is not None:
+            self._rotate(rotation, now_ns)
+        if now_ns - self._command_ns > COMMAND_LIFETIME_NS:
+            self._stop()
+        old_x, old_y = self.x, self.y_down
+        self._integrate()
+        clamped_from = self._clamp()
+        x, y = self.x, self.y_down
+        stroke = self._stroke_from(old_x, old_y) if self.pen_on and (x != old_x or y != old_y) else None
+        pixel = (math.floor(x * PIXELS_PER_METRE + 0.5), math.floor(y * PIXELS_PER_METRE + 0.5))
+        pose = Pose(x, FIELD_SIZE - y, self.theta, math.sqrt(self.forward * self.forward + self.lateral * self.lateral), self.turning)
+        return TurtleTick(self, pose, teleport_strokes, pixel, stroke, clamped_from, rotation)
+
+    def _integrate(self) -> None:
+        self.theta = theta = normalize_angle(self.theta + self.turning * TICK_S)
+        cos, sin = math.cos(theta), math.sin(theta)
+        self.x += cos * self.forward * TICK_S - sin * self.lateral * TICK_S
+        self.y_down -= cos * self.lateral * TICK_S + sin * self.forward * TICK_S
+
+    def _clamp(self) -> tuple[float, float] | None:
+        x, y = self.x, self.y_down
+        if 0.0 <= x <= FIELD_SIZE and 0.0 <= y <= FIELD_SIZE:
+            return None
+        self.x = min(max(x, 0.0), FIELD_SIZE)
+        self.y_down = min(max(y, 0.0), FIELD_SIZE)
+        return x, y
+
+    def _stop(self) -> None:
+        self.forward = self.lateral = self.turning = 0.0
+
+    def _stroke_from(self, x: float, y_down: float) -> Stroke:
+        scale = PIXELS_PER_METRE
+        return Stroke(x * scale, y_down * scale, self.x * scale, self.y_down * scale, self.pen)
+
+    def _teleport(self, relative: bool, first: float, y: float, angle: float) -> Stroke | None:
+        old_x, old_y = self.x, self.y_down
+        if relative:
+            self.theta += angle
+            self.x += math.cos(self.theta) * first
+            self.y_down -= math.sin(self.theta) * first
+        else:
+            self.x = first
+            self.y_down = max(0.0, FIELD_SIZE - y)
+            self.theta = angle
+        return self._stroke_from(old_x, old_y) if self.pen_on else None
+
+    def _rotate(self, rotation: Rotation, now_ns: int) -> None:
+        """Choose this tick's turning for the rotation, in the original's mix of single and double precision."""
+        if rotation.cancel_requested:
+            self._end_rotation(rotation, RotationState.CANCELED)
+            return
+        goal = normalize_angle(rotation.goal)
+        heading = _float32(self.theta)
+        rotation.remaining = normalize_angle(goal - heading)
+        rotation.delta = normalize_angle(_float32(rotation.start - self.theta))
+        if abs(normalize_angle(heading - goal)) < ROTATION_TOLERANCE:
+            self._end_rotation(rotation, RotationState.SUCCEEDED)
+            return
+        self.forward = self.lateral = 0.0
+        self.turning = -ROTATION_SPEED if rotation.remaining < 0.0 else ROTATION_SPEED
+        self._command_ns = now_ns
+
+    def _end_rotation(self, rotation: Rotation, state: RotationState) -> None:
+        rotation.state = state
+        self.rotation = None
+        self._stop()
+
+    def _abort_rotation(self) -> Rotation | None:
+        rotation, self.rotation = self.rotation, None
+        if rotation is not None:
+            rotation.state = RotationState.ABORTED
+        return rotation
+
+
+class World:
+    """All turtles of one simulator, by name.
+
+    Attributes:
+        turtles: Name to turtle.
+    """
+
+    def __init__(self) -> None:
+        self.turtles: dict[str, Turtle] = {}
+        self._named = 0
+
+    def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle | None:
+        """Put a new turtle at (x, y) [m, y up] with heading theta [rad].
+
+        Args:
+            x: Single-precision number, as all three; outside of the field the first tick clamps it.
+            y: See x.
+            theta: See x.
+            name: Empty for the next free ``turtle1``, ``turtle2``, ...
+
+        Returns:
+            The turtle, or None when the name is taken.
+        """
+        if not name:
+            name = self._next_name()
+        elif name in self.turtles:
+            return None
+        turtle = self.turtles[name] = Turtle(name, x, y, theta)
+        return turtle
+
+    def spawn_centred(self) -> Turtle:
+        """Put a turtle with the next free name into the middle, looking to the right."""
+        middle = _float32(FIELD_SIZE / 2.0)
+        turtle = self.spawn(middle, middle, 0.0)
+        assert turtle is not None
+        return turtle
+
+    def kill(self, name: str) -> Turtle | None:
+        """Remove a turtle and return it, or None when there is none of that name."""
+        return self.turtles.pop(name, None)
+
+    def reset(self) -> None:
+        """Remove all turtles; names start at ``turtle1`` again."""
+        self.turtles.clear()
+        self._named = 0
+
+    def step(self, now_ns: int) -> list[TurtleTick]:
+        """Move every turtle by one tick, in the order of their names.
+
+        Args:
+            now_ns: The time of this tick, on any clock that only moves forward; commands grow old by it.
+        """
+        return [self.turtles[name].step(now_ns) for name in sorted(self.turtles)]
+
+    def _next_name(self) -> str:
+        while True:
+            self._named += 1
+            name = f"turtle{self._named}"
+            if name not in self.turtles:
+                return name
