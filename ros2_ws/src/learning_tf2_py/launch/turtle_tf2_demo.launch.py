@@ -1,0 +1,34 @@
+"""The field, a broadcaster for each of the two turtles, and the listener that drives turtle2 after the target frame."""
+
+from launch_ros.actions import Node
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description():
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("target_frame", default_value="turtle1", description="The frame that turtle2 follows."),
+            Node(package="turtlesim", executable="turtlesim_node", name="sim"),
+            Node(
+                package="learning_tf2_py",
+                executable="turtle_tf2_broadcaster",
+                name="broadcaster1",
+                parameters=[{"turtlename": "turtle1"}],
+            ),
+            Node(
+                package="learning_tf2_py",
+                executable="turtle_tf2_broadcaster",
+                name="broadcaster2",
+                parameters=[{"turtlename": "turtle2"}],
+            ),
+            Node(
+                package="learning_tf2_py",
+                executable="turtle_tf2_listener",
+                name="listener",
+                parameters=[{"target_frame": LaunchConfiguration("target_frame")}],
+            ),
+        ]
+    )

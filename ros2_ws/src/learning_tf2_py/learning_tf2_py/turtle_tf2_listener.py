@@ -1,0 +1,76 @@
+"""Drives turtle2 after a frame, which is turtle1 unless the parameter `target_frame` says otherwise."""
+
+import math
+
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from tf2_ros import Buffer, TransformException, TransformListener
+from turtlesim.srv import Spawn
+
+import rclpy
+from rclpy.time import Time
+
+FOLLOWER = "turtle2"
+
+
+def twist_towards(x, y):
+    """Return the command that drives towards a point `x` ahead and `y` to the left [m]: turn to it, and faster the farther it is."""
+    command = Twist()
+    command.linear.x = 0.5 * math.hypot(x, y)
+    command.angular.z = 1.0 * math.atan2(y, x)
+    return command
+
+
+class TurtleListener(Node):
+    """Asks TF2 ten times a second where the target is, as seen from turtle2, and steers turtle2 there."""
+
+    def __init__(self):
+        super().__init__("turtle_tf2_listener")
+        self.target_frame = self.declare_parameter("target_frame", "turtle1").value
+
+        self.tf_buffer = Buffer()
+        self.tf_listener = TransformListener(self.tf_buffer, self)
+
+        self.spawner = self.create_client(Spawn, "spawn")
+        self.spawning = None
+        self.publisher = self.create_publisher(Twist, f"{FOLLOWER}/cmd_vel", 1)
+        self.create_timer(0.1, self.on_timer)
+
+    def on_timer(self):
+        try:
+            follower_from_target = self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, Time())
+        except TransformException as ex:
+            self.get_logger().info(f"Could not retrieve transform: {ex}", throttle_duration_sec=1.0)
+            self.spawn_follower()
+            return
+        target = follower_from_target.transform.translation
+        self.publisher.publish(twist_towards(target.x, target.y))
+
+    def spawn_follower(self):
+        """Ask the simulator, once, for a second turtle: nothing else in the demo does."""
+        if self.spawning is not None or not self.spawner.service_is_ready():
+            return
+        if self.count_publishers(f"{FOLLOWER}/pose"):
+            return
+        self.spawning = self.spawner.call_async(Spawn.Request(x=4.0, y=2.0, theta=0.0, name=FOLLOWER))
+        self.spawning.add_done_callback(self.on_spawned)
+
+    def on_spawned(self, future):
+        name = future.result().name
+        if name:
+            self.get_logger().info(f"Successfully spawned {name}")
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    try:
+        rclpy.spin(TurtleListener())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
