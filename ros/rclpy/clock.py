@@ -1,0 +1,316 @@
+"""Clocks: the system's, a steady one, and ROS time, which a simulation may drive.
+
+Jump callbacks run on the thread that moves the clock, without a lock held. All clocks are thread-safe.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from .clock_type import ClockType
+from .constants import S_TO_NS
+from .duration import Duration
+from .exceptions import NotInitializedException
+from .time import Time
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import TracebackType
+
+    from .context import Context
+
+__all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "ROSClock", "TimeJump"]
+
+
+class ClockChange(Enum):
+    """What happened to a clock's source of time at a jump."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+class JumpThreshold:
+    """Which jumps a callback wants to hear of.
+
+    Args:
+        min_forward: Smallest jump forwards; None for no such jump.
+        min_backward: Smallest jump backwards, a negative duration; None for no such jump.
+        on_clock_change: Whether to tell when ROS time starts or stops to follow ``/clock``.
+
+    Raises:
+        ValueError: A duration has the wrong sign, or nothing is asked for.
+    """
+
+    def __init__(self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True) -> None:
+        if min_forward is None and min_backward is None and not on_clock_change:
+            raise ValueError("At least one jump threshold must be enabled")
+        if min_forward is not None and min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if min_backward is not None and min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        self.min_forward = min_forward
+        self.min_backward = min_backward
+        self.on_clock_change = on_clock_change
+
+    def is_crossed_by(self, jump: TimeJump) -> bool:
+        """Whether ``jump`` is one of those that were asked for."""
+        if self.on_clock_change and jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+            return True
+        if self.min_backward is not None and jump.delta <= self.min_backward:
+            return True
+        return self.min_forward is not None and jump.delta >= self.min_forward
+
+
+class TimeJump:
+    """A jump of a clock: how far, and whether its source changed."""
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        if not isinstance(clock_change, ClockChange):
+            raise TypeError("clock_change must be an instance of rclpy.clock.ClockChange")
+        self._clock_change = clock_change
+        self._delta = delta
+
+    @property
+    def clock_change(self) -> ClockChange:
+        """What happened to the source of time."""
+        return self._clock_change
+
+    @property
+    def delta(self) -> Duration:
+        """How far the time moved; negative when it moved backwards."""
+        return self._delta
+
+
+class JumpHandle:
+    """Keeps a pair of jump callbacks registered until :meth:`unregister`, or until its ``with`` block ends."""
+
+    def __init__(
+        self,
+        *,
+        clock: Clock,
+        threshold: JumpThreshold,
+        pre_callback: Callable[[], None] | None,
+        post_callback: Callable[[TimeJump], None] | None,
+    ) -> None:
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        if pre_callback is not None and not callable(pre_callback):
+            raise ValueError("pre_callback must be callable if given")
+        if post_callback is not None and not callable(post_callback):
+            raise ValueError("post_callback must be callable if given")
+        self._clock: Clock | None = clock
+        self._threshold = threshold
+        self._pre_callback = pre_callback
+        self._post_callback = post_callback
+        clock._add_jump_handle(self)
+
+    def unregister(self) -> None:
+        """Hear of no further jump. Idempotent."""
+        clock, self._clock = self._clock, None
+        if clock is not None:
+            clock._remove_jump_handle(self)
+
+    def before(self) -> None:
+        """Run the first callback."""
+        if self._pre_callback is not None:
+            self._pre_callback()
+
+    def after(self, jump: TimeJump) -> None:
+        """Run the second callback."""
+        if self._post_callback is not None:
+            self._post_callback(jump)
+
+    def wants(self, jump: TimeJump) -> bool:
+        """Whether the callbacks are to run for ``jump``."""
+        return self._threshold.is_crossed_by(jump)
+
+    def __enter__(self) -> JumpHandle:
+        return self
+
+    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+        self.unregister()
+
+
+class Clock:
+    """Tells the time of one clock type; ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`."""
+
+    _clock_type: ClockType
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+        """Choose the class by the clock type."""
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        self = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+        self._clock_type = clock_type
+        self._jump_handles: list[JumpHandle] = []
+        self._lock = threading.Lock()
+        if isinstance(self, ROSClock):
+            self._override_ns = 0
+            self._override_is_active = False
+        return self
+
+    @property
+    def clock_type(self) -> ClockType:
+        """Which time it tells."""
+        return self._clock_type
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self._clock_type.name})"
+
+    def _now_ns(self) -> int:
+        return time.monotonic_ns() if self._clock_type is ClockType.STEADY_TIME else time.time_ns()
+
+    def now(self) -> Time:
+        """The present time of this clock."""
+        return Time(nanoseconds=self._now_ns(), clock_type=self._clock_type)
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], None] | None = None,
+        post_callback: Callable[[TimeJump], None] | None = None,
+    ) -> JumpHandle:
+        """Ask to be called around jumps of this clock.
+
+        Args:
+            threshold: Which jumps.
+            pre_callback: Called before the clock moves.
+            post_callback: Called after it has moved, with the jump.
+
+        Returns:
+            A handle; ``unregister()`` ends it.
+        """
+        return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
+
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Wait until this clock shows ``until``.
+
+        Args:
+            until: A time of the same clock type.
+            context: Its shutdown ends the wait; the default context if None.
+
+        Returns:
+            True when the time has come, False after a shutdown or a change of the source of ROS time.
+
+        Raises:
+            NotInitializedException: The context is not valid.
+            ValueError: ``until`` belongs to another clock type.
+        """
+        if context is None:
+            from .utilities import get_default_context
+
+            context = get_default_context()
+        if not context.ok():
+            raise NotInitializedException
+        if until.clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        return _Sleep(self, until.nanoseconds, context).run()
+
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
+        """Wait for ``rel_time`` on this clock; see :meth:`sleep_until`."""
+        return self.sleep_until(self.now() + rel_time, context)
+
+    def _add_jump_handle(self, handle: JumpHandle) -> None:
+        with self._lock:
+            self._jump_handles.append(handle)
+
+    def _remove_jump_handle(self, handle: JumpHandle) -> None:
+        with self._lock:
+            self._jump_handles.remove(handle)
+
+    def _remaining_s(self, until_ns: int) -> float | None:
+        """Seconds until the clock shows ``until_ns`` by itself; None when only a message can move it."""
+        return max(0, until_ns - self._now_ns()) / S_TO_NS
+
+
+class ROSClock(Clock):
+    """ROS time: the system's time, or that of a simulation while it is active."""
+
+    _override_ns: int
+    _override_is_active: bool
+
+    def __new__(cls) -> ROSClock:
+        """Make a clock of ROS time."""
+        return Clock.__new__(cls, clock_type=ClockType.ROS_TIME)  # type: ignore[return-value]
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether the time comes from :meth:`set_ros_time_override` rather than from the system."""
+        return self._override_is_active
+
+    def _now_ns(self) -> int:
+        return self._override_ns if self._override_is_active else time.time_ns()
+
+    def _remaining_s(self, until_ns: int) -> float | None:
+        return None if self._override_is_active else super()._remaining_s(until_ns)
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Follow the time that is set (it is 0 until then), or the system's."""
+        if enabled == self._override_is_active:
+            return
+        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+
+        def switch() -> None:
+            self._override_is_active = enabled
+
+        self._move(TimeJump(change, Duration()), switch)
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Set the time that is shown while ROS time is active."""
+        if not isinstance(time, Time):
+            raise TypeError("Time must be specified as rclpy.time.Time.")
+
+        def switch() -> None:
+            self._override_ns = time.nanoseconds
+
+        if self._override_is_active:
+            delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
+            self._move(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), switch)
+        else:
+            switch()
+
+    def _move(self, jump: TimeJump, switch: Callable[[], None]) -> None:
+        with self._lock:
+            handles = [handle for handle in self._jump_handles if handle.wants(jump)]
+        for handle in handles:
+            handle.before()
+        switch()
+        for handle in handles:
+            handle.after(jump)
+
+
+class _Sleep:
+    """One wait for a time, ended by the time, by a shutdown, or by a change of the source of time."""
+
+    def __init__(self, clock: Clock, until_ns: int, context: Any) -> None:
+        self._clock = clock
+        self._until_ns = until_ns
+        self._context = context
+        self._moved = threading.Event()
+        self._source_changed = False
+
+    def run(self) -> bool:
+        self._context.on_shutdown(self._wake)
+        smallest = Duration(nanoseconds=1)
+        threshold = JumpThreshold(min_forward=smallest, min_backward=None, on_clock_change=True)
+        with self._clock.create_jump_callback(threshold, post_callback=self._on_jump):
+            while self._context.ok() and not self._source_changed:
+                remaining_s = self._clock._remaining_s(self._until_ns)
+                if remaining_s == 0 or self._clock._now_ns() >= self._until_ns:
+                    return True
+                self._moved.wait(remaining_s)
+                self._moved.clear()
+        return False
+
+    def _wake(self) -> None:
+        self._moved.set()
+
+    def _on_jump(self, jump: TimeJump) -> None:
+        self._source_changed |= jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE
+        self._moved.set()

@@ -1,0 +1,8 @@
+"""Constants that other modules share."""
+
+from __future__ import annotations
+
+__all__ = ["S_TO_NS"]
+
+#: Nanoseconds of a second.
+S_TO_NS = 1_000_000_000

@@ -1,0 +1,420 @@
+"""Quality of service: profiles, presets and the check whether two ends match."""
+
+from __future__ import annotations
+
+from enum import Enum, IntEnum, IntFlag
+from typing import Any, NamedTuple
+
+from turtlewire.wire import qos as wire_qos
+
+from .duration import Duration
+
+__all__ = [
+    "DurabilityPolicy",
+    "HistoryPolicy",
+    "InvalidQoSProfileException",
+    "LivelinessPolicy",
+    "QoSCheckCompatibleResult",
+    "QoSCompatibility",
+    "QoSDurabilityPolicy",
+    "QoSHistoryPolicy",
+    "QoSLivelinessPolicy",
+    "QoSPolicyKind",
+    "QoSPresetProfiles",
+    "QoSProfile",
+    "QoSReliabilityPolicy",
+    "ReliabilityPolicy",
+    "qos_check_compatible",
+    "qos_policy_name_from_kind",
+    "qos_profile_action_status_default",
+    "qos_profile_best_available",
+    "qos_profile_default",
+    "qos_profile_parameter_events",
+    "qos_profile_parameters",
+    "qos_profile_sensor_data",
+    "qos_profile_services_default",
+    "qos_profile_system_default",
+    "qos_profile_unknown",
+]
+
+
+class InvalidQoSProfileException(Exception):
+    """A profile lacks what it needs."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("Invalid QoSProfile", *args)
+
+
+class QoSPolicyKind(IntFlag):
+    """The policies, as events name them."""
+
+    INVALID = 1
+    DURABILITY = 2
+    DEADLINE = 4
+    LIVELINESS = 8
+    RELIABILITY = 16
+    HISTORY = 32
+    LIFESPAN = 64
+    DEPTH = 128
+    LIVELINESS_LEASE_DURATION = 256
+    AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+
+
+def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
+    """The name of a policy, for example ``RELIABILITY``."""
+    return str(QoSPolicyKind(policy_kind).name)
+
+
+class QoSPolicyEnum(IntEnum):
+    """Base of the policies' values; the short keys are what parameters and the command line use."""
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """All values as short keys, for example ``["system_default", "keep_last", …]``."""
+        return [name.lower() for name in cls.__members__]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> int:
+        """The value of a short key.
+
+        Raises:
+            KeyError: There is no such key.
+        """
+        return cls[name.upper()].value
+
+    @property
+    def short_key(self) -> str:
+        """This value's short key."""
+        return self.name.lower()
+
+
+class HistoryPolicy(QoSPolicyEnum):
+    """How many samples are kept."""
+
+    SYSTEM_DEFAULT = 0
+    KEEP_LAST = 1
+    KEEP_ALL = 2
+    UNKNOWN = 3
+
+
+class ReliabilityPolicy(QoSPolicyEnum):
+    """Whether lost samples are sent again."""
+
+    SYSTEM_DEFAULT = 0
+    RELIABLE = 1
+    BEST_EFFORT = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class DurabilityPolicy(QoSPolicyEnum):
+    """Whether late joiners receive earlier samples."""
+
+    SYSTEM_DEFAULT = 0
+    TRANSIENT_LOCAL = 1
+    VOLATILE = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class LivelinessPolicy(QoSPolicyEnum):
+    """Who asserts that a publisher is alive."""
+
+    SYSTEM_DEFAULT = 0
+    AUTOMATIC = 1
+    MANUAL_BY_TOPIC = 3
+    UNKNOWN = 4
+    BEST_AVAILABLE = 5
+
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+_UNSPECIFIED = Duration()
+_INFINITE_NS = wire_qos.INFINITE_NS
+#: rmw's mark for "as strict as the other side allows".
+_BEST_AVAILABLE = Duration(nanoseconds=_INFINITE_NS - 1)
+
+
+class QoSProfile:
+    """The quality of service that a publisher offers or a subscription requests. All arguments are keywords; mutable.
+
+    Args:
+        history: Needs ``depth`` when it is KEEP_LAST; KEEP_LAST when omitted.
+        depth: Samples kept; needed unless ``history`` is given.
+        reliability: RELIABLE unless given.
+        durability: VOLATILE unless given.
+        lifespan: How long a sample is valid; unlimited unless given.
+        deadline: Longest expected time between samples; unlimited unless given.
+        liveliness: SYSTEM_DEFAULT unless given.
+        liveliness_lease_duration: How long a publisher counts as alive without a sign; unlimited unless given.
+        avoid_ros_namespace_conventions: Use the topic name without ROS 2's prefix.
+
+    Raises:
+        InvalidQoSProfileException: Neither history nor depth, or KEEP_LAST without depth.
+        ValueError: A negative depth or an unknown policy value.
+    """
+
+    __slots__ = (
+        "_avoid_ros_namespace_conventions",
+        "_deadline",
+        "_depth",
+        "_durability",
+        "_history",
+        "_lifespan",
+        "_liveliness",
+        "_liveliness_lease_duration",
+        "_reliability",
+    )
+    __hash__ = None  # type: ignore[assignment]  # mutable
+
+    _FIELDS = (
+        "history",
+        "depth",
+        "reliability",
+        "durability",
+        "lifespan",
+        "deadline",
+        "liveliness",
+        "liveliness_lease_duration",
+        "avoid_ros_namespace_conventions",
+    )
+
+    def __init__(self, **kwargs: Any) -> None:
+        assert all(key in self._FIELDS for key in kwargs), f"Invalid arguments passed to constructor: {kwargs.keys()!r}"
+        if "history" not in kwargs and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History and/or depth settings are required.")
+        self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
+        if self.history == HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
+        self.depth = kwargs.get("depth", 10)
+        self.reliability = kwargs.get("reliability", ReliabilityPolicy.RELIABLE)
+        self.durability = kwargs.get("durability", DurabilityPolicy.VOLATILE)
+        self.lifespan = kwargs.get("lifespan", _UNSPECIFIED)
+        self.deadline = kwargs.get("deadline", _UNSPECIFIED)
+        self.liveliness = kwargs.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
+        self.liveliness_lease_duration = kwargs.get("liveliness_lease_duration", _UNSPECIFIED)
+        self.avoid_ros_namespace_conventions = kwargs.get("avoid_ros_namespace_conventions", False)
+
+    @property
+    def history(self) -> HistoryPolicy:
+        """How many samples are kept."""
+        return self._history
+
+    @history.setter
+    def history(self, value: HistoryPolicy | int) -> None:
+        assert isinstance(value, int)
+        self._history = HistoryPolicy(value)
+
+    @property
+    def depth(self) -> int:
+        """How many samples KEEP_LAST keeps."""
+        return self._depth
+
+    @depth.setter
+    def depth(self, value: int) -> None:
+        assert isinstance(value, int)
+        if value < 0:
+            raise ValueError("history depth must be greater than or equal to zero")
+        if value == 0 and self._history == HistoryPolicy.KEEP_LAST:
+            import warnings
+
+            warnings.warn(
+                "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. This will be interpreted as SYSTEM_DEFAULT",
+                stacklevel=3,
+            )
+        self._depth = value
+
+    @property
+    def reliability(self) -> ReliabilityPolicy:
+        """Whether lost samples are sent again."""
+        return self._reliability
+
+    @reliability.setter
+    def reliability(self, value: ReliabilityPolicy | int) -> None:
+        assert isinstance(value, int)
+        self._reliability = ReliabilityPolicy(value)
+
+    @property
+    def durability(self) -> DurabilityPolicy:
+        """Whether late joiners receive earlier samples."""
+        return self._durability
+
+    @durability.setter
+    def durability(self, value: DurabilityPolicy | int) -> None:
+        assert isinstance(value, int)
+        self._durability = DurabilityPolicy(value)
+
+    @property
+    def lifespan(self) -> Duration:
+        """How long a sample is valid; zero means unlimited."""
+        return self._lifespan
+
+    @lifespan.setter
+    def lifespan(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._lifespan = value
+
+    @property
+    def deadline(self) -> Duration:
+        """Longest expected time between samples; zero means unlimited."""
+        return self._deadline
+
+    @deadline.setter
+    def deadline(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._deadline = value
+
+    @property
+    def liveliness(self) -> LivelinessPolicy:
+        """Who asserts that a publisher is alive."""
+        return self._liveliness
+
+    @liveliness.setter
+    def liveliness(self, value: LivelinessPolicy | int) -> None:
+        assert isinstance(value, int)
+        self._liveliness = LivelinessPolicy(value)
+
+    @property
+    def liveliness_lease_duration(self) -> Duration:
+        """How long a publisher counts as alive without a sign; zero means unlimited."""
+        return self._liveliness_lease_duration
+
+    @liveliness_lease_duration.setter
+    def liveliness_lease_duration(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._liveliness_lease_duration = value
+
+    @property
+    def avoid_ros_namespace_conventions(self) -> bool:
+        """Whether the topic name goes out without ROS 2's prefix."""
+        return self._avoid_ros_namespace_conventions
+
+    @avoid_ros_namespace_conventions.setter
+    def avoid_ros_namespace_conventions(self, value: bool) -> None:
+        assert isinstance(value, bool)
+        self._avoid_ros_namespace_conventions = value
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, QoSProfile):
+            return NotImplemented
+        return all(getattr(self, field) == getattr(other, field) for field in self._FIELDS)
+
+    def __str__(self) -> str:
+        fields = ", ".join(f"{field}={getattr(self, field)}" for field in self._FIELDS)
+        return f"{type(self).__name__}({fields})"
+
+    def to_wire(self) -> wire_qos.QoS:
+        """Convert to what the middleware takes."""
+        return wire_qos.QoS(
+            history=wire_qos.History(self._history),
+            depth=self._depth,
+            reliability=wire_qos.Reliability(self._reliability),
+            durability=wire_qos.Durability(self._durability),
+            deadline_ns=self._deadline.nanoseconds,
+            lifespan_ns=self._lifespan.nanoseconds,
+            liveliness=wire_qos.Liveliness(self._liveliness),
+            liveliness_lease_ns=self._liveliness_lease_duration.nanoseconds,
+            avoid_ros_namespace_conventions=self._avoid_ros_namespace_conventions,
+        )
+
+    @classmethod
+    def from_wire(cls, qos: wire_qos.QoS) -> QoSProfile:
+        """Convert from what the middleware reports of an endpoint."""
+        return cls(
+            history=HistoryPolicy(qos.history),
+            depth=qos.depth,
+            reliability=ReliabilityPolicy(qos.reliability),
+            durability=DurabilityPolicy(qos.durability),
+            deadline=Duration(nanoseconds=qos.deadline_ns),
+            lifespan=Duration(nanoseconds=qos.lifespan_ns),
+            liveliness=LivelinessPolicy(qos.liveliness),
+            liveliness_lease_duration=Duration(nanoseconds=qos.liveliness_lease_ns),
+            avoid_ros_namespace_conventions=qos.avoid_ros_namespace_conventions,
+        )
+
+
+qos_profile_unknown = QoSProfile(
+    history=HistoryPolicy.UNKNOWN,
+    depth=0,
+    reliability=ReliabilityPolicy.UNKNOWN,
+    durability=DurabilityPolicy.UNKNOWN,
+    liveliness=LivelinessPolicy.UNKNOWN,
+)
+qos_profile_default = QoSProfile(depth=10)
+qos_profile_system_default = QoSProfile(
+    history=HistoryPolicy.SYSTEM_DEFAULT,
+    depth=0,
+    reliability=ReliabilityPolicy.SYSTEM_DEFAULT,
+    durability=DurabilityPolicy.SYSTEM_DEFAULT,
+)
+qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+qos_profile_services_default = QoSProfile(depth=10)
+qos_profile_parameters = QoSProfile(depth=1000)
+qos_profile_parameter_events = QoSProfile(depth=1000)
+qos_profile_best_available = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_AVAILABLE,
+    durability=DurabilityPolicy.BEST_AVAILABLE,
+    deadline=_BEST_AVAILABLE,
+    liveliness=LivelinessPolicy.BEST_AVAILABLE,
+    liveliness_lease_duration=_BEST_AVAILABLE,
+)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class QoSPresetProfiles(Enum):
+    """The presets by name."""
+
+    UNKNOWN = qos_profile_unknown
+    DEFAULT = qos_profile_default
+    SYSTEM_DEFAULT = qos_profile_system_default
+    SENSOR_DATA = qos_profile_sensor_data
+    SERVICES_DEFAULT = qos_profile_services_default
+    PARAMETERS = qos_profile_parameters
+    PARAMETER_EVENTS = qos_profile_parameter_events
+    BEST_AVAILABLE = qos_profile_best_available
+    ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """All presets as short keys, for example ``sensor_data``."""
+        return [name.lower() for name in cls.__members__]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> QoSProfile:
+        """The profile of a short key.
+
+        Raises:
+            KeyError: There is no such preset.
+        """
+        return cls[name.upper()].value
+
+
+class QoSCompatibility(IntEnum):
+    """Whether two ends match."""
+
+    OK = 0
+    WARNING = 1
+    ERROR = 2
+
+
+class QoSCheckCompatibleResult(NamedTuple):
+    """The answer of :func:`qos_check_compatible`."""
+
+    compatibility: QoSCompatibility
+    reason: str
+
+
+def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> QoSCheckCompatibleResult:
+    """Tell whether a publisher and a subscription with these profiles would match.
+
+    Returns:
+        ``(compatibility, reason)``; the reason is empty when they do, and a WARNING means that a profile leaves it open.
+    """
+    from .qos_compatibility import check
+
+    level, reason = check(publisher_qos, subscription_qos)
+    return QoSCheckCompatibleResult(QoSCompatibility(level), reason)

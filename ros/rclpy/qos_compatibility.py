@@ -1,0 +1,86 @@
+"""Which offered and requested profiles match, with ROS 2's reasons. Used by :func:`rclpy.qos.qos_check_compatible`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .qos import DurabilityPolicy, LivelinessPolicy, QoSCompatibility, QoSPolicyEnum, QoSProfile, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from .duration import Duration
+
+__all__ = ["check"]
+
+_UNLIMITED_NS = (0, 2**63 - 1)
+
+
+def check(publisher: QoSProfile, subscription: QoSProfile) -> tuple[QoSCompatibility, str]:
+    """Compare all policies that can keep two ends apart.
+
+    Returns:
+        The worst finding, and the reasons of that severity, each ended by a semicolon.
+    """
+    errors = _errors(publisher, subscription)
+    if errors:
+        return QoSCompatibility.ERROR, "".join(f"ERROR: {text};" for text in errors)
+    warnings = _warnings(publisher, subscription)
+    if warnings:
+        return QoSCompatibility.WARNING, "".join(f"WARNING: {text};" for text in warnings)
+    return QoSCompatibility.OK, ""
+
+
+def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
+    found = []
+    if publisher.reliability == ReliabilityPolicy.BEST_EFFORT and subscription.reliability == ReliabilityPolicy.RELIABLE:
+        found.append("Best effort publisher and reliable subscription")
+    if publisher.durability == DurabilityPolicy.VOLATILE and subscription.durability == DurabilityPolicy.TRANSIENT_LOCAL:
+        found.append("Volatile publisher and transient local subscription")
+    if _is_limited(subscription.deadline):
+        if not _is_limited(publisher.deadline):
+            found.append("Subscription has a deadline, but publisher does not")
+        elif subscription.deadline < publisher.deadline:
+            found.append("Subscription deadline is less than publisher deadline")
+    if publisher.liveliness == LivelinessPolicy.AUTOMATIC and subscription.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC:
+        found.append("Publisher's liveliness is automatic and subscription's is manual by topic")
+    if _is_limited(subscription.liveliness_lease_duration):
+        if not _is_limited(publisher.liveliness_lease_duration):
+            found.append("Subscription has a liveliness lease duration, but publisher does not")
+        elif subscription.liveliness_lease_duration < publisher.liveliness_lease_duration:
+            found.append("Subscription liveliness lease duration is less than publisher")
+    return found
+
+
+def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
+    findings = (
+        _open("reliability", publisher.reliability, subscription.reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE),
+        _open("durabilty", publisher.durability, subscription.durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL),
+        _open(
+            "liveliness", publisher.liveliness, subscription.liveliness, LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC
+        ),
+    )
+    return [finding for finding in findings if finding]
+
+
+def _open(
+    policy: str, offered: QoSPolicyEnum, requested: QoSPolicyEnum, weakest_offer: QoSPolicyEnum, strictest_request: QoSPolicyEnum
+) -> str:
+    """The warning for a policy that the middleware will settle; ``durabilty`` is ROS 2's own spelling."""
+    if _is_open(offered) and _is_open(requested):
+        return f"Publisher {policy} is {_text(offered)} and subscription {policy} is {_text(requested)}"
+    if _is_open(offered) and requested == strictest_request:
+        return f"{_text(requested).capitalize()} subscription, but publisher is {_text(offered)}"
+    if offered == weakest_offer and _is_open(requested):
+        return f"{_text(offered).capitalize()} publisher, but subscription is {_text(requested)}"
+    return ""
+
+
+def _is_limited(duration: Duration) -> bool:
+    return duration.nanoseconds not in _UNLIMITED_NS
+
+
+def _is_open(value: QoSPolicyEnum) -> bool:
+    return value.name in {"SYSTEM_DEFAULT", "UNKNOWN"}
+
+
+def _text(value: QoSPolicyEnum) -> str:
+    return value.short_key.replace("_", " ")
