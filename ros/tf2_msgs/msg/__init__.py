@@ -1,0 +1,14 @@
+"""The msg interfaces of tf2_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "TF2Error",
+    "TFMessage",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,352 @@
+"""Makes the Python classes of messages, services and actions.
+
+A message class has plain slots named as its fields, a keyword constructor and the methods of `Message`. Only fields that hold numbers in
+bulk are properties over their slot, because assigning a list to them converts it.
+"""
+
+from __future__ import annotations
+
+import os
+from threading import RLock
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.definition import split_name
+from turtlewire.msg.registry import load_action, load_message, load_service
+from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
+from turtlewire.msg.values import converter, element_code, scalar_default
+
+if TYPE_CHECKING:
+    from turtlewire.msg.definition import Field, MessageDefinition
+    from turtlewire.msg.types import AbstractType
+
+__all__ = ["Action", "Message", "Service", "get_action", "get_message", "get_service", "type_name"]
+
+_classes: dict[str, type] = {}
+_lock = RLock()
+
+
+class Message:
+    """Base of all message classes.
+
+    Attributes:
+        SLOT_TYPES: The types of the fields, in order.
+    """
+
+    __slots__ = ()
+    SLOT_TYPES: tuple[AbstractType, ...] = ()
+    _TYPE_NAME: str
+    _DEFINITION: MessageDefinition
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """Names and types of the fields in order, the types spelled as ROS 2 does (``sequence<double>``, ``geometry_msgs/Vector3``)."""
+        return {field.name: str(field.type) for field in cls._DEFINITION.fields}
+
+    def __repr__(self) -> str:
+        package, kind, name = split_name(self._TYPE_NAME)
+        arguments = ", ".join(
+            f"{field.name}={_repr_value(field.type, getattr(self, field.name))}" for field in self._DEFINITION.fields
+        )
+        return f"{package}.{kind}.{name}({arguments})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, self.__class__):
+            return False
+        for field in self._DEFINITION.fields:
+            equal = getattr(self, field.name) == getattr(other, field.name)
+            if not (equal if isinstance(equal, bool) else _all_equal(equal)):
+                return False
+        return True
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (self._TYPE_NAME, {field.name: getattr(self, field.name) for field in self._DEFINITION.fields})
+
+    def _to_cdr(self) -> bytes:
+        """Encode; the first call of a class generates the code and puts it in the place of this method."""
+        from turtlewire.msg.encoder import make_encoder
+
+        encode = make_encoder(type(self))
+        _plain_class(type(self))._to_cdr = encode  # type: ignore[method-assign]
+        return encode(self)
+
+    @classmethod
+    def _from_cdr(cls, data: bytes) -> Message:
+        """Decode little endian; generated at the first call, as `_to_cdr`."""
+        from turtlewire.msg.decoder import make_decoder
+
+        decode = make_decoder(cls, "<")
+        cls._from_cdr = staticmethod(decode)  # type: ignore[method-assign, assignment]
+        return decode(data)
+
+    @classmethod
+    def _from_cdr_big_endian(cls, data: bytes) -> Message:
+        """Decode big endian; generated at the first call, as `_to_cdr`."""
+        from turtlewire.msg.decoder import make_decoder
+
+        decode = make_decoder(cls, ">")
+        cls._from_cdr_big_endian = staticmethod(decode)  # type: ignore[method-assign, assignment]
+        return decode(data)
+
+
+class _PartsOnDemand(type):
+    """Gives a service or action class its message classes when they are asked for."""
+
+    _PARTS: dict[str, str]
+
+    def __getattr__(cls, name: str) -> type:
+        full_name = cls._PARTS.get(name)
+        if full_name is None:
+            raise AttributeError(f"type object '{cls.__name__}' has no attribute '{name}'")
+        part = get_interface_class(full_name)
+        setattr(cls, name, part)
+        return part
+
+
+class Service(metaclass=_PartsOnDemand):
+    """Base of all service classes; their ``Request``, ``Response`` and ``Event`` are message classes."""
+
+    _TYPE_NAME: str
+    _PARTS: dict[str, str] = {}
+
+    def __init__(self) -> None:
+        raise NotImplementedError("Service classes can not be instantiated")
+
+
+class Action(metaclass=_PartsOnDemand):
+    """Base of all action classes; their ``Goal``, ``Result`` and ``Feedback`` are message classes, ``Impl`` holds the rest."""
+
+    _TYPE_NAME: str
+    _PARTS: dict[str, str] = {}
+
+    def __init__(self) -> None:
+        raise NotImplementedError("Action classes can not be instantiated")
+
+
+def get_message(name: str) -> type[Message]:
+    """Class of a message.
+
+    Args:
+        name: ``"geometry_msgs/msg/Twist"`` or ``"geometry_msgs/Twist"``; parts of services and actions by their full name.
+
+    Returns:
+        The class, the same one at every call.
+
+    Raises:
+        InterfaceError: There is no such message.
+    """
+    found = _classes.get(name)
+    if found is not None:
+        return found
+    full_name = name if name.count("/") != 1 else name.replace("/", "/msg/")
+    with _lock:
+        if full_name not in _classes:
+            _classes[full_name] = _make_message(load_message(full_name))
+        return _classes[full_name]
+
+
+def get_service(name: str) -> type[Service]:
+    """Class of a service, by ``"turtlesim/srv/Spawn"`` or ``"turtlesim/Spawn"``; raises as `get_message` does."""
+    full_name = name if name.count("/") != 1 else name.replace("/", "/srv/")
+    with _lock:
+        if full_name not in _classes:
+            load_service(full_name)
+            _classes[full_name] = _make_service(full_name)
+        return _classes[full_name]
+
+
+def get_action(name: str) -> type[Action]:
+    """Class of an action, by ``"turtlesim/action/RotateAbsolute"`` or without the middle; raises as `get_message` does."""
+    full_name = name if name.count("/") != 1 else name.replace("/", "/action/")
+    with _lock:
+        if full_name not in _classes:
+            load_action(full_name)
+            _classes[full_name] = _make_action(full_name)
+        return _classes[full_name]
+
+
+def get_interface_class(full_name: str) -> type:
+    """Class of any interface: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X"``, ``"pkg/action/X_SendGoal"`` …"""
+    kind, _, name = full_name.partition("/")[2].partition("/")
+    if kind == "srv" and "_" not in name:
+        return get_service(full_name)
+    if kind == "action":
+        if "_" not in name:
+            return get_action(full_name)
+        if name.endswith(("_SendGoal", "_GetResult")):
+            return get_service(full_name)
+    return get_message(full_name)
+
+
+def type_name(cls: type) -> str:
+    """Full name of an interface class: ``"geometry_msgs/msg/Twist"``.
+
+    Raises:
+        InterfaceError: ``cls`` is not an interface class.
+    """
+    try:
+        return cls._TYPE_NAME  # type: ignore[attr-defined, no-any-return]
+    except AttributeError:
+        raise InterfaceError(f"{cls!r} is not a ROS 2 interface class") from None
+
+
+def module_name(full_name: str) -> str:
+    """Module that ROS 2's generator would put the class in: ``"geometry_msgs.msg._pose_stamped"``."""
+    package, kind, name = split_name(full_name)
+    name = name.partition("_")[0]
+    snake = ""
+    for index, letter in enumerate(name):
+        if index and letter.isupper() and (name[index + 1 : index + 2].islower() or not name[index - 1].isupper()):
+            snake += "_"
+        snake += letter.lower()
+    return f"{package}.{kind}._{snake}"
+
+
+def _make_message(definition: MessageDefinition) -> type[Message]:
+    name = definition.full_name.rpartition("/")[2]
+    namespace: dict[str, Any] = {
+        "__slots__": tuple(field.name for field in definition.fields),
+        "__module__": module_name(definition.full_name),
+        "__doc__": f"Message class '{name}'.",
+        "SLOT_TYPES": tuple(field.type for field in definition.fields),
+        "_TYPE_NAME": definition.full_name,
+        "_DEFINITION": definition,
+        "__init__": _make_constructor(definition),
+    }
+    namespace.update((constant.name, constant.value) for constant in definition.constants)
+    namespace.update((f"{field.name.upper()}__DEFAULT", field.default) for field in definition.fields if field.default is not None)
+    cls = type(name, (Message,), namespace)
+    for field in definition.fields:
+        convert = converter(field.type)
+        if convert is not None:
+            setattr(cls, field.name, _converting_property(getattr(cls, field.name), convert))
+    return cls
+
+
+def _converting_property(slot: Any, convert: Any) -> property:
+    store = slot.__set__
+
+    def assign(message: Message, value: Any) -> None:
+        store(message, convert(value))
+
+    return property(slot.__get__, assign, slot.__delete__)
+
+
+def _make_constructor(definition: MessageDefinition) -> Any:
+    """Compile ``__init__``: one assignment for each field, defaults as in ROS 2."""
+    environment: dict[str, Any] = {"_finish": _finish}
+    parameters = ["_self"]
+    body = []
+    for index, field in enumerate(definition.fields):
+        if not field.name.isidentifier() or field.name in _KEYWORDS:
+            raise InterfaceError(f"{definition.full_name}: the field name '{field.name}' is a keyword of Python")
+        fresh = _fresh_default(field, index, environment)
+        if index == 0:
+            parameters.append("*")
+        if fresh:
+            parameters.append(f"{field.name}=None")
+            body.append(f" _self.{field.name} = {fresh} if {field.name} is None else {field.name}")
+        else:
+            environment[f"_default{index}"] = scalar_default(field.type) if field.default is None else field.default
+            parameters.append(f"{field.name}=_default{index}")
+            body.append(f" _self.{field.name} = {field.name}")
+    condition = "" if checks_are_on() else "if _unknown: "
+    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join([*body, f" {condition}_finish(_self, _unknown)"])
+    exec(source, environment)  # noqa: S102 - the source is ours, its names are validated identifiers
+    return environment["__init__"]
+
+
+def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str:
+    """Expression for a default that every message needs its own of; the empty string where a shared constant does."""
+    type_ = field.type
+    if isinstance(type_, NamespacedType):
+        environment[f"_class{index}"] = get_message(type_.full_name)
+        return f"_class{index}()"
+    if not isinstance(type_, AbstractNestedType):
+        return ""
+    if element_code(type_):
+        environment[f"_default{index}"] = field.default or (0,) * getattr(type_, "size", 0)
+        # The assignment makes the array.array or NumPy array of it.
+        return f"_default{index}"
+    if field.default is not None:
+        environment[f"_default{index}"] = field.default
+        return f"_default{index}.copy()"
+    if not isinstance(type_, Array):
+        return "[]"
+    if isinstance(type_.value_type, NamespacedType):
+        environment[f"_class{index}"] = get_message(type_.value_type.full_name)
+        return f"[_class{index}() for _ in range({type_.size})]"
+    return f"[{scalar_default(type_.value_type)!r}] * {type_.size}"
+
+
+def _finish(message: Message, unknown: dict[str, Any]) -> None:
+    """Look at what the constructor's keywords did not cover: ``check_fields``, and mistakes."""
+    check = unknown.pop("check_fields", checks_are_on())
+    if unknown:
+        raise AssertionError(f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}")
+    if check:
+        from turtlewire.msg.checks import turn_on_checks
+
+        turn_on_checks(message)
+
+
+def checks_are_on() -> bool:
+    """Whether the environment asks for ROS 2's checks at every assignment (``ROS_PYTHON_CHECK_FIELDS=1``)."""
+    return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
+
+
+def _plain_class(cls: type[Message]) -> type[Message]:
+    """The class itself, for messages whose fields are checked."""
+    found: type[Message] = _classes[cls._TYPE_NAME]
+    return found
+
+
+def _make_service(full_name: str) -> type[Service]:
+    namespace = {
+        "__module__": module_name(full_name),
+        "_TYPE_NAME": full_name,
+        "_PARTS": {part: f"{full_name}_{part}" for part in ("Request", "Response", "Event")},
+    }
+    return type(Service)(full_name.rpartition("/")[2], (Service,), namespace)
+
+
+def _make_action(full_name: str) -> type[Action]:
+    implementation = {
+        "SendGoalService": f"{full_name}_SendGoal",
+        "GetResultService": f"{full_name}_GetResult",
+        "FeedbackMessage": f"{full_name}_FeedbackMessage",
+        "CancelGoalService": "action_msgs/srv/CancelGoal",
+        "GoalStatusMessage": "action_msgs/msg/GoalStatusArray",
+    }
+    name = full_name.rpartition("/")[2]
+    module = module_name(full_name)
+    namespace = {
+        "__module__": module,
+        "_TYPE_NAME": full_name,
+        "_PARTS": {part: f"{full_name}_{part}" for part in ("Goal", "Result", "Feedback")},
+        "Impl": _PartsOnDemand("Impl", (), {"__module__": module, "__qualname__": f"{name}.Impl", "_PARTS": implementation}),
+    }
+    return type(Action)(name, (Action,), namespace)
+
+
+def _restore(full_name: str, values: dict[str, Any]) -> Message:
+    """Unpickle or copy; finds the class by its name, so that no ROS-named package needs to be importable."""
+    return get_message(full_name)(**values)
+
+
+def _repr_value(type_: AbstractType, value: Any) -> str:
+    if element_code(type_) and not isinstance(type_, Array):
+        return repr(value.tolist()) if hasattr(value, "tolist") else repr(value)
+    return repr(value)
+
+
+def _all_equal(comparison: Any) -> bool:
+    return bool(comparison.all()) if hasattr(comparison, "all") else bool(comparison)
+
+
+_KEYWORDS = frozenset(
+    "and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not "
+    "or pass raise return try while with yield".split()
+)

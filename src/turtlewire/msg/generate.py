@@ -1,0 +1,91 @@
+"""Turns a folder of interface definitions into a Python package: real modules with type stubs, no compiler, no import hook.
+
+The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``, their stubs, and a copy of the definitions, which
+the classes are made of at first access.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from shutil import copyfile
+
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.registry import KINDS, interfaces_in, register_package
+from turtlewire.msg.stubs import module_stub
+
+__all__ = ["generate_package", "package_name", "write_modules"]
+
+_PACKAGE = '''"""Interfaces of {package}."""
+
+from turtlewire.msg import register_package
+
+register_package(__name__, __path__[0])
+'''
+
+_MODULE = '''"""The {kind} interfaces of {package}: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+{names}]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__
+'''
+
+
+def generate_package(source: Path, output: Path, package: str = "") -> Path:
+    """Generate the Python package of a folder of interfaces.
+
+    Args:
+        source: The folder of an interface package, with ``msg``, ``srv`` or ``action`` folders in it.
+        output: The folder to put the package into, one that is on ``sys.path`` later.
+        package: Name of the package; empty to take it from ``package.xml``, or else from the folder.
+
+    Returns:
+        The folder of the generated package.
+
+    Raises:
+        InterfaceError: A definition is wrong, or there is none.
+    """
+    package = package or package_name(source)
+    if not any(interfaces_in(str(source)).values()):
+        raise InterfaceError(f"no .msg, .srv or .action files in {source}").with_hint("They belong into its msg, srv and action folders.")
+    register_package(package, str(source))
+    folder = output / package
+    write_modules(package, source, folder)
+    (folder / "__init__.py").write_text(_PACKAGE.format(package=package), encoding="utf-8")
+    (folder / "py.typed").touch()
+    for kind, names in interfaces_in(str(source)).items():
+        for name in names:
+            copyfile(source / kind / f"{name}.{kind}", folder / kind / f"{name}.{kind}")
+    return folder
+
+
+def write_modules(package: str, source: Path, folder: Path) -> None:
+    """Write ``msg``, ``srv`` and ``action`` modules with their stubs into ``folder``, for the definitions in ``source``."""
+    for kind in KINDS:
+        names = interfaces_in(str(source))[kind]
+        if not names:
+            continue
+        module = folder / kind
+        module.mkdir(parents=True, exist_ok=True)
+        listed = "".join(f'    "{name}",\n' for name in names)
+        (module / "__init__.py").write_text(_MODULE.format(package=package, kind=kind, names=listed), encoding="utf-8")
+        (module / "__init__.pyi").write_text(module_stub(package, kind, names), encoding="utf-8")
+
+
+def package_name(source: Path) -> str:
+    """Name of the package in a folder: what ``package.xml`` says, else the folder's name."""
+    manifest = source / "package.xml"
+    if not manifest.is_file():
+        return source.resolve().name
+    from defusedxml.ElementTree import parse
+
+    name = parse(manifest).findtext("name")
+    if not name:
+        raise InterfaceError(f"{manifest} has no <name>")
+    return str(name).strip()

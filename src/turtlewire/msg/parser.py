@@ -1,0 +1,263 @@
+"""Reads the text of .msg, .srv and .action files.
+
+The grammar is ROS 2's: ``TYPE NAME [DEFAULT]`` is a field, ``TYPE NAME=VALUE`` a constant, ``---`` separates the parts of services and
+actions, ``#`` starts a comment (not within quotes).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.definition import ActionDefinition, Constant, Field, MessageDefinition, ServiceDefinition, split_name
+from turtlewire.msg.types import (
+    INTEGER_RANGES,
+    AbstractNestedType,
+    AbstractString,
+    AbstractType,
+    AbstractWString,
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamespacedType,
+    UnboundedSequence,
+    UnboundedString,
+    UnboundedWString,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["parse_action", "parse_message", "parse_service"]
+
+_SEPARATOR = "---"
+
+_BASIC_TYPES = {
+    "bool": BasicType("boolean"),
+    "byte": BasicType("octet"),
+    "char": BasicType("uint8"),
+    "float32": BasicType("float"),
+    "float64": BasicType("double"),
+    **{name: BasicType(name) for name in INTEGER_RANGES},
+}
+
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
+
+
+def parse_message(full_name: str, text: str) -> MessageDefinition:
+    """Parse one message.
+
+    Args:
+        full_name: ``"geometry_msgs/msg/Vector3"``; the package resolves types named without one.
+        text: The text of the file.
+
+    Returns:
+        The definition.
+
+    Raises:
+        InterfaceError: The text is not a message; says which line and why.
+    """
+    package, _, name = split_name(full_name)
+    if not _is_type_name(name.partition("_")[0]):
+        raise InterfaceError(f"'{name}' is not a valid interface name").with_hint(
+            "Interface names are CamelCase: a capital letter, then letters and digits."
+        )
+    fields: list[Field] = []
+    constants: list[Constant] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        statement = _without_comment(line).strip()
+        if statement:
+            try:
+                _parse_statement(package, statement, fields, constants)
+            except ValueError as error:
+                raise InterfaceError(f"{full_name}, line {number}: {error} in '{statement}'") from None
+    _refuse_duplicates(full_name, [member.name for member in (*fields, *constants)])
+    return MessageDefinition(full_name, tuple(fields), tuple(constants))
+
+
+def parse_service(full_name: str, text: str) -> ServiceDefinition:
+    """Parse one service; see `parse_message`."""
+    request, response = _parts(full_name, text, 2)
+    return ServiceDefinition(
+        full_name, parse_message(f"{full_name}_Request", request), parse_message(f"{full_name}_Response", response)
+    )
+
+
+def parse_action(full_name: str, text: str) -> ActionDefinition:
+    """Parse one action; see `parse_message`."""
+    goal, result, feedback = _parts(full_name, text, 3)
+    return ActionDefinition(
+        full_name,
+        parse_message(f"{full_name}_Goal", goal),
+        parse_message(f"{full_name}_Result", result),
+        parse_message(f"{full_name}_Feedback", feedback),
+    )
+
+
+def _parts(full_name: str, text: str, count: int) -> list[str]:
+    parts: list[list[str]] = [[]]
+    for line in text.splitlines():
+        if line.strip() == _SEPARATOR:
+            # Blank lines stand for what came before, so that errors tell the line of the file.
+            parts.append([""] * (len(parts[-1]) + 1))
+        else:
+            parts[-1].append(line)
+    if len(parts) != count:
+        raise InterfaceError(f"{full_name}: found {len(parts) - 1} lines with '---', expected {count - 1}")
+    return ["\n".join(part) for part in parts]
+
+
+def _without_comment(line: str) -> str:
+    quote = ""
+    for index, character in enumerate(line):
+        if quote:
+            if character == quote and line[index - 1] != "\\":
+                quote = ""
+        elif character == "#":
+            return line[:index]
+        elif character in "\"'":
+            quote = character
+    return line
+
+
+def _parse_statement(package: str, statement: str, fields: list[Field], constants: list[Constant]) -> None:
+    type_text, _, rest = statement.partition(" ") if "\t" not in statement else statement.replace("\t", " ", 1).partition(" ")
+    rest = rest.strip()
+    type_ = _parse_type(package, type_text)
+    name = _leading_identifier(rest)
+    value_text = rest[len(name) :].strip()
+    if value_text.startswith("="):
+        if not name.isupper() or not _is_identifier(name.lower()):
+            raise ValueError(f"'{name}' is not a valid constant name (capital letters, digits, single underscores)")
+        constants.append(Constant(name, type_, _parse_value(type_, value_text[1:].strip())))
+        return
+    if not _is_identifier(name):
+        raise ValueError(f"'{name}' is not a valid field name (lower case, digits, single underscores, a letter first)")
+    fields.append(Field(name, type_, _parse_value(type_, value_text) if value_text else None))
+
+
+def _leading_identifier(text: str) -> str:
+    end = 0
+    while end < len(text) and (text[end].isalnum() or text[end] == "_"):
+        end += 1
+    return text[:end]
+
+
+def _is_identifier(name: str) -> bool:
+    return name.isascii() and name.isidentifier() and name == name.lower() and name[0] != "_" and name[-1] != "_" and "__" not in name
+
+
+def _is_type_name(name: str) -> bool:
+    return name.isascii() and name[:1].isupper() and name.isalnum()
+
+
+def _parse_type(package: str, text: str) -> AbstractType:
+    if not text.endswith("]"):
+        return _parse_value_type(package, text)
+    base, _, size = text[:-1].rpartition("[")
+    value_type = _parse_value_type(package, base)
+    if not size:
+        return UnboundedSequence(value_type)
+    if size.startswith("<="):
+        return BoundedSequence(value_type, _parse_size(size[2:]))
+    return Array(value_type, _parse_size(size))
+
+
+def _parse_value_type(package: str, text: str) -> AbstractType:
+    basic = _BASIC_TYPES.get(text)
+    if basic is not None:
+        return basic
+    if text == "string":
+        return UnboundedString()
+    if text == "wstring":
+        return UnboundedWString()
+    base, bounded, size = text.partition("<=")
+    if bounded and base == "string":
+        return BoundedString(_parse_size(size))
+    if bounded and base == "wstring":
+        return BoundedWString(_parse_size(size))
+    owner, slash, name = text.rpartition("/")
+    owner = owner.removesuffix("/msg") if slash else package
+    if not _is_type_name(name) or not _is_identifier(owner or "_"):
+        raise ValueError(f"'{text}' is not a type")
+    return NamespacedType((owner, "msg"), name)
+
+
+def _parse_size(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise ValueError(f"'{text}' is not a size (a positive integer)")
+    return int(text)
+
+
+def _parse_value(type_: AbstractType, text: str) -> Any:
+    if isinstance(type_, AbstractNestedType):
+        if not (text.startswith("[") and text.endswith("]")):
+            raise ValueError(f"'{text}' is not a list of values ([a, b])")
+        values = [_parse_value(type_.value_type, item) for item in _split_list(text[1:-1])]
+        limit = getattr(type_, "maximum_size", getattr(type_, "size", None))
+        if limit is not None and (len(values) > limit or (isinstance(type_, Array) and len(values) != limit)):
+            raise ValueError(f"{len(values)} values do not fit {type_}")
+        return values
+    if isinstance(type_, (AbstractString, AbstractWString)):
+        value = _unquote(text)
+        if type_.has_maximum_size() and len(value.encode() if isinstance(type_, AbstractString) else value) > type_.maximum_size:  # type: ignore[union-attr]
+            raise ValueError(f"'{value}' is longer than {type_}")
+        return value
+    if not isinstance(type_, BasicType):
+        raise ValueError(f"{type_} cannot have a value")  # noqa: TRY004 - ValueError becomes the InterfaceError with the line
+    return _parse_basic_value(type_.typename, text)
+
+
+def _parse_basic_value(typename: str, text: str) -> Any:
+    if typename == "boolean":
+        if text.lower() not in ("true", "false", "1", "0"):
+            raise ValueError(f"'{text}' is not a bool")
+        return text.lower() in ("true", "1")
+    if typename in ("float", "double"):
+        return float(text)
+    number = int(text, 0)
+    low, high = INTEGER_RANGES.get(typename, (0, 255))
+    if not low <= number <= high:
+        raise ValueError(f"{number} is outside of {typename} ({low} to {high})")
+    return bytes([number]) if typename == "octet" else number
+
+
+def _split_list(text: str) -> Iterator[str]:
+    quote = ""
+    item = ""
+    for character in text:
+        if quote:
+            quote = "" if character == quote and not item.endswith("\\") else quote
+        elif character in "\"'":
+            quote = character
+        elif character == ",":
+            yield item.strip()
+            item = ""
+            continue
+        item += character
+    if item.strip():
+        yield item.strip()
+
+
+def _unquote(text: str) -> str:
+    if len(text) < 2 or text[0] != text[-1] or text[0] not in "\"'":
+        return text
+    out: list[str] = []
+    characters = iter(text[1:-1])
+    for character in characters:
+        if character == "\\":
+            escaped = next(characters, "\\")
+            out.append(_ESCAPES.get(escaped, escaped))
+        else:
+            out.append(character)
+    return "".join(out)
+
+
+def _refuse_duplicates(full_name: str, names: list[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise InterfaceError(f"{full_name}: the name '{name}' is used twice")
+        seen.add(name)

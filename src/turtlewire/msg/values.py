@@ -1,0 +1,88 @@
+"""How a field holds its value in Python: defaults, conversion at assignment, and the letter or dtype of its storage.
+
+As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers are NumPy arrays, everything else repeated is a list.
+NumPy is imported when the first message with a fixed array of numbers is made, not before.
+"""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.msg.types import (
+    FLOATING_POINT_TYPES,
+    TYPE_CODES,
+    AbstractGenericString,
+    AbstractNestedType,
+    AbstractSequence,
+    Array,
+    BasicType,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from turtlewire.msg.types import AbstractType
+
+__all__ = ["converter", "element_code", "scalar_default", "to_array", "to_numpy"]
+
+_NUMPY_NAMES = {"float": "float32", "double": "float64"}
+
+
+def element_code(type_: AbstractType) -> str:
+    """Letter of the numbers in a sequence or array of numbers, the empty string for every other type."""
+    if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
+        return TYPE_CODES.get(type_.value_type.typename, "")
+    return ""
+
+
+def numpy_name(typename: str) -> str:
+    """NumPy's name of a numeric type: ``float64`` for ``double``."""
+    return _NUMPY_NAMES.get(typename, typename)
+
+
+def scalar_default(type_: AbstractType) -> Any:
+    """Default of a number, bool, byte or string that gives none itself; None for nested messages."""
+    if isinstance(type_, BasicType):
+        if type_.typename == "boolean":
+            return False
+        if type_.typename == "octet":
+            return b"\x00"
+        return 0.0 if type_.typename in FLOATING_POINT_TYPES else 0
+    return "" if isinstance(type_, AbstractGenericString) else None
+
+
+def converter(type_: AbstractType) -> Callable[[Any], Any] | None:
+    """What turns an assigned value into the storage of a numeric sequence or array; None where values are stored as given."""
+    code = element_code(type_)
+    if not code:
+        return None
+    if isinstance(type_, AbstractSequence):
+        return lambda value: to_array(code, value)
+    assert isinstance(type_, Array)
+    assert isinstance(type_.value_type, BasicType)
+    dtype = numpy_name(type_.value_type.typename)
+    return lambda value: to_numpy(dtype, value)
+
+
+def to_array(code: str, value: Iterable[Any]) -> array[Any]:
+    """Make an ``array.array`` of a sequence of numbers; one of the right letter is kept, buffers of the right layout are copied whole."""
+    if type(value) is array and value.typecode == code:
+        return value
+    try:
+        view = memoryview(value)  # type: ignore[arg-type]
+    except TypeError:
+        return array(code, value)
+    result = array(code)
+    if view.format in (code, f"<{code}") and view.itemsize == result.itemsize and view.c_contiguous:
+        result.frombytes(view.cast("B"))
+    else:
+        result.extend(view.tolist())
+    return result
+
+
+def to_numpy(dtype: str, value: Any) -> Any:
+    """Make a NumPy array of a fixed array of numbers; one of the right dtype is kept."""
+    import numpy as np
+
+    return np.asarray(value, dtype=dtype)
