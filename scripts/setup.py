@@ -1,0 +1,205 @@
+"""What scripts/setup does, with nothing but a bare python3: no venv package, no pip, no compiler is taken for granted."""
+
+from __future__ import annotations
+
+import hashlib
+import html.parser
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import time
+import urllib.parse
+import urllib.request
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / ".venv"
+PYTHON = VENV / "bin" / "python"
+STAMP = VENV / "turtlewire-stamp.json"
+LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+
+#: pip that installs dependency groups of a pyproject.toml.
+OLDEST_PIP = (25, 1)
+
+
+class SetupError(Exception):
+    """Says in one sentence what is missing."""
+
+
+def main(extras: list[str]) -> None:
+    """Bring .venv up to date with the sources, with ``extras`` installed besides."""
+    if sys.version_info < (3, 10):  # noqa: UP036 -- whatever python3 is on the machine runs this
+        raise SetupError(f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed (PYTHON=python3.12 names another)")
+    stamp = read_stamp()
+    wanted = {"python": f"{sys.version} in {ROOT}", "sources": fingerprint(), "extras": sorted({*stamp.get("extras", []), *extras})}
+    if stamp == wanted:
+        return
+    started = time.monotonic()
+    if not usable(stamp, wanted):
+        say("making .venv here and downloading what it needs (about 15 packages, under a minute); nothing else is touched")
+        make_venv()
+    else:
+        say("the sources have changed since .venv was set up: bringing it up to date")
+    ensure_pip()
+    install(wanted["extras"])
+    STAMP.write_text(json.dumps(wanted), encoding="utf-8")
+    say(f"ready after {time.monotonic() - started:.0f} s")
+    if run_python("-c", "import turtlewire._native").returncode:
+        say("no compiled core, so transforms run on the plain-Python one: `apt install g++ python3-dev` (or the like) brings the fast one")
+
+
+def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
+    """Whether there is a .venv that works, of this Python, and that was not moved here."""
+    return stamp.get("python", wanted["python"]) == wanted["python"] and PYTHON.exists() and run_python("-c", "").returncode == 0
+
+
+def say(text: str) -> None:
+    """Tell the person in front of it."""
+    print(f"[setup] {text}", file=sys.stderr, flush=True)
+
+
+def read_stamp() -> dict[str, Any]:
+    """What was installed last; nothing when .venv is missing or was not set up by this."""
+    try:
+        stamp: dict[str, Any] = json.loads(STAMP.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return stamp
+
+
+def fingerprint() -> str:
+    """Hash of all that an editable installation does not follow by itself, the tools to compile with included."""
+    files = [ROOT / "pyproject.toml", *LEARNING.glob("setup.*"), *LEARNING.glob("package.xml")]
+    files += [path for path in (ROOT / "ros").glob("*") if path.is_file()]
+    files += [path for path in (ROOT / "native").rglob("*") if path.is_file() and path.suffix in {".hpp", ".cpp", ".txt", ".pyi"}]
+    digest = hashlib.sha256(str(can_compile()).encode())
+    for path in sorted(files):
+        digest.update(str(path.relative_to(ROOT)).encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def can_compile() -> bool:
+    """Whether a C++ compiler and Python's headers are there."""
+    headers = Path(sysconfig.get_path("include")) / "Python.h"
+    return headers.exists() and any(shutil.which(name) for name in (os.environ.get("CXX", "c++"), "c++", "g++", "clang++"))
+
+
+def run_python(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run the venv's Python quietly."""
+    return subprocess.run([str(PYTHON), *arguments], capture_output=True, text=True, check=False, env=clean_environment())
+
+
+def clean_environment() -> dict[str, str]:
+    """The environment without what a sourced ROS 2 would mix in."""
+    return {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "PYTHONHOME", "AMENT_PREFIX_PATH"}}
+
+
+def make_venv() -> None:
+    """Make .venv without pip, which even a Debian without python3-venv can do."""
+    # Inside of a venv, and this may be run with .venv's own Python, the one that it was made from.
+    base: str = vars(sys)["_base_executable"]
+    command = [base, "-m", "venv", "--without-pip", "--clear", str(VENV)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=clean_environment())
+    if done.returncode:
+        raise SetupError(f"could not make .venv:\n{done.stdout}{done.stderr}")
+
+
+def ensure_pip() -> None:
+    """Get a pip that is new enough into .venv: the one bundled with Python, or one that this Python has, or one fetched from the index."""
+    if pip_version() is None:
+        run_python("-m", "ensurepip")
+    if (version := pip_version()) is not None:
+        if version < OLDEST_PIP:
+            pip("install", "--upgrade", "pip")
+        return
+    outer = subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, text=True, check=False)
+    if outer.returncode == 0 and version_of(outer.stdout) >= (22, 3):
+        checked([sys.executable, "-m", "pip", "--python", str(PYTHON), "install", "-q", "pip"])
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        wheel = fetch_pip(Path(folder))
+        checked([str(PYTHON), str(wheel / "pip"), "install", "-q", str(wheel)])
+
+
+def pip_version() -> tuple[int, ...] | None:
+    """Version of the venv's pip; None when there is none."""
+    done = run_python("-m", "pip", "--version")
+    return version_of(done.stdout) if done.returncode == 0 else None
+
+
+def version_of(text: str) -> tuple[int, ...]:
+    """The first two numbers of ``pip 25.1.1 from …``."""
+    numbers = re.search(r"(\d+)\.(\d+)", text)
+    return (int(numbers[1]), int(numbers[2])) if numbers else (0, 0)
+
+
+class WheelLinks(html.parser.HTMLParser):
+    """Collects the wheels of a package index's page; HTML is what every mirror serves."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.links: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Keep the links to final releases of pip."""
+        href = dict(attrs).get("href") or ""
+        if tag == "a" and re.search(r"/pip-\d+(\.\d+)*-py3-none-any\.whl#sha256=[0-9a-f]{64}$", href):
+            self.links.append(href)
+
+
+def fetch_pip(folder: Path) -> Path:
+    """Download the newest pip into ``folder`` and check its hash."""
+    index = os.environ.get("PIP_INDEX_URL", "https://pypi.org/simple").rstrip("/") + "/pip/"
+    say("this Python has no pip: fetching it from the package index")
+    try:
+        with urllib.request.urlopen(index) as page:
+            links = WheelLinks()
+            links.feed(page.read().decode())
+        newest = max(links.links, key=lambda link: [int(n) for n in re.findall(r"\d+", link.rpartition("/pip-")[2].partition("-py3")[0])])
+        url, _, expected = urllib.parse.urljoin(index, newest).partition("#sha256=")
+        with urllib.request.urlopen(url) as answer:
+            data = answer.read()
+    except (OSError, ValueError) as error:
+        raise SetupError(f"could not fetch pip ({error}); is the network there? `apt install python3-pip` would do as well") from error
+    if hashlib.sha256(data).hexdigest() != expected:
+        raise SetupError("the pip that was fetched does not have the hash that the index says")
+    wheel = folder / url.rpartition("/")[2]
+    wheel.write_bytes(data)
+    return wheel
+
+
+def install(extras: Sequence[str]) -> None:
+    """Install the three packages editable, and the extras."""
+    ros = f"{ROOT / 'ros'}[workspace]" if "workspace" in extras else str(ROOT / "ros")
+    groups = [argument for name in extras if name != "workspace" for argument in ("--group", f"{ROOT / 'pyproject.toml'}:{name}")]
+    pip("install", "-e", str(ROOT), "-e", ros, "-e", str(LEARNING), *groups)
+
+
+def pip(*arguments: str) -> None:
+    """Run the venv's pip."""
+    checked([str(PYTHON), "-m", "pip", "--disable-pip-version-check", "-q", *arguments])
+
+
+def checked(command: list[str]) -> None:
+    """Run a command whose failure ends the setup."""
+    # setuptools warns at length about every editable installation
+    environment = {**clean_environment(), "PYTHONWARNINGS": "ignore::UserWarning"}
+    if subprocess.run(command, check=False, env=environment, stdout=sys.stderr).returncode:
+        raise SetupError(f"this failed, see above: {' '.join(command)}")
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except SetupError as error:
+        sys.exit(f"[setup] {error}")
