@@ -1,0 +1,277 @@
+"""One thread that serves a page and talks to every browser that shows it."""
+
+from __future__ import annotations
+
+import errno
+import os
+import socket
+import threading
+from typing import TYPE_CHECKING, Protocol, cast
+
+from turtlewire.web.files import find_files
+from turtlewire.web.origin import refusal
+
+if TYPE_CHECKING:
+    import asyncio
+    import logging
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
+
+__all__ = ["Server", "Session"]
+
+#: Where pages open their WebSocket.
+LIVE_PATH = "/live"
+#: Longest message that a page may send [bytes].
+_MAX_MESSAGE = 65536
+#: How long a browser may take to answer the closing of its WebSocket [s].
+_CLOSE_TIMEOUT = 0.5
+#: Everything comes from this server; nobody may put the page into a frame.
+_CONTENT_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+
+
+class Session(Protocol):
+    """One browser, as the application sees it. The server's thread calls all methods; they must be short."""
+
+    def outgoing(self) -> list[str | bytes]:
+        """What this browser has not got yet, as of now.
+
+        Asked for after :meth:`Server.notify`, and only when the browser has taken what it was sent before: whatever became outdated in
+        between is never made. This is how a slow browser sees fewer frames, not old ones.
+        """
+        ...
+
+    def receive(self, message: str | bytes) -> None:
+        """Take a message of the browser. Whatever is wrong with it is the session's to answer."""
+        ...
+
+    def closed(self) -> None:
+        """The browser is gone."""
+        ...
+
+
+class Server:
+    """Serves the files below a folder on 127.0.0.1, and a WebSocket at ``/live``.
+
+    It answers from the moment it is constructed until :meth:`close`. Requests under a foreign name and WebSockets of foreign pages get
+    status 403 (see :mod:`turtlewire.web.origin`).
+
+    Attributes:
+        url: The page's address.
+    """
+
+    def __init__(self, root: Path, connect: Callable[[], Session], *, port: int = 0) -> None:
+        """Start serving.
+
+        Args:
+            root: Folder of the page's files.
+            connect: Called on the server's thread for each browser that opens the WebSocket.
+            port: Preferred TCP port. When somebody has it already, a free one is taken.
+
+        Raises:
+            OSError: No socket can be opened, or the port may not be used.
+        """
+        self._files = find_files(root)
+        self._connect = connect
+        self._socket = _listen(port)
+        self.url = f"http://127.0.0.1:{self._socket.getsockname()[1]}/"
+        self._lock = threading.Lock()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._stopping: asyncio.Event | None = None
+        self._started = threading.Event()
+        self._wake_ups: set[asyncio.Event] = set()
+        self._transports: set[asyncio.Transport] = set()
+        self._thread = threading.Thread(target=self._run, name="turtlewire-web", daemon=True)
+        self._thread.start()
+
+    @property
+    def watched(self) -> bool:
+        """Whether any browser has its WebSocket open."""
+        return bool(self._wake_ups)
+
+    def notify(self) -> None:
+        """Tell every session that there is something new. Callable from any thread, at any rate; returns at once."""
+        if not self._wake_ups:
+            return
+        with self._lock:
+            if self._loop is not None:
+                self._loop.call_soon_threadsafe(self._wake_sessions)
+
+    def close(self) -> None:
+        """Close all WebSockets and stop serving; returns within about a second. Idempotent; not for the server's own thread."""
+        self._started.wait()
+        with self._lock:
+            if self._loop is not None and self._stopping is not None:
+                self._loop.call_soon_threadsafe(self._stopping.set)
+        self._thread.join()
+
+    def _run(self) -> None:
+        import asyncio
+
+        try:
+            asyncio.run(self._serve())
+        finally:
+            self._socket.close()
+            self._started.set()
+
+    async def _serve(self) -> None:
+        import asyncio
+
+        from websockets.asyncio.server import serve
+
+        self._stopping = asyncio.Event()
+        server = await serve(
+            self._handle,
+            sock=self._socket,
+            create_connection=_tracking_connections(self._transports),
+            process_request=self._answer,
+            compression=None,
+            close_timeout=_CLOSE_TIMEOUT,
+            max_size=_MAX_MESSAGE,
+            logger=_logger(),
+        )
+        with self._lock:
+            self._loop = asyncio.get_running_loop()
+        self._started.set()
+        await self._stopping.wait()
+        with self._lock:
+            self._loop = None
+        server.close()
+        closed = asyncio.ensure_future(server.wait_closed())
+        await asyncio.wait([closed], timeout=2 * _CLOSE_TIMEOUT)
+        for transport in self._transports:
+            transport.abort()
+        await closed
+
+    def _wake_sessions(self) -> None:
+        for wake_up in self._wake_ups:
+            wake_up.set()
+
+    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Answer a plain HTTP request; None lets the WebSocket begin."""
+        from http import HTTPStatus
+
+        hosts = request.headers.get_all("Host")
+        reason = refusal(hosts, request.headers.get_all("Origin"))
+        if reason is not None:
+            return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}\n")
+        if getattr(request, "method", "GET") != "GET":  # older releases of the library refuse other methods themselves
+            return connection.respond(HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered here.\n")
+        path = request.path.partition("?")[0]
+        if path == LIVE_PATH:
+            return None
+        if path not in self._files:
+            return connection.respond(HTTPStatus.NOT_FOUND, f"There is no {path} here.\n")
+        return self._file_response(path, hosts[0])
+
+    def _file_response(self, path: str, host: str) -> Response:
+        from websockets.datastructures import Headers
+        from websockets.http11 import Response
+
+        file = self._files[path]
+        body = file.path.read_bytes()
+        headers = Headers(
+            {
+                "Content-Type": file.media_type,
+                "Content-Length": str(len(body)),
+                "Content-Security-Policy": _CONTENT_POLICY.format(host=host),
+                "X-Content-Type-Options": "nosniff",
+                "Referrer-Policy": "no-referrer",
+                "Cache-Control": "no-cache",
+                "Connection": "close",
+            }
+        )
+        return Response(200, "OK", headers, body)
+
+    async def _handle(self, connection: ServerConnection) -> None:
+        """Serve one WebSocket until either side ends it."""
+        import asyncio
+
+        from websockets.exceptions import ConnectionClosed
+
+        session = self._connect()
+        wake_up = asyncio.Event()
+        wake_up.set()
+        self._wake_ups.add(wake_up)
+        tasks = [asyncio.create_task(_send(connection, session, wake_up)), asyncio.create_task(_receive(connection, session, wake_up))]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            self._wake_ups.discard(wake_up)
+            for task in tasks:
+                task.cancel()
+            results = await asyncio.gather(*tasks, return_exceptions=True)
+            session.closed()
+        for result in results:
+            if isinstance(result, Exception) and not isinstance(result, ConnectionClosed):
+                raise result
+
+
+async def _send(connection: ServerConnection, session: Session, wake_up: asyncio.Event) -> None:
+    while True:
+        await wake_up.wait()
+        wake_up.clear()
+        for message in session.outgoing():
+            await connection.send(message)
+
+
+async def _receive(connection: ServerConnection, session: Session, wake_up: asyncio.Event) -> None:
+    async for message in connection:
+        session.receive(message)
+        wake_up.set()
+
+
+def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConnection]:
+    """The library's connections, which note their sockets from the first moment: one that never sends a request must not delay the end."""
+    from websockets.asyncio.server import ServerConnection
+
+    class TrackedConnection(ServerConnection):
+        def connection_made(self, transport: asyncio.BaseTransport) -> None:
+            transports.add(cast("asyncio.Transport", transport))
+            super().connection_made(transport)
+
+        def connection_lost(self, exc: Exception | None) -> None:
+            super().connection_lost(exc)
+            transports.discard(self.transport)
+
+    return TrackedConnection
+
+
+def _listen(port: int) -> socket.socket:
+    try:
+        return _bound(port)
+    except OSError as error:
+        if error.errno != errno.EADDRINUSE:
+            raise
+        return _bound(0)
+
+
+def _bound(port: int) -> socket.socket:
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        if os.name == "posix":  # on Windows the option would let two servers share a port
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(("127.0.0.1", port))
+        listener.listen()
+    except BaseException:
+        listener.close()
+        raise
+    return listener
+
+
+def _logger() -> logging.Logger:
+    """The library's log without its remarks on clients that speak no HTTP: they got their status, and nobody here can mend them."""
+    import logging
+
+    logger = logging.getLogger("turtlewire.web")
+    logger.addFilter(_is_ours)
+    return logger
+
+
+def _is_ours(record: logging.LogRecord) -> bool:
+    return record.msg != "opening handshake failed"
