@@ -1,0 +1,52 @@
+"""The level of each logger: its own, or that of the nearest ancestor (``a`` is the parent of ``a.b``), or the default. Thread-safe."""
+
+from __future__ import annotations
+
+import threading
+
+from .logging_severity import LoggingSeverity
+
+__all__ = ["effective", "own", "reset", "set_level"]
+
+_lock = threading.Lock()
+_own: dict[str, int] = {}
+#: What :func:`effective` has found; emptied at every change, so that a disabled message costs one look-up.
+_effective: dict[str, int] = {}
+
+
+def set_level(name: str, level: int) -> None:
+    """Set the level of a logger; an empty name means the default of all loggers, UNSET makes it inherit again."""
+    with _lock:
+        if level == LoggingSeverity.UNSET:
+            _own.pop(name, None)
+        else:
+            _own[name] = int(level)
+        _effective.clear()
+
+
+def own(name: str) -> int:
+    """The level that was set for exactly this logger, or UNSET."""
+    return _own.get(name, LoggingSeverity.UNSET.value)
+
+
+def effective(name: str) -> int:
+    """The level that decides about a message of this logger."""
+    level = _effective.get(name)
+    return _find(name) if level is None else level
+
+
+def reset() -> None:
+    """Forget all levels: INFO is the default again."""
+    with _lock:
+        _own.clear()
+        _effective.clear()
+
+
+def _find(name: str) -> int:
+    with _lock:
+        ancestor = name
+        while ancestor and ancestor not in _own:
+            ancestor = ancestor.rpartition(".")[0]
+        level = _own.get(ancestor, LoggingSeverity.INFO.value)
+        _effective[name] = level
+        return level

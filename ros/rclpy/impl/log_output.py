@@ -1,0 +1,214 @@
+"""Where log records go: the console, a file, and ``/rosout`` through the sink of the node that owns the logger.
+
+Thread-safe: a record is one write to each place, so lines of several threads and processes do not mix.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import log_levels
+from .log_format import LineFormat
+from .logging_severity import LoggingSeverity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+__all__ = ["LogRecord", "add_rosout_sink", "configure", "emit", "logging_directory", "remove_rosout_sink", "shutdown"]
+
+_COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
+_RESET = "\033[0m"
+_STDOUT_FD, _STDERR_FD = 1, 2
+
+
+class LogRecord(NamedTuple):
+    """One message.
+
+    Attributes:
+        stamp_ns: System time in nanoseconds.
+        severity: A number of :class:`LoggingSeverity`.
+        name: The logger's full name, for example ``turtle1.broadcaster``.
+        message: The text.
+        file_name: Source file of the caller.
+        function_name: Function of the caller.
+        line_number: Line of the caller.
+    """
+
+    stamp_ns: int
+    severity: int
+    name: str
+    message: str
+    file_name: str
+    function_name: str
+    line_number: int
+
+
+class _Console:
+    """The standard error or output stream, as the environment asks."""
+
+    def __init__(self) -> None:
+        self.enabled = True
+        self.format = LineFormat(os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT") or None)
+        self._fd = _STDOUT_FD if _flag("RCUTILS_LOGGING_USE_STDOUT") else _STDERR_FD
+        _flag("RCUTILS_LOGGING_BUFFERED_STREAM")  # each line is one write anyway; a wrong value is still told
+        coloured = _flag("RCUTILS_COLORIZED_OUTPUT")
+        self._coloured = os.isatty(self._fd) if coloured is None else coloured
+
+    def write(self, line: str, severity: int) -> None:
+        if self._coloured:
+            line = f"{_COLOURS.get(severity, _RESET)}{line}{_RESET}"
+        # A closed stream leaves no place to tell about it, and must not end the program.
+        _write_line(self._fd, line)
+
+
+class _File:
+    """The log file; it is opened for the first record, so that programs that log nothing leave nothing."""
+
+    def __init__(self, prefix: str | None) -> None:
+        self._prefix = prefix
+        self._fd: int | None = None
+        self._failed = False
+
+    def write(self, line: str) -> None:
+        if self._fd is None and not self._failed:
+            self._open()
+        if self._fd is not None:
+            _write_line(self._fd, line)
+
+    def _open(self) -> None:
+        name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"  # noqa: PTH119 - pathlib costs 5 ms
+        try:
+            directory = _directory()
+            os.makedirs(directory, exist_ok=True)  # noqa: PTH103
+            path = f"{directory}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
+            self._fd = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
+        except OSError as error:
+            self._failed = True
+            _write_line(_STDERR_FD, f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be written.")
+
+    def close(self) -> None:
+        fd, self._fd = self._fd, None
+        if fd is not None:
+            os.close(fd)
+
+
+_console: _Console | None = None
+_file: _File | None = None
+_rosout_enabled = True
+_rosout_sinks: dict[str, Callable[[LogRecord], None]] = {}
+
+
+def emit(record: LogRecord) -> None:
+    """Write one record everywhere, whatever its level."""
+    global _console  # noqa: PLW0603 - the console belongs to the process
+    if _console is None:
+        _console = _Console()
+    line = _console.format.line(record)
+    if _console.enabled:
+        _console.write(line, record.severity)
+    if _file is not None:
+        _file.write(line)
+    if _rosout_enabled and _rosout_sinks:
+        sink = _sink_of(record.name)
+        if sink is not None:
+            sink(record)
+
+
+def configure(
+    *,
+    default_level: int | None = None,
+    logger_levels: dict[str, int] | None = None,
+    console: bool = True,
+    rosout: bool = True,
+    file: bool = True,
+    file_prefix: str | None = None,
+) -> None:
+    """Apply what the command line says, and read the environment anew. A context calls it when it starts.
+
+    Args:
+        default_level: Level of all loggers that have none of their own or inherited; unchanged if None.
+        logger_levels: Level of single loggers.
+        console: Whether to write to the console.
+        rosout: Whether to publish to ``/rosout``.
+        file: Whether to write a log file.
+        file_prefix: First part of the file's name; the program's name if None.
+    """
+    global _console, _file, _rosout_enabled  # noqa: PLW0603 - as above
+    shutdown()
+    if default_level:
+        log_levels.set_level("", default_level)
+    for name, level in (logger_levels or {}).items():
+        log_levels.set_level(name, level)
+    _console = _Console()
+    _console.enabled = console
+    _rosout_enabled = rosout
+    _file = _File(file_prefix) if file else None
+
+
+def shutdown() -> None:
+    """Close the log file. Records go to the console after this."""
+    global _file  # noqa: PLW0603 - as above
+    if _file is not None:
+        _file.close()
+    _file = None
+
+
+def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
+    """Hand the records of logger ``name`` and of its children to ``sink``, on the thread that logs."""
+    if name in _rosout_sinks:
+        warning = (
+            "Publisher already registered for node name: '%s'. If this is due to multiple nodes with the same name then all logs for the "
+            "logger named '%s' will go out over the existing publisher. As soon as any node with that name is destructed it will unregister "
+            "the publisher, preventing any further logs for that name from being published on the rosout topic."
+        )
+        text = warning % (name, name)
+        emit(LogRecord(time.time_ns(), LoggingSeverity.WARN, "rcl.logging_rosout", text, __file__, "add_rosout_sink", 0))
+        return
+    _rosout_sinks[name] = sink
+
+
+def remove_rosout_sink(name: str) -> None:
+    """Publish no further records of logger ``name``. Idempotent."""
+    _rosout_sinks.pop(name, None)
+
+
+def logging_directory() -> Path:
+    """The directory of log files: ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``."""
+    from pathlib import Path
+
+    return Path(_directory())
+
+
+def _directory() -> str:
+    directory = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
+    return os.path.expanduser(directory)  # noqa: PTH111 - pathlib costs 5 ms
+
+
+def _sink_of(name: str) -> Callable[[LogRecord], None] | None:
+    while name:
+        sink = _rosout_sinks.get(name)
+        if sink is not None:
+            return sink
+        name = name.rpartition(".")[0]
+    return None
+
+
+def _flag(variable: str) -> bool | None:
+    """A variable that is 0, 1 or unset (None)."""
+    value = os.environ.get(variable, "")
+    if value not in {"", "0", "1"}:
+        _write_line(_STDERR_FD, f"{variable} has the value '{value}', which is neither 0 nor 1: it is ignored.")
+    return {"0": False, "1": True}.get(value)
+
+
+def _write_line(fd: int, line: str) -> None:
+    data = f"{line}\n".encode(errors="backslashreplace")
+    try:
+        while data:
+            data = data[os.write(fd, data) :]
+    except OSError:
+        return

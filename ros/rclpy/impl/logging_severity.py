@@ -1,0 +1,18 @@
+"""The severities of log messages."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+__all__ = ["LoggingSeverity"]
+
+
+class LoggingSeverity(IntEnum):
+    """How severe a message is; UNSET stands for "as the parent logger"."""
+
+    UNSET = 0
+    DEBUG = 10
+    INFO = 20
+    WARN = 30
+    ERROR = 40
+    FATAL = 50
