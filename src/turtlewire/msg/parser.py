@@ -110,6 +110,9 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
 
 
 def _without_comment(line: str) -> str:
+    before, mark, _ = line.partition("#")
+    if not mark or ("'" not in before and '"' not in before):
+        return before
     quote = ""
     for index, character in enumerate(line):
         if quote:

@@ -1,0 +1,15 @@
+"""The srv interfaces of composition_interfaces: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "ListNodes",
+    "LoadNode",
+    "UnloadNode",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

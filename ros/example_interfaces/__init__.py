@@ -1,0 +1,1 @@
+"""Interfaces of example_interfaces."""

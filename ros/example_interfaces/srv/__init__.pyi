@@ -1,0 +1,72 @@
+"""Types of example_interfaces.srv; generated."""
+
+import service_msgs.msg
+from collections.abc import Iterable
+from typing import Any, ClassVar
+
+from turtlewire.msg import Action, Message, Service
+
+__all__ = [
+    "AddTwoInts",
+    "SetBool",
+    "Trigger",
+]
+
+class AddTwoInts_Request(Message):
+    a: int
+    b: int
+    def __init__(self, *, a: int = ..., b: int = ..., check_fields: bool = ...) -> None: ...
+
+class AddTwoInts_Response(Message):
+    sum: int
+    def __init__(self, *, sum: int = ..., check_fields: bool = ...) -> None: ...
+
+class AddTwoInts_Event(Message):
+    info: service_msgs.msg.ServiceEventInfo
+    request: list[AddTwoInts_Request]
+    response: list[AddTwoInts_Response]
+    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddTwoInts_Request] = ..., response: list[AddTwoInts_Response] = ..., check_fields: bool = ...) -> None: ...
+
+class AddTwoInts(Service):
+    Request = AddTwoInts_Request
+    Response = AddTwoInts_Response
+    Event = AddTwoInts_Event
+
+class SetBool_Request(Message):
+    data: bool
+    def __init__(self, *, data: bool = ..., check_fields: bool = ...) -> None: ...
+
+class SetBool_Response(Message):
+    success: bool
+    message: str
+    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+
+class SetBool_Event(Message):
+    info: service_msgs.msg.ServiceEventInfo
+    request: list[SetBool_Request]
+    response: list[SetBool_Response]
+    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
+
+class SetBool(Service):
+    Request = SetBool_Request
+    Response = SetBool_Response
+    Event = SetBool_Event
+
+class Trigger_Request(Message):
+    def __init__(self, *, check_fields: bool = ...) -> None: ...
+
+class Trigger_Response(Message):
+    success: bool
+    message: str
+    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+
+class Trigger_Event(Message):
+    info: service_msgs.msg.ServiceEventInfo
+    request: list[Trigger_Request]
+    response: list[Trigger_Response]
+    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
+
+class Trigger(Service):
+    Request = Trigger_Request
+    Response = Trigger_Response
+    Event = Trigger_Event

@@ -1,0 +1,17 @@
+"""The msg interfaces of nav_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "GridCells",
+    "MapMetaData",
+    "OccupancyGrid",
+    "Odometry",
+    "Path",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,16 @@
+"""The srv interfaces of nav_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "GetMap",
+    "GetPlan",
+    "LoadMap",
+    "SetMap",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

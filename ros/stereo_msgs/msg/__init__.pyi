@@ -1,0 +1,23 @@
+"""Types of stereo_msgs.msg; generated."""
+
+import sensor_msgs.msg
+import std_msgs.msg
+from collections.abc import Iterable
+from typing import Any, ClassVar
+
+from turtlewire.msg import Action, Message, Service
+
+__all__ = [
+    "DisparityImage",
+]
+
+class DisparityImage(Message):
+    header: std_msgs.msg.Header
+    image: sensor_msgs.msg.Image
+    f: float
+    t: float
+    valid_window: sensor_msgs.msg.RegionOfInterest
+    min_disparity: float
+    max_disparity: float
+    delta_d: float
+    def __init__(self, *, header: std_msgs.msg.Header = ..., image: sensor_msgs.msg.Image = ..., f: float = ..., t: float = ..., valid_window: sensor_msgs.msg.RegionOfInterest = ..., min_disparity: float = ..., max_disparity: float = ..., delta_d: float = ..., check_fields: bool = ...) -> None: ...

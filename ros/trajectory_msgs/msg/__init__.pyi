@@ -1,0 +1,56 @@
+"""Types of trajectory_msgs.msg; generated."""
+
+import array
+import builtin_interfaces.msg
+import geometry_msgs.msg
+import std_msgs.msg
+from collections.abc import Iterable
+from typing import Any, ClassVar
+
+from turtlewire.msg import Action, Message, Service
+
+__all__ = [
+    "JointTrajectory",
+    "JointTrajectoryPoint",
+    "MultiDOFJointTrajectory",
+    "MultiDOFJointTrajectoryPoint",
+]
+
+class JointTrajectory(Message):
+    header: std_msgs.msg.Header
+    joint_names: list[str]
+    points: list[JointTrajectoryPoint]
+    def __init__(self, *, header: std_msgs.msg.Header = ..., joint_names: list[str] = ..., points: list[JointTrajectoryPoint] = ..., check_fields: bool = ...) -> None: ...
+
+class JointTrajectoryPoint(Message):
+    @property
+    def positions(self) -> array.array[float]: ...
+    @positions.setter
+    def positions(self, value: Iterable[float]) -> None: ...
+    @property
+    def velocities(self) -> array.array[float]: ...
+    @velocities.setter
+    def velocities(self, value: Iterable[float]) -> None: ...
+    @property
+    def accelerations(self) -> array.array[float]: ...
+    @accelerations.setter
+    def accelerations(self, value: Iterable[float]) -> None: ...
+    @property
+    def effort(self) -> array.array[float]: ...
+    @effort.setter
+    def effort(self, value: Iterable[float]) -> None: ...
+    time_from_start: builtin_interfaces.msg.Duration
+    def __init__(self, *, positions: Iterable[float] = ..., velocities: Iterable[float] = ..., accelerations: Iterable[float] = ..., effort: Iterable[float] = ..., time_from_start: builtin_interfaces.msg.Duration = ..., check_fields: bool = ...) -> None: ...
+
+class MultiDOFJointTrajectory(Message):
+    header: std_msgs.msg.Header
+    joint_names: list[str]
+    points: list[MultiDOFJointTrajectoryPoint]
+    def __init__(self, *, header: std_msgs.msg.Header = ..., joint_names: list[str] = ..., points: list[MultiDOFJointTrajectoryPoint] = ..., check_fields: bool = ...) -> None: ...
+
+class MultiDOFJointTrajectoryPoint(Message):
+    transforms: list[geometry_msgs.msg.Transform]
+    velocities: list[geometry_msgs.msg.Twist]
+    accelerations: list[geometry_msgs.msg.Twist]
+    time_from_start: builtin_interfaces.msg.Duration
+    def __init__(self, *, transforms: list[geometry_msgs.msg.Transform] = ..., velocities: list[geometry_msgs.msg.Twist] = ..., accelerations: list[geometry_msgs.msg.Twist] = ..., time_from_start: builtin_interfaces.msg.Duration = ..., check_fields: bool = ...) -> None: ...

@@ -1,0 +1,13 @@
+"""The srv interfaces of visualization_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "GetInteractiveMarkers",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__
