@@ -1,0 +1,224 @@
+"""ROS 2's client library for Python.
+
+::
+
+    import rclpy
+    from rclpy.node import Node
+
+    with rclpy.init():
+        rclpy.spin(Node("talker"))
+
+The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are attributes of the package after ``import rclpy``.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
+from .utilities import get_default_context, ok, try_shutdown
+from .utilities import shutdown as _shutdown
+
+if TYPE_CHECKING:
+    from types import ModuleType, TracebackType
+
+    from .context import Context
+    from .executors import Executor
+    from .node import Node
+    from .parameter import Parameter
+    from .task import Future
+
+__all__ = [
+    "create_node",
+    "get_default_context",
+    "get_global_executor",
+    "init",
+    "ok",
+    "shutdown",
+    "spin",
+    "spin_once",
+    "spin_until_future_complete",
+    "try_shutdown",
+]
+
+_global_executor: Executor | None = None
+
+
+class InitContextManager:
+    """What :func:`init` returns: ``with rclpy.init(): …`` shuts the context down at the end of the block."""
+
+    def __init__(self, context: Context, uninstall_handlers: bool) -> None:
+        self.context = context
+        self._uninstall_handlers = uninstall_handlers
+
+    def __enter__(self) -> Context:
+        return self.context
+
+    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+        self.context.try_shutdown()
+        if self._uninstall_handlers:
+            uninstall_signal_handlers()
+
+
+def init(
+    *,
+    args: list[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: SignalHandlerOptions | None = None,
+) -> InitContextManager:
+    """Join a domain; everything else needs this first.
+
+    Args:
+        args: Command line whose ``--ros-args`` apply; None takes ``sys.argv``.
+        context: What to initialize; None takes the default context.
+        domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+        signal_handler_options: Which signals shut down; None: both for the default context, none for others.
+
+    Returns:
+        A context manager that shuts down at its end; it can be ignored.
+
+    Raises:
+        RuntimeError: The context was initialized before.
+        UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
+        WireError: The middleware is not available, or the domain cannot be joined.
+    """
+    is_default = context is None or context is get_default_context()
+    context = get_default_context() if context is None else context
+    if signal_handler_options is None:
+        signal_handler_options = SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
+    context.init(args, domain_id=domain_id)
+    install_signal_handlers(signal_handler_options)
+    return InitContextManager(context, is_default)
+
+
+def get_global_executor() -> Executor:
+    """The executor that is used where none is given; it lives until the default context is shut down."""
+    global _global_executor  # noqa: PLW0603 - there is one for the process
+    from .executors import SingleThreadedExecutor
+
+    if _global_executor is None:
+        _global_executor = SingleThreadedExecutor()
+        get_default_context().on_shutdown(_forget_global_executor)
+    return _global_executor
+
+
+def _forget_global_executor() -> None:
+    global _global_executor  # noqa: PLW0603 - as above
+    executor, _global_executor = _global_executor, None
+    if executor is not None and not executor.context.ended_by_signal:
+        executor.shutdown(timeout_sec=0)
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Leave the domain.
+
+    Args:
+        context: None takes the default context.
+        uninstall_handlers: Whether signals get their former handlers back; None: when the default context is shut down.
+
+    Raises:
+        RuntimeError: It was never initialized, or was shut down before by a call (after a signal, one call is fine).
+    """
+    is_default = context is None or context is get_default_context()
+    _shutdown(context=context)
+    if uninstall_handlers or (uninstall_handlers is None and is_default):
+        uninstall_signal_handlers()
+
+
+def create_node(
+    node_name: str,
+    *,
+    context: Context | None = None,
+    cli_args: list[str] | None = None,
+    namespace: str | None = None,
+    use_global_arguments: bool = True,
+    enable_rosout: bool = True,
+    start_parameter_services: bool = True,
+    parameter_overrides: list[Parameter] | None = None,
+    allow_undeclared_parameters: bool = False,
+    automatically_declare_parameters_from_overrides: bool = False,
+    enable_logger_service: bool = False,
+) -> Node:
+    """Make a node; the arguments are those of :class:`rclpy.node.Node`."""
+    from .node import Node
+
+    return Node(
+        node_name,
+        context=context,
+        cli_args=cli_args,
+        namespace=namespace,
+        use_global_arguments=use_global_arguments,
+        enable_rosout=enable_rosout,
+        start_parameter_services=start_parameter_services,
+        parameter_overrides=parameter_overrides,
+        allow_undeclared_parameters=allow_undeclared_parameters,
+        automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
+        enable_logger_service=enable_logger_service,
+    )
+
+
+def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+    """Wait for one callback of ``node`` and run it.
+
+    Args:
+        node: What to serve; it is in the executor for the time of this call.
+        executor: None takes the global one.
+        timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
+    """
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=timeout_sec)
+    finally:
+        executor.remove_node(node)
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Run the callbacks of ``node`` until its context is shut down.
+
+    Args:
+        node: What to serve; it is in the executor for the time of this call.
+        executor: None takes the global one.
+
+    Raises:
+        KeyboardInterrupt: Ctrl-C, in the main thread.
+        ExternalShutdownException: SIGTERM, or another thread shut the context of a given executor down.
+        Exception: What a callback raised.
+    """
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        while executor.context.ok():
+            executor.spin_once()
+    finally:
+        executor.remove_node(node)
+
+
+def spin_until_future_complete(
+    node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Run the callbacks of ``node`` until ``future`` is done, the time is over, or the context is shut down.
+
+    Args:
+        node: What to serve; it is in the executor for the time of this call.
+        future: What to wait for.
+        executor: None takes the global one.
+        timeout_sec: None or negative: without limit.
+    """
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_until_future_complete(future, timeout_sec)
+    finally:
+        executor.remove_node(node)
+
+
+def __getattr__(name: str) -> ModuleType | Any:
+    """Load a module of the package at its first use as an attribute."""
+    import importlib
+    import importlib.util
+
+    if name.startswith("__") or importlib.util.find_spec(f"{__name__}.{name}") is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module(f"{__name__}.{name}")

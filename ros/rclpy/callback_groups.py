@@ -1,0 +1,83 @@
+"""Callback groups: which callbacks of a node may run at the same time.
+
+A group holds its entities by weak references; whoever makes a group keeps it alive, as in ROS 2.
+"""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from abc import ABC, abstractmethod
+from typing import Any
+
+__all__ = ["CallbackGroup", "MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"]
+
+
+class CallbackGroup(ABC):
+    """Base of all groups; an executor asks it before it runs a callback. Thread-safe."""
+
+    def __init__(self) -> None:
+        self.entities: set[weakref.ref[Any]] = set()
+
+    def add_entity(self, entity: object) -> None:
+        """Make ``entity`` (a subscription, timer, service, …) a member."""
+        self.entities.add(weakref.ref(entity, self.entities.discard))
+
+    def has_entity(self, entity: object) -> bool:
+        """Whether ``entity`` is a member."""
+        return weakref.ref(entity) in self.entities
+
+    @abstractmethod
+    def can_execute(self, entity: object) -> bool:
+        """Whether the callback of ``entity`` might start now."""
+
+    @abstractmethod
+    def beginning_execution(self, entity: object) -> bool:
+        """Claim the group for ``entity``; False when its callback must not start now."""
+
+    @abstractmethod
+    def ending_execution(self, entity: object) -> None:
+        """Give back what :meth:`beginning_execution` claimed."""
+
+
+class ReentrantCallbackGroup(CallbackGroup):
+    """Lets callbacks run at the same time, also several of one entity."""
+
+    def can_execute(self, entity: object) -> bool:
+        """Always."""
+        return True
+
+    def beginning_execution(self, entity: object) -> bool:
+        """Always."""
+        return True
+
+    def ending_execution(self, entity: object) -> None:
+        """Nothing was claimed."""
+
+
+class MutuallyExclusiveCallbackGroup(CallbackGroup):
+    """Lets one callback run at a time; an ``async def`` callback counts as running until it has returned."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._active_entity: object | None = None
+        self._lock = threading.Lock()
+
+    def can_execute(self, entity: object) -> bool:
+        """Whether no callback of the group is running."""
+        return self._active_entity is None
+
+    def beginning_execution(self, entity: object) -> bool:
+        """Claim the group unless a callback of it is running."""
+        with self._lock:
+            if self._active_entity is not None:
+                return False
+            self._active_entity = entity
+            return True
+
+    def ending_execution(self, entity: object) -> None:
+        """Open the group for the next callback."""
+        with self._lock:
+            if self._active_entity is not entity:
+                raise RuntimeError(f"{entity!r} ends an execution in a group that it does not hold")
+            self._active_entity = None

@@ -1,0 +1,149 @@
+"""Service clients."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+from .entity import Entity, Work
+from .task import Future
+from turtlewire.errors import CdrError
+from turtlewire.msg import deserialize, serialize
+
+if TYPE_CHECKING:
+    from .callback_groups import CallbackGroup
+    from .context import Context
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+    from .qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["Client"]
+
+
+class Client(Entity):
+    """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`. Thread-safe.
+
+    Responses are handed to their futures whatever the callback group is doing: a callback that awaits a response, or blocks for it
+    in :meth:`call` while another thread spins, never waits for itself.
+
+    Attributes:
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        qos_profile: Quality of service of requests and responses.
+    """
+
+    _ORDER = 3
+    _GATED = False
+
+    def __init__(
+        self,
+        wire: base.Client,
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup,
+        context: Context,
+        logger: RcutilsLogger,
+    ) -> None:
+        super().__init__(callback_group)
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self._wire = wire
+        self._context = context
+        self._logger = logger
+        self._lock = threading.Lock()
+        self._pending: dict[int, Future] = {}
+
+    @property
+    def service_name(self) -> str:
+        """Fully qualified name of the service."""
+        self._check_usable()
+        return self._wire.service
+
+    @property
+    def logger_name(self) -> str:
+        """Name of the logger of its node."""
+        return self._logger.name
+
+    def call_async(self, request: Any) -> Future:
+        """Send a request.
+
+        Returns:
+            A future of the response; spinning the node finishes it.
+
+        Raises:
+            TypeError: ``request`` is not a ``srv_type.Request``.
+        """
+        self._check_usable()
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError
+        future = Future()
+        with self._lock:  # the response may be faster than we are: it has to find the future
+            sequence_number = self._wire.send_request(serialize(request))
+            self._pending[sequence_number] = future
+        future.add_done_callback(self.remove_pending_request)
+        return future
+
+    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+        """Send a request and block until its response is here; another thread has to spin the node.
+
+        Raises:
+            TypeError: ``request`` is not a ``srv_type.Request``.
+            TimeoutError: No response came within ``timeout_sec``.
+        """
+        future = self.call_async(request)
+        if not future._wait(timeout_sec):
+            self.remove_pending_request(future)
+            raise TimeoutError
+        return future.result()
+
+    def remove_pending_request(self, future: Future) -> None:
+        """Forget a request: its response will be ignored."""
+        with self._lock:
+            for sequence_number, pending in self._pending.items():
+                if pending is future:
+                    del self._pending[sequence_number]
+                    return
+
+    def service_is_ready(self) -> bool:
+        """Whether a server is there."""
+        self._check_usable()
+        return self._wire.is_ready()
+
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Block until a server is there (no polling).
+
+        Args:
+            timeout_sec: None or negative waits until the context is shut down.
+
+        Returns:
+            Whether a server is there.
+        """
+        self._check_usable()
+        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
+        return self._context._wait_for_graph(self._wire.is_ready, timeout_ns)
+
+    def _attach(self, executor: Executor) -> None:
+        executor._watch(self._wire, self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._unwatch(self._wire)
+
+    def _take(self) -> Work | None:
+        for sequence_number, cdr in self._wire.take(1):
+            with self._lock:
+                future = self._pending.pop(sequence_number, None)
+            if future is None:
+                return None
+            try:
+                response = deserialize(self.srv_type.Response, cdr)
+            except CdrError as error:
+                return future.set_exception, (error,)
+            future._set_executor(None if self._executor is None else self._executor())
+            return future.set_result, (response,)
+        return None
+
+    def _close(self) -> None:
+        self._wire.close()

@@ -1,0 +1,225 @@
+"""Contexts: one participation in a ROS domain, from ``init`` to ``shutdown``."""
+
+from __future__ import annotations
+
+import atexit
+import sys
+import threading
+import time
+import weakref
+from typing import TYPE_CHECKING, Any
+
+from . import signals
+from ._rclpy_pybind11 import RCLError
+from .exceptions import NotInitializedException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import TracebackType
+
+    from .arguments import Arguments
+    from turtlewire.wire import base
+
+__all__ = ["Context"]
+
+_ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context, at ./src/rcl/init.c:333"
+
+
+class Context:
+    """Participates in a domain between :meth:`init` and :meth:`shutdown`. Thread-safe; also a context manager.
+
+    A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or the end of the process, so
+    that the program can still say goodbye; the one :meth:`shutdown` that follows a signal is no error.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._wire: base.Context | None = None
+        self._arguments: Arguments | None = None
+        self._valid = False
+        self.ended_by_signal = False
+        self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
+        self._graph_waits: set[threading.Event] = set()
+
+    def init(self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None) -> None:
+        """Join a domain.
+
+        Args:
+            args: Command line whose ``--ros-args`` apply to all nodes; None takes ``sys.argv``.
+            initialize_logging: Whether log levels of the command line take effect and the log file is opened.
+            domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
+
+        Raises:
+            RuntimeError: It was initialized before, or the domain id is negative.
+            UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
+        """
+        from .arguments import Arguments
+        from turtlewire.wire import open_context
+
+        with self._lock:
+            if domain_id is not None and domain_id < 0:
+                raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
+            if self._wire is not None:
+                raise RuntimeError("Context.init() must only be called once")
+            self._arguments = Arguments.parse(sys.argv if args is None else args)
+            self._wire = open_context(domain_id)
+            self._valid = True
+            _open_contexts.add(self)
+            signals.listeners.add(self)
+            if initialize_logging:
+                from . import logging
+
+                logging.configure(self._arguments)
+
+    def ok(self) -> bool:
+        """Whether it is initialized and has not been shut down."""
+        return self._valid
+
+    def get_domain_id(self) -> int:
+        """The domain it is in."""
+        return self.wire.domain_id
+
+    @property
+    def wire(self) -> base.Context:
+        """The middleware's side of it.
+
+        Raises:
+            NotInitializedException: Before :meth:`init`.
+        """
+        if self._wire is None:
+            raise NotInitializedException("context is not initialized")
+        return self._wire
+
+    @property
+    def arguments(self) -> Arguments:
+        """What the command line said.
+
+        Raises:
+            NotInitializedException: Before :meth:`init`.
+        """
+        if self._arguments is None:
+            raise NotInitializedException("context is not initialized")
+        return self._arguments
+
+    @property
+    def handle(self) -> base.Context | None:
+        """The middleware's context, None before :meth:`init`."""
+        return self._wire
+
+    def shutdown(self) -> None:
+        """Leave the domain: run the shutdown callbacks, end all waits, close all endpoints.
+
+        Raises:
+            RuntimeError: It was never initialized.
+            RCLError: It was shut down before, by a call.
+        """
+        with self._lock:
+            if self._wire is None:
+                raise RuntimeError("Context must be initialized before it can be shutdown")
+            if not self._valid and not self.ended_by_signal:
+                raise RCLError(_ALREADY_SHUT_DOWN)
+            self.ended_by_signal = False
+        self._end()
+        self._close()
+
+    def try_shutdown(self) -> None:
+        """:meth:`shutdown` unless it is not initialized or was shut down before."""
+        with self._lock:
+            if not self._valid and not self.ended_by_signal:
+                return
+            self.ended_by_signal = False
+        self._end()
+        self._close()
+
+    def on_signal(self, signum: int) -> None:  # noqa: ARG002 - all handled signals mean the same here
+        """Shut down because of a signal; the middleware stays open for the program's last words."""
+        with self._lock:
+            if not self._valid:
+                return
+            self.ended_by_signal = True
+        self._end()
+
+    def _end(self) -> None:
+        with self._lock:
+            if not self._valid:
+                return
+            self._valid = False
+            callbacks, self._callbacks = self._callbacks, []
+            graph_waits = list(self._graph_waits)
+        for changed in graph_waits:
+            changed.set()
+        for reference in callbacks:
+            callback = reference()
+            if callback is not None:
+                callback()
+
+    def _close(self) -> None:
+        _open_contexts.discard(self)
+        if self._wire is not None:
+            self._wire.close()
+
+    def _wait_for_graph(self, predicate: Callable[[], bool], timeout_ns: int | None) -> bool:
+        """Block until ``predicate()`` is true, looking again after each change of the graph; a shutdown ends the wait.
+
+        Returns:
+            The last value of the predicate.
+        """
+        deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
+        changed = threading.Event()
+        with self._lock:
+            self._graph_waits.add(changed)
+        remove_listener = self.wire.graph.add_listener(changed.set)
+        try:
+            while True:
+                changed.clear()
+                if predicate():
+                    return True
+                remaining = None if deadline is None else deadline - time.monotonic()
+                if not self._valid or (remaining is not None and remaining <= 0):
+                    return False
+                changed.wait(remaining)
+        finally:
+            remove_listener()
+            with self._lock:
+                self._graph_waits.discard(changed)
+
+    def on_shutdown(self, callback: Callable[[], None]) -> None:
+        """Call ``callback()`` once when it shuts down, at once when it has been already; methods are held weakly.
+
+        After a signal the callback runs on the thread that watches signals.
+        """
+        if not callable(callback):
+            raise TypeError("callback should be a callable, got {}", type(callback))
+        with self._lock:
+            if self._valid:
+                self._callbacks.append(_reference(callback))
+                return
+        callback()
+
+    def __enter__(self) -> Context:
+        return self
+
+    def __exit__(
+        self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None
+    ) -> None:
+        self.try_shutdown()
+
+
+def _reference(callback: Callable[[], None]) -> Callable[[], Callable[[], None] | None]:
+    """A weak reference to a method, so that a context keeps nobody alive; a strong one to a function."""
+    if hasattr(callback, "__self__") and hasattr(callback, "__func__"):
+        return weakref.WeakMethod(callback)
+    return lambda: callback
+
+
+_open_contexts: set[Any] = set()
+
+
+def _close_open_contexts() -> None:
+    """Leave the domain at the end of the process, so that peers need not wait until our lease is over."""
+    for context in list(_open_contexts):
+        context.try_shutdown()
+        context._close()
+
+
+atexit.register(_close_open_contexts)

@@ -1,0 +1,56 @@
+"""Guard conditions: callbacks that another thread, or the program itself, sets off."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .entity import Entity, Work
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .callback_groups import CallbackGroup
+    from .context import Context
+    from .executors import Executor
+
+__all__ = ["GuardCondition"]
+
+
+class GuardCondition(Entity):
+    """Runs its callback on the executor after :meth:`trigger`; several triggers before it runs count as one."""
+
+    _ORDER = 2
+
+    def __init__(
+        self,
+        callback: Callable[[], Any] | None,
+        callback_group: CallbackGroup | None,
+        context: Context | None = None,
+    ) -> None:
+        from .utilities import get_default_context
+
+        super().__init__(callback_group)
+        self.callback = callback
+        self._context = get_default_context() if context is None else context
+        self._triggered = False
+
+    def trigger(self) -> None:
+        """Have the callback run. Safe from any thread."""
+        self._check_usable()
+        self._triggered = True
+        executor = None if self._executor is None else self._executor()
+        if executor is not None:
+            executor._notify(self)
+
+    def _attach(self, executor: Executor) -> None:
+        if self._triggered:
+            executor._notify(self)
+
+    def _detach(self, executor: Executor) -> None:
+        """A trigger stays stored until an executor comes."""
+
+    def _take(self) -> Work | None:
+        if not self._triggered:
+            return None
+        self._triggered = False
+        return None if self.callback is None else (self.callback, ())

@@ -1,0 +1,658 @@
+"""The node: a named participant of the graph that owns publishers, subscriptions, services, timers and parameters.
+
+:class:`Node` itself holds no logic: each method hands over to the part that does the work. ``node_endpoints.py`` makes and keeps the
+endpoints, ``node_graph.py`` answers questions about other nodes, ``parameters.py`` keeps the parameters.
+"""
+
+from __future__ import annotations
+
+import weakref
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.wire import names
+
+from .client import Client
+from .clock import ROSClock
+from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
+from .guard_condition import GuardCondition
+from .logging import get_logger
+from .node_endpoints import NodeEndpoints
+from .node_graph import NodeGraph
+from .parameters import NodeParameters
+from .publisher import Publisher
+from .qos import qos_profile_services_default
+from .rosout import RosoutPublisher
+from .service import Service
+from .subscription import Subscription
+from .time_source import TimeSource
+from .timer import Rate, Timer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
+
+    from .arguments import Arguments
+    from .callback_groups import CallbackGroup
+    from .clock import Clock
+    from .context import Context
+    from .entity import Entity
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+    from .parameter import Parameter
+    from .qos import QoSProfile
+    from .qos_overriding_options import QoSOverridingOptions
+    from .topic_endpoint_info import TopicEndpointInfo
+    from .waitable import Waitable
+
+__all__ = ["Node"]
+
+
+class Node:
+    """A node. Thread-safe.
+
+    Args:
+        node_name: Base name (no slashes); ``--ros-args -r __node:=…`` replaces it.
+        context: None takes the default context.
+        cli_args: Command line of this node alone; its ``--ros-args`` come before those of the context.
+        namespace: None and "" mean "/"; ``--ros-args -r __ns:=…`` replaces it.
+        use_global_arguments: Whether the command line of the context applies.
+        enable_rosout: Whether what it logs is published on ``/rosout``.
+        start_parameter_services: Whether other nodes can read and set its parameters.
+        parameter_overrides: Values that go before those of the command line.
+        allow_undeclared_parameters: Whether parameters can be set and read without being declared.
+        automatically_declare_parameters_from_overrides: Whether all overrides are declared at once.
+        enable_logger_service: Whether other nodes can set its log levels.
+
+    Raises:
+        NotInitializedException: ``rclpy.init()`` was not called, or the context is shut down.
+        InvalidNodeNameException, InvalidNamespaceException: A name breaks the rules.
+    """
+
+    PARAM_REL_TOL = 1e-6
+
+    def __init__(
+        self,
+        node_name: str,
+        *,
+        context: Context | None = None,
+        cli_args: list[str] | None = None,
+        namespace: str | None = None,
+        use_global_arguments: bool = True,
+        enable_rosout: bool = True,
+        start_parameter_services: bool = True,
+        parameter_overrides: list[Parameter] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+    ) -> None:
+        self._executor: weakref.ref[Executor] | None = None
+        self._context = _usable_context(context)
+        self._arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
+        self._name, self._namespace = _names(node_name, namespace or "/", self._arguments)
+        self._wire = self._context.wire.create_node(self._name, self._namespace)
+        self._logger = get_logger(self.get_fully_qualified_name()[1:].replace("/", "."))
+        self._clock = ROSClock()
+        self._endpoints = NodeEndpoints(self)
+        self._graph = NodeGraph(self)
+        self._rosout = RosoutPublisher(self._wire, self._logger.name) if enable_rosout else None
+        self._parameters = NodeParameters(
+            self,
+            parameter_overrides or [],
+            self._arguments,
+            allow_undeclared=allow_undeclared_parameters,
+            automatically_declare=automatically_declare_parameters_from_overrides,
+        )
+        self._time_source = TimeSource(node=self)
+        self._time_source.attach_clock(self._clock)
+        if start_parameter_services:
+            self._parameters.start_services()
+        if enable_logger_service:
+            from .logging_service import LoggingService
+
+            self._logging_service = LoggingService(self)
+
+    # What it is
+
+    def get_name(self) -> str:
+        """Base name, after remapping."""
+        return self._name
+
+    def get_namespace(self) -> str:
+        """Namespace, after remapping."""
+        return self._namespace
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name, for example ``/robot1/camera``."""
+        return names.fully_qualified_node_name(self._name, self._namespace)
+
+    def get_clock(self) -> Clock:
+        """Its clock: ROS time, which follows ``/clock`` when the parameter ``use_sim_time`` is true."""
+        return self._clock
+
+    def get_logger(self) -> RcutilsLogger:
+        """Its logger, named like the node with dots for slashes."""
+        return self._logger
+
+    @property
+    def context(self) -> Context:
+        """Its context."""
+        return self._context
+
+    @property
+    def wire(self) -> Any:
+        """The middleware's side of it (:class:`turtlewire.wire.base.Node`)."""
+        return self._wire
+
+    @property
+    def handle(self) -> Node:
+        """The node itself: there is no C handle behind it. Usable in a ``with`` statement."""
+        return self
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.destroy_node()
+
+    @property
+    def executor(self) -> Executor | None:
+        """The executor that serves it; setting it moves the node there."""
+        return None if self._executor is None else self._executor()
+
+    @executor.setter
+    def executor(self, new_executor: Executor | None) -> None:
+        current = self.executor
+        if current is new_executor:
+            return
+        if current is not None:
+            current.remove_node(self)
+        self._executor = None if new_executor is None else weakref.ref(new_executor)
+        if new_executor is not None:
+            new_executor.add_node(self)
+
+    @property
+    def default_callback_group(self) -> CallbackGroup:
+        """Of entities that are made without one: mutually exclusive."""
+        return self._endpoints.default_callback_group
+
+    @property
+    def publishers(self) -> Iterator[Publisher]:
+        """Its publishers."""
+        yield from self._endpoints.of(Publisher)
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Its subscriptions."""
+        yield from self._endpoints.of(Subscription)
+
+    @property
+    def clients(self) -> Iterator[Client]:
+        """Its service clients."""
+        yield from self._endpoints.of(Client)
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """Its services."""
+        yield from self._endpoints.of(Service)
+
+    @property
+    def timers(self) -> Iterator[Timer]:
+        """Its timers."""
+        yield from self._endpoints.of(Timer)
+
+    @property
+    def guards(self) -> Iterator[GuardCondition]:
+        """Its guard conditions."""
+        yield from self._endpoints.of(GuardCondition)
+
+    @property
+    def waitables(self) -> Iterator[Waitable]:
+        """Its waitables: actions, and what programs add."""
+        from .waitable import Waitable
+
+        yield from self._endpoints.of(Waitable)
+
+    def _entities(self) -> list[Entity]:
+        return self._endpoints.entities()
+
+    # Names
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """The fully qualified name of a topic, remapped unless ``only_expand``."""
+        return self._endpoints.resolve_topic(topic, only_expand=only_expand)
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """The fully qualified name of a service, remapped unless ``only_expand``."""
+        return self._endpoints.resolve_service(service, only_expand=only_expand)
+
+    def remap_topic(self, fully_qualified_name: str) -> str:
+        """Apply the command line's rules to a topic."""
+        return self._arguments.remap_topic(fully_qualified_name, self._name, self._namespace)
+
+    def remap_service(self, fully_qualified_name: str) -> str:
+        """Apply the command line's rules to a service."""
+        return self._arguments.remap_service(fully_qualified_name, self._name, self._namespace)
+
+    # Endpoints
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        publisher_class: type[Publisher] = Publisher,
+    ) -> Publisher:
+        """Announce a publisher.
+
+        Args:
+            msg_type: Class of its messages.
+            topic: Name of the topic.
+            qos_profile: Quality of service, or a history depth.
+            callback_group: For event callbacks; None takes the node's default.
+            event_callbacks: What to call on events of the quality of service (:class:`rclpy.event_handler.PublisherEventCallbacks`).
+            qos_overriding_options: Which policies parameters may override.
+            publisher_class: Class to instantiate.
+
+        Raises:
+            InvalidTopicNameException: The name breaks the rules.
+            TypeError: ``qos_profile`` is neither a profile nor a depth.
+            ValueError: The depth is negative.
+        """
+        return self._endpoints.create_publisher(
+            msg_type, topic, qos_profile, callback_group, event_callbacks, qos_overriding_options, publisher_class
+        )
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Announce a subscription.
+
+        Args:
+            msg_type: Class of its messages.
+            topic: Name of the topic.
+            callback: Called with each message, and with a message info when it takes two arguments; may be ``async``.
+            qos_profile: Quality of service, or a history depth.
+            callback_group: None takes the node's default.
+            event_callbacks: What to call on events of the quality of service
+                (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
+            qos_overriding_options: Which policies parameters may override.
+            raw: Whether the callback gets the serialized bytes.
+
+        Raises:
+            InvalidTopicNameException: The name breaks the rules.
+            TypeError: ``qos_profile`` is neither a profile nor a depth.
+            ValueError: The depth is negative.
+            RuntimeError: The callback takes neither one nor two arguments.
+        """
+        return self._endpoints.create_subscription(
+            msg_type, topic, callback, qos_profile, callback_group, event_callbacks, qos_overriding_options, raw
+        )
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Client:
+        """Announce a client of a service.
+
+        Args:
+            srv_type: The service class.
+            srv_name: Name of the service.
+            qos_profile: Quality of service of requests and responses.
+            callback_group: None takes the node's default.
+
+        Raises:
+            InvalidServiceNameException: The name breaks the rules.
+        """
+        return self._endpoints.create_client(srv_type, srv_name, qos_profile, callback_group)
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Offer a service.
+
+        Args:
+            srv_type: The service class.
+            srv_name: Name of the service.
+            callback: Called with a request and an empty response, returns the response; may be ``async``.
+            qos_profile: Quality of service of requests and responses.
+            callback_group: None takes the node's default.
+
+        Raises:
+            InvalidServiceNameException: The name breaks the rules.
+        """
+        return self._endpoints.create_service(srv_type, srv_name, callback, qos_profile, callback_group)
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[[], Any] | None,
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Call ``callback()`` periodically.
+
+        Args:
+            timer_period_sec: Seconds between calls.
+            callback: What to call; may be ``async``.
+            callback_group: None takes the node's default.
+            clock: None takes the node's clock.
+            autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
+        """
+        return self._endpoints.create_timer(timer_period_sec, callback, callback_group, clock or self._clock, autostart)
+
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
+        """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz; another thread has to spin the node.
+
+        Raises:
+            ValueError: ``frequency`` is not positive.
+        """
+        return self._endpoints.create_rate(frequency, clock or self._clock)
+
+    def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None) -> GuardCondition:
+        """Something whose ``trigger()`` has ``callback()`` called on the executor."""
+        return self._endpoints.create_guard_condition(callback, callback_group)
+
+    def add_waitable(self, waitable: Waitable) -> None:
+        """Have the executor serve ``waitable``."""
+        self._endpoints.add_waitable(waitable)
+
+    def remove_waitable(self, waitable: Waitable) -> None:
+        """Have the executor serve ``waitable`` no longer."""
+        self._endpoints.remove_waitable(waitable)
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Close a publisher; False when it is not of this node."""
+        return self._endpoints.destroy(Publisher, publisher)
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Close a subscription; False when it is not of this node."""
+        return self._endpoints.destroy(Subscription, subscription)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Close a client; False when it is not of this node."""
+        return self._endpoints.destroy(Client, client)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Close a service; False when it is not of this node."""
+        return self._endpoints.destroy(Service, service)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """End a timer; False when it is not of this node."""
+        return self._endpoints.destroy(Timer, timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """End a guard condition; False when it is not of this node."""
+        return self._endpoints.destroy(GuardCondition, guard)
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """End a rate and its sleeps; False when it is not of this node."""
+        return self._endpoints.destroy(Timer, rate._timer)
+
+    def destroy_node(self) -> None:
+        """Leave the graph and close all endpoints. Idempotent; works after a shutdown too."""
+        executor = self.executor
+        if executor is not None:
+            executor.remove_node(self)
+        self._endpoints.destroy_all()
+        if self._rosout is not None:
+            self._rosout.close()
+        self._wire.close()
+
+    # Parameters
+
+    def declare_parameter(
+        self, name: str, value: Any = None, descriptor: ParameterDescriptor | None = None, ignore_override: bool = False
+    ) -> Parameter:
+        """Declare a parameter.
+
+        Args:
+            name: Its name.
+            value: Default value, or a :class:`Parameter.Type <rclpy.parameter.Parameter.Type>` for a parameter without one.
+            descriptor: Description, ranges, whether it is read-only or may change its type.
+            ignore_override: Whether ``value`` goes before what the command line says.
+
+        Returns:
+            The parameter, with the override as its value if there is one.
+
+        Raises:
+            ParameterAlreadyDeclaredException: It was declared before.
+            InvalidParameterException: The name is not valid.
+            InvalidParameterTypeException: The override has another type.
+            InvalidParameterValueException: A callback or the descriptor refuses the value.
+        """
+        return self._parameters.declare_parameter(name, value, descriptor, ignore_override)
+
+    def declare_parameters(self, namespace: str, parameters: list[Any], ignore_override: bool = False) -> list[Parameter]:
+        """Declare several parameters, ``(name[, value or type[, descriptor]])`` each, their names after ``namespace`` and a dot."""
+        return self._parameters.declare_parameters(namespace, parameters, ignore_override)
+
+    def undeclare_parameter(self, name: str) -> None:
+        """Forget a parameter.
+
+        Raises:
+            ParameterNotDeclaredException: There is none.
+            ParameterImmutableException: It is read-only.
+        """
+        self._parameters.undeclare_parameter(name)
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether a parameter is declared."""
+        return self._parameters.has_parameter(name)
+
+    def get_parameter(self, name: str) -> Parameter:
+        """A parameter.
+
+        Raises:
+            ParameterNotDeclaredException: It is not declared, and undeclared ones are not allowed.
+            ParameterUninitializedException: It was declared by type alone and has no value yet.
+        """
+        return self._parameters.get_parameter(name)
+
+    def get_parameters(self, names: list[str]) -> list[Parameter]:
+        """Several parameters; raises as :meth:`get_parameter`."""
+        return self._parameters.get_parameters(names)
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        """A parameter, or ``alternative_value`` when it is not declared or not set."""
+        return self._parameters.get_parameter_or(name, alternative_value)
+
+    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
+        """The parameters below a prefix, by their names without it."""
+        return self._parameters.get_parameters_by_prefix(prefix)
+
+    def get_parameter_type(self, name: str) -> Any:
+        """The type of a parameter."""
+        return self._parameters.get_parameter_type(name)
+
+    def get_parameter_types(self, names: list[str]) -> list[Any]:
+        """The types of several parameters."""
+        return self._parameters.get_parameter_types(names)
+
+    def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
+        """Set parameters one by one; each result says whether it was accepted, and why not."""
+        return self._parameters.set_parameters(parameter_list)
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """Set all parameters, or none."""
+        return self._parameters.set_parameters_atomically(parameter_list)
+
+    def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
+        """Names of parameters below prefixes, down to ``depth`` dots (0: all)."""
+        return self._parameters.list_parameters(prefixes, depth)
+
+    def describe_parameter(self, name: str) -> ParameterDescriptor:
+        """The descriptor of a parameter."""
+        return self._parameters.describe_parameter(name)
+
+    def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
+        """The descriptors of parameters."""
+        return self._parameters.describe_parameters(names)
+
+    def set_descriptor(self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None) -> Any:
+        """Give a parameter another descriptor, and ``alternative_value`` if its value does not fit it."""
+        return self._parameters.set_descriptor(name, descriptor, alternative_value)
+
+    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Have ``callback`` look through, and change, the list of parameters before they are checked."""
+        self._parameters.add_pre_set_parameters_callback(callback)
+
+    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Have ``callback`` accept or refuse new values."""
+        self._parameters.add_on_set_parameters_callback(callback)
+
+    def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Have ``callback`` told of parameters that were set."""
+        self._parameters.add_post_set_parameters_callback(callback)
+
+    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Undo :meth:`add_pre_set_parameters_callback`."""
+        self._parameters.remove_pre_set_parameters_callback(callback)
+
+    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Undo :meth:`add_on_set_parameters_callback`."""
+        self._parameters.remove_on_set_parameters_callback(callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Undo :meth:`add_post_set_parameters_callback`."""
+        self._parameters.remove_post_set_parameters_callback(callback)
+
+    # The graph
+
+    def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
+        """All topics with the names of their types."""
+        return self._graph.topic_names_and_types(no_demangle)
+
+    def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
+        """All services with the names of their types."""
+        return self._graph.service_names_and_types()
+
+    def get_node_names(self) -> list[str]:
+        """Base names of all nodes."""
+        return [name for name, _, _ in self._graph.node_names()]
+
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """Fully qualified names of all nodes."""
+        return [names.fully_qualified_node_name(name, namespace) for name, namespace, _ in self._graph.node_names()]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Name and namespace of all nodes."""
+        return [(name, namespace) for name, namespace, _ in self._graph.node_names()]
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Name, namespace and security enclave of all nodes."""
+        return self._graph.node_names()
+
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> list[tuple[str, list[str]]]:
+        """Topics that a node publishes; raises ``NodeNameNonExistentError``."""
+        return self._graph.by_node("publisher", node_name, node_namespace, no_demangle=no_demangle)
+
+    def get_subscriber_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> list[tuple[str, list[str]]]:
+        """Topics that a node subscribes to; raises ``NodeNameNonExistentError``."""
+        return self._graph.by_node("subscription", node_name, node_namespace, no_demangle=no_demangle)
+
+    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
+        """Services that a node offers; raises ``NodeNameNonExistentError``."""
+        return self._graph.services_by_node("service", node_name, node_namespace)
+
+    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
+        """Services that a node calls; raises ``NodeNameNonExistentError``."""
+        return self._graph.services_by_node("client", node_name, node_namespace)
+
+    def count_publishers(self, topic_name: str) -> int:
+        """How many publishers a topic has."""
+        return self._graph.count_topic("publisher", topic_name)
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """How many subscriptions a topic has."""
+        return self._graph.count_topic("subscription", topic_name)
+
+    def count_clients(self, service_name: str) -> int:
+        """How many clients a service has."""
+        return self._graph.count_service("client", service_name)
+
+    def count_services(self, service_name: str) -> int:
+        """How many servers a service has."""
+        return self._graph.count_service("service", service_name)
+
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """What is known of each publisher of a topic."""
+        return self._graph.endpoint_infos("publisher", topic_name, no_mangle=no_mangle)
+
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """What is known of each subscription of a topic."""
+        return self._graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Block until a node is there, at most ``timeout`` seconds (negative: no limit); whether it is."""
+        return self._graph.wait_for_node(fully_qualified_node_name, timeout)
+
+
+def _usable_context(context: Context | None) -> Context:
+    if context is None:
+        from .utilities import get_default_context
+
+        context = get_default_context()
+    if not context.ok():
+        raise NotInitializedException("cannot create node")
+    return context
+
+
+def _arguments(context: Context, cli_args: list[str] | None, *, use_global_arguments: bool) -> Arguments:
+    """The node's own command line before the context's."""
+    from .arguments import Arguments
+
+    own = Arguments.parse(cli_args or [])
+    return own.followed_by(context.arguments) if use_global_arguments else own
+
+
+def _names(node_name: str, namespace: str, arguments: Arguments) -> tuple[str, str]:
+    """Name and namespace after remapping.
+
+    Raises:
+        InvalidNodeNameException, InvalidNamespaceException: One breaks the rules.
+    """
+    if not namespace.startswith("/"):
+        namespace = f"/{namespace}"
+    _check_names(node_name, namespace)
+    name = arguments.remap_node_name(node_name)
+    namespace = arguments.remap_namespace(name, namespace)
+    _check_names(name, namespace)
+    return name, namespace
+
+
+def _check_names(name: str, namespace: str) -> None:
+    fault = names.validate_namespace(namespace)
+    if fault is not None:
+        raise InvalidNamespaceException(namespace, fault.message, fault.index)
+    fault = names.validate_node_name(name)
+    if fault is not None:
+        raise InvalidNodeNameException(name, fault.message, fault.index)

@@ -1,0 +1,221 @@
+"""What a node owns: it makes publishers, subscriptions, clients, services, timers and guard conditions, keeps them, and closes them."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.msg import type_name
+from turtlewire.wire import names
+
+from .callback_groups import MutuallyExclusiveCallbackGroup
+from .client import Client
+from .exceptions import InvalidServiceNameException, InvalidTopicNameException
+from .guard_condition import GuardCondition
+from .publisher import Publisher
+from .qos import QoSProfile
+from .service import Service
+from .subscription import Subscription
+from .timer import Rate, Timer
+from .type_support import check_is_valid_msg_type, check_is_valid_srv_type, service_type_ids, type_id
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .callback_groups import CallbackGroup
+    from .clock import Clock
+    from .entity import Entity
+    from .node import Node
+    from .qos_overriding_options import QoSOverridingOptions
+    from .waitable import Waitable
+
+__all__ = ["NodeEndpoints"]
+
+
+class NodeEndpoints:
+    """The endpoints of one node. Thread-safe.
+
+    Attributes:
+        default_callback_group: Of entities that are made without one.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._lock = threading.Lock()
+        self._owned: dict[type, list[Any]] = {}
+        self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
+
+    def of(self, kind: type) -> list[Any]:
+        """Those of one class, in the order in which they were made."""
+        with self._lock:
+            return list(self._owned.get(kind, ()))
+
+    def entities(self) -> list[Entity]:
+        """Those that an executor serves."""
+        with self._lock:
+            return [owned for kind, group in self._owned.items() if kind is not Publisher and kind is not Rate for owned in group]
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        callback_group: CallbackGroup | None,
+        event_callbacks: Any,
+        qos_overriding_options: QoSOverridingOptions | None,
+        publisher_class: type[Publisher],
+    ) -> Publisher:
+        """See :meth:`rclpy.node.Node.create_publisher`."""
+        check_is_valid_msg_type(msg_type)
+        profile = validate_qos(qos_profile)
+        name = self.resolve_topic(topic)
+        wire = self._node.wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
+        return self._own(Publisher, publisher_class(wire, msg_type, profile, self._node.context))
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        callback_group: CallbackGroup | None,
+        event_callbacks: Any,
+        qos_overriding_options: QoSOverridingOptions | None,
+        raw: bool,
+    ) -> Subscription:
+        """See :meth:`rclpy.node.Node.create_subscription`."""
+        check_is_valid_msg_type(msg_type)
+        profile = validate_qos(qos_profile)
+        name = self.resolve_topic(topic)
+        wire = self._node.wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
+        group = callback_group or self.default_callback_group
+        return self._own(Subscription, Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger()))
+
+    def create_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
+        """See :meth:`rclpy.node.Node.create_client`."""
+        check_is_valid_srv_type(srv_type)
+        name = self.resolve_service(srv_name)
+        wire = self._node.wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        group = callback_group or self.default_callback_group
+        return self._own(Client, Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger()))
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+    ) -> Service:
+        """See :meth:`rclpy.node.Node.create_service`."""
+        check_is_valid_srv_type(srv_type)
+        name = self.resolve_service(srv_name)
+        wire = self._node.wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        group = callback_group or self.default_callback_group
+        return self._own(Service, Service(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger()))
+
+    def create_timer(
+        self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool
+    ) -> Timer:
+        """See :meth:`rclpy.node.Node.create_timer`."""
+        group = callback_group or self.default_callback_group
+        period_ns = int(float(period_sec) * 1_000_000_000)
+        return self._own(Timer, Timer(callback, group, period_ns, clock, context=self._node.context, autostart=autostart))
+
+    def create_rate(self, frequency: float, clock: Clock) -> Rate:
+        """See :meth:`rclpy.node.Node.create_rate`."""
+        if frequency <= 0:
+            raise ValueError("frequency must be > 0")
+        # a group of its own: a callback that sleeps must not hold up the timer that wakes it
+        self._rate_group = MutuallyExclusiveCallbackGroup()
+        timer = self.create_timer(1.0 / frequency, None, self._rate_group, clock, autostart=True)
+        return Rate(timer, context=self._node.context)
+
+    def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None) -> GuardCondition:
+        """See :meth:`rclpy.node.Node.create_guard_condition`."""
+        group = callback_group or self.default_callback_group
+        return self._own(GuardCondition, GuardCondition(callback, group, self._node.context))
+
+    def add_waitable(self, waitable: Waitable) -> None:
+        """See :meth:`rclpy.node.Node.add_waitable`."""
+        from .waitable import Waitable
+
+        self._own(Waitable, waitable)
+
+    def _own(self, kind: type, owned: Any) -> Any:
+        with self._lock:
+            self._owned.setdefault(kind, []).append(owned)
+        owned._on_destroy = self._disown
+        if kind is not Publisher:
+            executor = self._node.executor
+            if executor is not None:
+                executor._attach(owned, self._node)
+        return owned
+
+    def _disown(self, owned: Any) -> None:
+        with self._lock:
+            for group in self._owned.values():
+                if owned in group:
+                    group.remove(owned)
+                    return
+
+    def destroy(self, kind: type, owned: Any) -> bool:
+        """Close one of them; False when it is not (any more) of this node."""
+        if owned not in self.of(kind):
+            return False
+        owned.destroy()
+        return True
+
+    def destroy_all(self) -> None:
+        """Close all of them."""
+        with self._lock:
+            everything = [owned for group in self._owned.values() for owned in group]
+        for owned in everything:
+            owned.destroy()
+
+    def resolve_topic(self, topic: str, *, only_expand: bool = False) -> str:
+        """The fully qualified name of a topic, remapped unless ``only_expand``.
+
+        Raises:
+            InvalidTopicNameException: The name breaks the rules.
+        """
+        expanded = self._expand(topic, InvalidTopicNameException)
+        return expanded if only_expand else self._node.remap_topic(expanded)
+
+    def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
+        """The fully qualified name of a service, remapped unless ``only_expand``.
+
+        Raises:
+            InvalidServiceNameException: The name breaks the rules.
+        """
+        expanded = self._expand(service, InvalidServiceNameException)
+        return expanded if only_expand else self._node.remap_service(expanded)
+
+    def _expand(self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]) -> str:
+        fault = names.validate_topic_name(name)
+        if fault is not None:
+            raise error(name, fault.message, fault.index)
+        try:
+            expanded = names.expand_topic_name(name, self._node.get_name(), self._node.get_namespace())
+        except ValueError as unknown:
+            raise error(name, str(unknown), 0) from None
+        fault = names.validate_full_topic_name(expanded)
+        if fault is not None:
+            raise error(expanded, fault.message, fault.index)
+        return expanded
+
+
+def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:
+    """A profile as it is, a depth as the default profile with that depth.
+
+    Raises:
+        TypeError: It is neither.
+        ValueError: The depth is negative.
+    """
+    if isinstance(qos_or_depth, QoSProfile):
+        return qos_or_depth
+    if isinstance(qos_or_depth, int):
+        if qos_or_depth < 0:
+            raise ValueError("history depth must be greater than or equal to zero")
+        return QoSProfile(depth=qos_or_depth)
+    raise TypeError(f"Expected QoSProfile or int, but received {type(qos_or_depth)!r}")

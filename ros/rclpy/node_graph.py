@@ -1,0 +1,144 @@
+"""What a node knows of the other nodes, topics and services."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire import names
+
+from ._rclpy_pybind11 import NodeNameNonExistentError
+from .exceptions import InvalidServiceNameException, InvalidTopicNameException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import EndpointInfo, Graph
+
+    from .node import Node
+    from .topic_endpoint_info import TopicEndpointInfo
+
+__all__ = ["NodeGraph"]
+
+NamesAndTypes = list[tuple[str, list[str]]]
+
+
+class NodeGraph:
+    """The graph queries of one node."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+
+    @property
+    def _graph(self) -> Graph:
+        return self._node.context.wire.graph
+
+    def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:
+        """See :meth:`rclpy.node.Node.get_topic_names_and_types`."""
+        return list(self._graph.topic_names_and_types(demangle=not no_demangle).items())
+
+    def service_names_and_types(self) -> NamesAndTypes:
+        """See :meth:`rclpy.node.Node.get_service_names_and_types`."""
+        return list(self._graph.service_names_and_types().items())
+
+    def node_names(self) -> list[tuple[str, str, str]]:
+        """Name, namespace and enclave of all nodes."""
+        return [tuple(node) for node in self._graph.nodes()]  # type: ignore[misc]
+
+    def by_node(self, kind: str, node_name: str, node_namespace: str, *, no_demangle: bool = False) -> NamesAndTypes:
+        """Topics that a node publishes (``kind`` "publisher") or subscribes to ("subscription").
+
+        Raises:
+            NodeNameNonExistentError: No node of that name is known.
+        """
+
+        def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
+            if no_demangle:
+                topic = names.topic_to_dds(endpoint.topic) if endpoint.topic.startswith("/") else endpoint.topic
+                return topic, names.type_to_dds(endpoint.type_name)
+            return (endpoint.topic, endpoint.type_name) if endpoint.topic.startswith("/") else None
+
+        return self._of_node(kind, node_name, node_namespace, name_and_type)
+
+    def services_by_node(self, kind: str, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """Services that a node offers (``kind`` "service") or calls ("client").
+
+        Raises:
+            NodeNameNonExistentError: No node of that name is known.
+        """
+
+        def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
+            service = names.service_from_dds(endpoint.topic)
+            is_request = endpoint.topic.startswith("rq/")
+            return (service, names.service_type(endpoint.type_name)) if service is not None and is_request else None
+
+        # a server is known by the requests it reads, a client by those it writes
+        return self._of_node("subscription" if kind == "service" else "publisher", node_name, node_namespace, name_and_type)
+
+    def _of_node(
+        self, kind: str, node_name: str, node_namespace: str, name_and_type: Callable[[EndpointInfo], tuple[str, str] | None]
+    ) -> NamesAndTypes:
+        if not any((node.name, node.namespace) == (node_name, node_namespace) for node in self._graph.nodes()):
+            fqn = names.fully_qualified_node_name(node_name, node_namespace)
+            raise NodeNameNonExistentError(f"Failed to get names and types: cannot get names and types for nonexistent node: {fqn}")
+        found: dict[str, set[str]] = {}
+        for endpoint in self._graph.endpoints():
+            owner = endpoint.node
+            if endpoint.kind != kind or owner is None or (owner.name, owner.namespace) != (node_name, node_namespace):
+                continue
+            pair = name_and_type(endpoint)
+            if pair is not None:
+                found.setdefault(pair[0], set()).add(pair[1])
+        return [(name, sorted(found[name])) for name in sorted(found)]
+
+    def count_topic(self, kind: str, topic: str) -> int:
+        """How many publishers or subscriptions a topic has.
+
+        Raises:
+            InvalidTopicNameException: The name breaks the rules.
+        """
+        name = self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+        return sum(endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints())
+
+    def count_service(self, kind: str, service: str) -> int:
+        """How many servers (``kind`` "service") or clients ("client") a service has.
+
+        Raises:
+            InvalidServiceNameException: The name breaks the rules.
+        """
+        name = self._full_name(service, self._node.resolve_service_name, InvalidServiceNameException)
+        wanted = ("subscription" if kind == "service" else "publisher", names.request_topic(name))
+        return sum((endpoint.kind, endpoint.topic) == wanted for endpoint in self._graph.endpoints())
+
+    @staticmethod
+    def _full_name(
+        name: str,
+        resolve: Callable[..., str],
+        error: type[InvalidTopicNameException | InvalidServiceNameException],
+    ) -> str:
+        expanded = resolve(name, only_expand=True)
+        fault = names.validate_full_topic_name(expanded)
+        if fault is not None:
+            raise error(expanded, fault.message, fault.index)
+        return expanded
+
+    def endpoint_infos(self, kind: str, topic: str, *, no_mangle: bool) -> list[TopicEndpointInfo]:
+        """What is known of each publisher or subscription of a topic."""
+        from .topic_endpoint_info import TopicEndpointInfo
+
+        name = topic if no_mangle else self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+        found = []
+        for endpoint in self._graph.endpoints():
+            spelled = names.topic_to_dds(endpoint.topic) if no_mangle and endpoint.topic.startswith("/") else endpoint.topic
+            if endpoint.kind == kind and spelled == name:
+                found.append(TopicEndpointInfo.from_wire(endpoint))
+        return found
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
+        """See :meth:`rclpy.node.Node.wait_for_node`."""
+        wanted = fully_qualified_node_name if fully_qualified_node_name.startswith("/") else f"/{fully_qualified_node_name}"
+
+        def is_there() -> bool:
+            return any(names.fully_qualified_node_name(node.name, node.namespace) == wanted for node in self._graph.nodes())
+
+        timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        return self._node.context._wait_for_graph(is_there, timeout_ns)

@@ -1,0 +1,119 @@
+"""Publishers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._rclpy_pybind11 import InvalidHandle, RCLError
+from turtlewire.errors import WireError
+from turtlewire.msg import serialize
+from turtlewire.wire.qos import Durability
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .context import Context
+    from .duration import Duration
+    from .qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["Publisher"]
+
+
+class Publisher:
+    """Sends messages to a topic; made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`. Thread-safe.
+
+    Attributes:
+        msg_type: Class of its messages.
+        qos_profile: Its quality of service.
+    """
+
+    def __init__(self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, context: Context) -> None:
+        self.msg_type = msg_type
+        self.qos_profile = qos_profile
+        self.topic = wire.topic
+        self.event_handlers: list[Any] = []
+        self._wire = wire
+        self._context = context
+        self._keeps_for_late_joiners = qos_profile.durability == Durability.TRANSIENT_LOCAL
+        self._destroyed = False
+        self._on_destroy: Callable[[Publisher], None] | None = None
+
+    def publish(self, msg: Any) -> None:
+        """Send a message, or bytes that are one in CDR already.
+
+        It is not encoded while nobody is there to receive it.
+
+        Raises:
+            TypeError: It is neither a ``msg_type`` nor ``bytes``.
+            CdrError: A field holds what its type cannot.
+            RCLError: The context was shut down, or the middleware refused it.
+        """
+        if self._destroyed:
+            self._check_usable()
+        if isinstance(msg, self.msg_type):
+            if not self._keeps_for_late_joiners and self._wire.subscription_count() == 0:
+                return
+            cdr = serialize(msg)
+        elif isinstance(msg, bytes):
+            cdr = msg
+        else:
+            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+        try:
+            self._wire.publish(cdr)
+        except WireError as error:
+            if self._context.ok():
+                raise RCLError(f"Failed to publish: {error}") from error
+            raise RCLError("Failed to publish: publisher's context is invalid, at ./src/rcl/publisher.c:423") from None
+
+    def get_subscription_count(self) -> int:
+        """How many matching subscriptions are known at the moment."""
+        self._check_usable()
+        return self._wire.subscription_count()
+
+    @property
+    def topic_name(self) -> str:
+        """Fully qualified name of the topic."""
+        self._check_usable()
+        return self.topic
+
+    @property
+    def handle(self) -> Publisher:
+        """The publisher itself: there is no C handle behind it."""
+        self._check_usable()
+        return self
+
+    @property
+    def logger_name(self) -> str:
+        """Name of the logger of its node."""
+        return getattr(self, "_logger_name", "")
+
+    def assert_liveliness(self) -> None:
+        """Say that this publisher is alive (``LivelinessPolicy.MANUAL_BY_TOPIC``)."""
+        self._check_usable()
+        self._wire.assert_liveliness()
+
+    def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
+        """Block until all reliable subscriptions have acknowledged all messages; False when the time is over before."""
+        self._check_usable()
+        timeout_ns = None if timeout is None or timeout.nanoseconds < 0 else timeout.nanoseconds
+        return self._wire.wait_for_acknowledgments(timeout_ns)
+
+    def destroy(self) -> None:
+        """Close it; further use raises ``InvalidHandle``. Idempotent."""
+        if self._destroyed:
+            return
+        self._destroyed = True
+        self._wire.close()
+        if self._on_destroy is not None:
+            self._on_destroy(self)
+
+    def _check_usable(self) -> None:
+        if self._destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+
+    def __enter__(self) -> Publisher:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.destroy()

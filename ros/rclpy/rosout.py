@@ -1,0 +1,56 @@
+"""The ``/rosout`` publisher of a node: it sends the node's log records as ``rcl_interfaces/msg/Log``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from turtlewire import msg
+from turtlewire.errors import WireError
+from turtlewire.wire.qos import Durability, QoS
+
+from .impl import log_output
+from .type_support import type_id
+
+if TYPE_CHECKING:
+    from turtlewire.wire import base
+
+    from .impl.log_output import LogRecord
+
+__all__ = ["RosoutPublisher"]
+
+_TYPE = "rcl_interfaces/msg/Log"
+_QOS = QoS(depth=1000, durability=Durability.TRANSIENT_LOCAL, lifespan_ns=10_000_000_000)
+
+
+class RosoutPublisher:
+    """Publishes what the logger ``logger_name`` and its children log. Thread-safe."""
+
+    def __init__(self, wire_node: base.Node, logger_name: str) -> None:
+        self._wire = wire_node.create_publisher("/rosout", type_id(_TYPE), _QOS)
+        self._logger_name = logger_name
+        self._message_types: tuple[Any, Any] | None = None
+        log_output.add_rosout_sink(logger_name, self._publish)
+
+    def _publish(self, record: LogRecord) -> None:
+        if self._message_types is None:
+            self._message_types = msg.get_message(_TYPE), msg.get_message("builtin_interfaces/msg/Time")
+        log_type, time_type = self._message_types
+        seconds, nanoseconds = divmod(record.stamp_ns, 1_000_000_000)
+        log = log_type(
+            stamp=time_type(sec=seconds, nanosec=nanoseconds),
+            level=int(record.severity),
+            name=record.name,
+            msg=record.message,
+            file=record.file_name,
+            function=record.function_name,
+            line=record.line_number,
+        )
+        try:
+            self._wire.publish(msg.serialize(log))
+        except WireError:
+            log_output.remove_rosout_sink(self._logger_name)  # the context is gone; the console still has the line
+
+    def close(self) -> None:
+        """Publish no further records. Idempotent."""
+        log_output.remove_rosout_sink(self._logger_name)
+        self._wire.close()

@@ -1,0 +1,105 @@
+"""Service servers."""
+
+from __future__ import annotations
+
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
+
+from .entity import Entity, Work
+from turtlewire.errors import CdrError
+from turtlewire.msg import deserialize, serialize
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .callback_groups import CallbackGroup
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+    from .qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["Service"]
+
+
+class Service(Entity):
+    """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
+
+    The callback is called with a request and an empty response, and returns the response.
+
+    Attributes:
+        srv_type: The service class.
+        srv_name: Name of the service, as it was given.
+        callback: What answers.
+        qos_profile: Quality of service of requests and responses.
+    """
+
+    _ORDER = 4
+
+    def __init__(
+        self,
+        wire: base.Service,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+        logger: RcutilsLogger,
+    ) -> None:
+        super().__init__(callback_group)
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.callback = callback
+        self.qos_profile = qos_profile
+        self._wire = wire
+        self._logger = logger
+
+    @property
+    def service_name(self) -> str:
+        """Fully qualified name of the service."""
+        self._check_usable()
+        return self._wire.service
+
+    @property
+    def logger_name(self) -> str:
+        """Name of the logger of its node."""
+        return self._logger.name
+
+    def send_response(self, response: Any, header: base.RequestId) -> None:
+        """Answer the request that ``header`` identifies.
+
+        Raises:
+            TypeError: ``response`` is not a ``srv_type.Response``.
+        """
+        self._check_usable()
+        if not isinstance(response, self.srv_type.Response):
+            raise TypeError
+        self._wire.send_response(header, serialize(response))
+
+    def _attach(self, executor: Executor) -> None:
+        executor._watch(self._wire, self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._unwatch(self._wire)
+
+    def _take(self) -> Work | None:
+        for header, cdr in self._wire.take(1):
+            try:
+                request = deserialize(self.srv_type.Request, cdr)
+            except CdrError as error:
+                self._logger.error(f"Ignoring a malformed request to service '{self._wire.service}': {error}", throttle_duration_sec=5.0)
+                return None
+            return self._answer, (header, request)
+        return None
+
+    def _answer(self, header: base.RequestId, request: Any) -> Any:
+        outcome = self.callback(request, self.srv_type.Response())
+        if isinstance(outcome, CoroutineType):
+            return self._answer_later(header, outcome)
+        self.send_response(outcome, header)
+        return None
+
+    async def _answer_later(self, header: base.RequestId, outcome: Any) -> None:
+        self.send_response(await outcome, header)
+
+    def _close(self) -> None:
+        self._wire.close()

@@ -1,0 +1,161 @@
+"""SIGINT and SIGTERM: they end every wait of the middleware and shut all contexts down.
+
+Python runs its signal handlers in the main thread, between two bytecodes: a thread that blocks in the middleware would never get
+there. So the interpreter's C handler writes the signal's number into a pipe (:func:`signal.set_wakeup_fd`), and one owned thread reads the
+pipe and shuts the contexts down, which wakes their wait sets. The main thread leaves its wait and Python raises
+``KeyboardInterrupt`` there, for SIGINT. SIGTERM raises nothing by itself: ``spin`` raises ``ExternalShutdownException``.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+import signal
+import threading
+import time
+import weakref
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+__all__ = ["SignalHandlerOptions", "get_current_signal_handlers_options", "install_signal_handlers", "uninstall_signal_handlers"]
+
+#: A terminal and `ros2 launch` both send SIGINT for one Ctrl-C: within this time the second one is not a new request of the user.
+REPEATED_INTERRUPT_S = 1.0
+
+_STOP = 0
+_FROM_HANDLER = 0x80
+
+
+class SignalHandlerOptions(IntEnum):
+    """Which signals shut the contexts down."""
+
+    NO = 0
+    SIGINT = 1
+    SIGTERM = 2
+    ALL = 3
+
+
+class SignalListener(Protocol):
+    """What wants to know of signals: a context."""
+
+    def on_signal(self, signum: int) -> None:
+        """Shut down. Called on the thread of the signals, more than once when a signal comes again."""
+
+
+#: Told of each signal; a context enters itself.
+listeners: weakref.WeakSet[SignalListener] = weakref.WeakSet()
+
+
+class _Watcher:
+    """Owns the handlers, the pipe and the thread between them."""
+
+    def __init__(self, signals: list[signal.Signals]) -> None:
+        self._previous: dict[int, Any] = {}
+        self._interrupted_at = -REPEATED_INTERRUPT_S
+        self._read_fd, self._write_fd = os.pipe()
+        if os.name == "posix":
+            os.set_blocking(self._write_fd, False)
+        self._previous_wakeup_fd = signal.set_wakeup_fd(self._write_fd, warn_on_full_buffer=False)
+        self._thread = threading.Thread(target=self._run, name="rclpy-signals", daemon=True)
+        self._thread.start()
+        for signum in signals:
+            self._previous[signum] = signal.signal(signum, self._handle)
+
+    def close(self) -> None:
+        """Put the former handlers back, end the thread and join it."""
+        for signum, previous in self._previous.items():
+            if signal.getsignal(signum) == self._handle and not self._interrupt_is_fresh():
+                signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
+        signal.set_wakeup_fd(self._previous_wakeup_fd)
+        write_fd, self._write_fd = self._write_fd, -1
+        os.write(write_fd, bytes([_STOP]))
+        self._thread.join()
+        os.close(write_fd)
+        os.close(self._read_fd)
+
+    def _run(self) -> None:
+        while True:
+            for byte in os.read(self._read_fd, 64):
+                if byte == _STOP:
+                    return
+                if not byte & _FROM_HANDLER:
+                    self._forward(byte)
+                if byte & ~_FROM_HANDLER in self._previous:
+                    for listener in list(listeners):
+                        listener.on_signal(byte & ~_FROM_HANDLER)
+
+    def _forward(self, signum: int) -> None:
+        """Tell who watched signals before us (asyncio, for example)."""
+        if self._previous_wakeup_fd >= 0:
+            os.write(self._previous_wakeup_fd, bytes([signum]))
+
+    def _interrupt_is_fresh(self) -> bool:
+        return time.monotonic() - self._interrupted_at < REPEATED_INTERRUPT_S
+
+    def _handle(self, signum: int, frame: FrameType | None) -> None:
+        """Run by the interpreter in the main thread, after its C handler has written to the pipe."""
+        if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
+            os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
+        if signum == signal.SIGINT:
+            if self._interrupt_is_fresh():
+                return
+            self._interrupted_at = time.monotonic()
+        previous = self._previous[signum]
+        if callable(previous):
+            previous(signum, frame)
+
+    def forget(self) -> None:
+        """Leave the pipe to the parent, in a forked child that has no thread to read it."""
+        signal.set_wakeup_fd(-1)
+        self._write_fd = -1
+        for signum, previous in self._previous.items():
+            signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
+
+
+_lock = threading.Lock()
+_watcher: _Watcher | None = None
+_options = SignalHandlerOptions.NO
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Which signals are handled at the moment."""
+    return _options
+
+
+def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
+    """Handle the signals of ``options``; nothing happens when handlers are installed already.
+
+    Python allows this in the main thread only: elsewhere nothing is installed, and signals stay the main program's business.
+    """
+    global _watcher, _options  # noqa: PLW0603 - signal handlers belong to the process
+    with _lock:
+        if _watcher is not None or options == SignalHandlerOptions.NO or threading.current_thread() is not threading.main_thread():
+            return
+        signals = [signum for signum in (signal.SIGINT, signal.SIGTERM) if options & SignalHandlerOptions[signum.name]]
+        _watcher = _Watcher(signals)
+        _options = SignalHandlerOptions(options)
+
+
+def uninstall_signal_handlers() -> None:
+    """Put the former handlers back; nothing happens when none are installed."""
+    global _watcher, _options  # noqa: PLW0603 - as above
+    with _lock:
+        if _watcher is None or threading.current_thread() is not threading.main_thread():
+            return
+        watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
+    watcher.close()
+
+
+def _after_fork_in_child() -> None:
+    global _watcher, _options  # noqa: PLW0603 - as above
+    watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
+    if watcher is not None:
+        watcher.forget()
+
+
+atexit.register(uninstall_signal_handlers)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_after_fork_in_child)

@@ -1,0 +1,139 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from .entity import Entity, Work
+from turtlewire.errors import CdrError
+from turtlewire.msg import deserialize
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .callback_groups import CallbackGroup
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+    from .qos import QoSProfile
+    from turtlewire.wire import base
+
+__all__ = ["MessageInfo", "Subscription"]
+
+#: Second argument of a callback that takes two: what is known of the message beside its content.
+MessageInfo = dict[str, Any]
+
+
+class Subscription(Entity):
+    """Receives the messages of a topic; made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
+
+    Attributes:
+        msg_type: Class of its messages.
+        callback: Called with each message, and with a message info when it takes two arguments.
+        raw: Whether the callback gets the serialized bytes instead of a message.
+        qos_profile: Its quality of service.
+    """
+
+    _ORDER = 1
+
+    class CallbackType(Enum):
+        """How many arguments the callback takes."""
+
+        MessageOnly = 0
+        WithMessageInfo = 1
+
+    def __init__(
+        self,
+        wire: base.Subscription,
+        msg_type: Any,
+        callback: Callable[..., Any],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+        raw: bool,
+        logger: RcutilsLogger,
+    ) -> None:
+        super().__init__(callback_group)
+        self.msg_type = msg_type
+        self.qos_profile = qos_profile
+        self.raw = raw
+        self.topic = wire.topic
+        self.event_handlers: list[Any] = []
+        self.callback = callback
+        self._wire = wire
+        self._logger = logger
+
+    @property
+    def callback(self) -> Callable[..., Any]:
+        """What is called with each message."""
+        return self._callback
+
+    @callback.setter
+    def callback(self, value: Callable[..., Any]) -> None:
+        self._callback_type = _callback_type(value)
+        self._with_info = self._callback_type is Subscription.CallbackType.WithMessageInfo
+        self._callback = value
+
+    @property
+    def topic_name(self) -> str:
+        """Fully qualified name of the topic."""
+        self._check_usable()
+        return self.topic
+
+    def get_publisher_count(self) -> int:
+        """How many matching publishers are known at the moment."""
+        self._check_usable()
+        return self._wire.publisher_count()
+
+    def _attach(self, executor: Executor) -> None:
+        executor._watch(self._wire, self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._unwatch(self._wire)
+
+    def _take(self) -> Work | None:
+        for cdr, info in self._wire.take(1):
+            try:
+                message = cdr if self.raw else deserialize(self.msg_type, cdr)
+            except CdrError as error:
+                self._logger.error(
+                    f"Ignoring a malformed message on topic '{self.topic}': {error}", throttle_duration_sec=5.0
+                )
+                return None
+            return self._callback, ((message, _message_info(info)) if self._with_info else (message,))
+        return None
+
+    def _close(self) -> None:
+        self._wire.close()
+
+
+def _message_info(info: base.MessageInfo) -> MessageInfo:
+    return {
+        "source_timestamp": info.source_timestamp_ns,
+        "received_timestamp": info.received_timestamp_ns,
+        "publication_sequence_number": None,
+        "reception_sequence_number": None,
+    }
+
+
+def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
+    """Whether a callback takes one argument or two.
+
+    Raises:
+        RuntimeError: It takes neither.
+    """
+    code = getattr(callback, "__code__", None)  # a plain function or method, without importing inspect
+    if code is not None and not code.co_flags & 0x0C and not hasattr(callback, "__wrapped__"):
+        count = code.co_argcount - (1 if hasattr(callback, "__self__") else 0)
+        required = count - len(callback.__defaults__ or ())  # type: ignore[attr-defined]
+        if required == count and not code.co_kwonlyargcount and count in (1, 2):
+            return Subscription.CallbackType(count - 1)
+    import inspect
+
+    signature = inspect.signature(callback)
+    for count in (1, 2):
+        try:
+            signature.bind(*(None,) * count)
+        except TypeError:
+            continue
+        return Subscription.CallbackType(count - 1)
+    raise RuntimeError("Subscription.__init__(): callback should be either be callable with one argument(to get only the message) or two (to get message and message info)")

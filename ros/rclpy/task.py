@@ -1,0 +1,256 @@
+"""Futures and tasks: results that come later, and the ``async def`` callbacks that wait for them.
+
+A :class:`Future` can be awaited on an rclpy executor and in a running asyncio loop alike: on an executor the awaiting task sleeps until
+the future is done (nothing polls), in asyncio it becomes an asyncio future of that loop.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import weakref
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+    from .executors import Executor
+
+__all__ = ["Future", "Task"]
+
+
+class Future:
+    """The outcome of something that is not finished yet. Thread-safe.
+
+    Args:
+        executor: When given, done-callbacks run as tasks of it; else in the thread that finishes the future.
+    """
+
+    def __init__(self, *, executor: Executor | None = None) -> None:
+        self._done = False
+        self._cancelled = False
+        self._result: Any = None
+        self._exception: BaseException | None = None
+        self._exception_fetched = False
+        self._callbacks: list[Callable[[Future], Any]] = []
+        self._waiters: list[Callable[[], None]] = []
+        self._lock = threading.Lock()
+        self._executor: weakref.ref[Executor] | None = None
+        self._set_executor(executor)
+
+    def __del__(self) -> None:
+        if self._exception is not None and not self._exception_fetched:
+            print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)  # noqa: T201 - ROS 2's text and place
+
+    def __await__(self) -> Generator[Any, None, Any]:
+        if self._pending():
+            loop = _running_asyncio_loop()
+            if loop is None:
+                while self._pending():
+                    yield self
+            else:
+                yield from self._as_asyncio_future(loop)
+        return self.result()
+
+    def _as_asyncio_future(self, loop: Any) -> Generator[Any, None, None]:
+        finished = loop.create_future()
+
+        def finish() -> None:
+            if not finished.done():
+                finished.set_result(None)
+
+        self._add_waiter(lambda: loop.call_soon_threadsafe(finish))
+        yield from finished.__await__()
+
+    def _pending(self) -> bool:
+        return not self._done and not self._cancelled
+
+    def cancel(self) -> None:
+        """Cancel unless it is done; done-callbacks are called."""
+        self._finish(cancelled=True)
+
+    def cancelled(self) -> bool:
+        """Whether it was cancelled."""
+        return self._cancelled
+
+    def done(self) -> bool:
+        """Whether it has a result or an exception, or was cancelled."""
+        return self._done or self._cancelled
+
+    def result(self) -> Any:
+        """The result, or None while there is none.
+
+        Raises:
+            BaseException: What :meth:`set_exception` was given.
+        """
+        if self._exception is not None:
+            self._exception_fetched = True
+            raise self._exception
+        return self._result
+
+    def exception(self) -> BaseException | None:
+        """The exception, if it ended with one."""
+        self._exception_fetched = True
+        return self._exception
+
+    def set_result(self, result: Any) -> None:
+        """Finish it with a result."""
+        self._finish(result=result)
+
+    def set_exception(self, exception: BaseException) -> None:
+        """Finish it with an exception, which :meth:`result` will raise."""
+        self._finish(exception=exception)
+
+    def add_done_callback(self, callback: Callable[[Future], Any]) -> None:
+        """Call ``callback(future)`` when it is done; at once when it is done already.
+
+        With an executor the callback runs as a task of that executor (exceptions leave its ``spin``), else in the finishing thread.
+        """
+        with self._lock:
+            if self._pending():
+                self._callbacks.append(callback)
+                return
+        executor = self._get_executor()
+        if executor is None:
+            callback(self)
+        else:
+            executor.create_task(callback, self)
+
+    def remove_done_callback(self, callback: Callable[[Future], Any]) -> bool:
+        """Forget a done-callback that has not been called yet; whether there was one."""
+        with self._lock:
+            if callback not in self._callbacks:
+                return False
+            self._callbacks.remove(callback)
+            return True
+
+    def _finish(self, *, result: Any = None, exception: BaseException | None = None, cancelled: bool = False) -> None:
+        with self._lock:
+            if cancelled and not self._pending():
+                return
+            self._result = result
+            self._exception = exception
+            self._exception_fetched = False
+            self._cancelled = cancelled
+            self._done = not cancelled
+            waiters, self._waiters = self._waiters, []
+            callbacks, self._callbacks = self._callbacks, []
+        for waiter in waiters:
+            waiter()
+        if callbacks:
+            self._run_callbacks(callbacks)
+
+    def _run_callbacks(self, callbacks: list[Callable[[Future], Any]]) -> None:
+        executor = self._get_executor()
+        for callback in callbacks:
+            if executor is not None:
+                executor.create_task(callback, self)
+                continue
+            try:
+                callback(self)
+            except Exception as error:  # noqa: BLE001 - a done-callback must not break who finishes the future; ROS 2 warns as well
+                import warnings
+
+                warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=3)
+
+    def _add_waiter(self, waiter: Callable[[], None]) -> None:
+        """Call ``waiter()`` in the finishing thread, at once when done; for wake-ups, which must be short and not raise."""
+        with self._lock:
+            if self._pending():
+                self._waiters.append(waiter)
+                return
+        waiter()
+
+    def _wait(self, timeout_sec: float | None) -> bool:
+        """Block this thread until it is done; False when the time was over before."""
+        done = threading.Event()
+        self._add_waiter(done.set)
+        return done.wait(timeout_sec)
+
+    def _get_executor(self) -> Executor | None:
+        return None if self._executor is None else self._executor()
+
+    def _set_executor(self, executor: Executor | None) -> None:
+        self._executor = None if executor is None else weakref.ref(executor)
+
+
+class Task(Future):
+    """Runs a function or a coroutine; its result or exception becomes the task's.
+
+    Calling the task runs it up to its next ``await`` of something unfinished. A task belongs to an executor that calls it;
+    :meth:`Executor.create_task <rclpy.executors.Executor.create_task>` makes one.
+    """
+
+    def __init__(
+        self,
+        handler: Callable[..., Any] | CoroutineType[Any, Any, Any],
+        args: tuple[Any, ...] | list[Any] | None = None,
+        kwargs: dict[str, Any] | None = None,
+        executor: Executor | None = None,
+    ) -> None:
+        super().__init__(executor=executor)
+        self._handler: Any = handler
+        self._args = tuple(args or ())
+        self._kwargs = kwargs or {}
+        self._step_lock = threading.Lock()
+        self._awaited: Any = None
+
+    def __call__(self) -> None:
+        """Run one step; nothing happens when it is done, or another thread is running it."""
+        if self.done() or not self._step_lock.acquire(blocking=False):
+            return
+        try:
+            if not self.done():
+                self._step()
+        finally:
+            self._step_lock.release()
+
+    def _step(self) -> None:
+        try:
+            if not isinstance(self._handler, CoroutineType):
+                outcome = self._handler(*self._args, **self._kwargs)
+                if not isinstance(outcome, CoroutineType):
+                    self._complete(result=outcome)
+                    return
+                self._handler = outcome
+            self._awaited = self._handler.send(None)
+        except StopIteration as stop:
+            self._complete(result=stop.value)
+        except Exception as error:  # noqa: BLE001 - it becomes the task's outcome, which the executor raises
+            self._complete(exception=error)
+
+    def _complete(self, **outcome: Any) -> None:
+        self._handler = self._awaited = None
+        self._args, self._kwargs = (), {}
+        self._finish(**outcome)
+
+    def _when_runnable(self, resume: Callable[[], None]) -> None:
+        """Call ``resume()`` once, as soon as another step makes sense."""
+        awaited, self._awaited = self._awaited, None
+        if isinstance(awaited, Future):
+            awaited._add_waiter(resume)
+        else:
+            resume()
+
+    def executing(self) -> bool:
+        """Whether a thread is running a step at this moment."""
+        return self._step_lock.locked()
+
+    def cancel(self) -> None:
+        """Cancel it; a coroutine that waits is closed (its ``finally`` blocks run)."""
+        if self.done():
+            return
+        handler = self._handler
+        if isinstance(handler, CoroutineType) and self._step_lock.acquire(blocking=False):
+            try:
+                handler.close()
+            finally:
+                self._step_lock.release()
+        super().cancel()
+
+
+def _running_asyncio_loop() -> Any:
+    """The asyncio loop that runs in this thread, if any; never imports asyncio."""
+    asyncio = sys.modules.get("asyncio")
+    return None if asyncio is None else asyncio._get_running_loop()

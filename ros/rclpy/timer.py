@@ -1,0 +1,222 @@
+"""Timers and rates."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+from .clock_type import ClockType
+from .entity import Entity, Work
+from .exceptions import ROSInterruptException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .callback_groups import CallbackGroup
+    from .clock import Clock, TimeJump
+    from .context import Context
+    from .executors import Executor
+
+__all__ = ["Rate", "Timer"]
+
+
+class Timer(Entity):
+    """Calls ``callback()`` once per period of ``clock``, for the first time after one period.
+
+    When a call comes late, the following ones keep the old rhythm; periods that were missed entirely are skipped, never made up for.
+    On a ROS clock that follows ``/clock``, the timer follows simulated time, its stops and jumps included.
+    """
+
+    _ORDER = 0
+
+    def __init__(
+        self,
+        callback: Callable[[], Any] | None,
+        callback_group: CallbackGroup | None,
+        timer_period_ns: int,
+        clock: Clock,
+        *,
+        context: Context | None = None,
+        autostart: bool = True,
+    ) -> None:
+        from .utilities import get_default_context
+
+        if timer_period_ns < 0:
+            raise ValueError("timer period must be non-negative")
+        super().__init__(callback_group)
+        self.callback = callback
+        self._context = get_default_context() if context is None else context
+        self._clock = clock
+        self._period_ns = timer_period_ns
+        self._last_call_ns = self._now_ns()
+        self._next_call_ns = self._last_call_ns + timer_period_ns
+        self._remaining_ns = 0
+        self._canceled = not autostart
+        self._jump_handle = self._follow_jumps() if clock.clock_type == ClockType.ROS_TIME else None
+
+    @property
+    def clock(self) -> Clock:
+        """The clock that it follows."""
+        return self._clock
+
+    @property
+    def timer_period_ns(self) -> int:
+        """Nanoseconds between calls; a new value counts from the next call on."""
+        self._check_usable()
+        return self._period_ns
+
+    @timer_period_ns.setter
+    def timer_period_ns(self, value: int) -> None:
+        self._check_usable()
+        self._period_ns = int(value)
+
+    def is_ready(self) -> bool:
+        """Whether a call is due."""
+        self._check_usable()
+        return not self._canceled and self._next_call_ns <= self._now_ns()
+
+    def is_canceled(self) -> bool:
+        """Whether it was cancelled and not reset since."""
+        self._check_usable()
+        return self._canceled
+
+    def cancel(self) -> None:
+        """Make no more calls until :meth:`reset`."""
+        self._check_usable()
+        self._canceled = True
+        self._reschedule()
+
+    def reset(self) -> None:
+        """Start (again): the next call is one period from now."""
+        self._check_usable()
+        self._next_call_ns = self._now_ns() + self._period_ns
+        self._canceled = False
+        self._reschedule()
+
+    def time_since_last_call(self) -> int:
+        """Nanoseconds since the last call, or since it was made."""
+        self._check_usable()
+        return self._now_ns() - self._last_call_ns
+
+    def time_until_next_call(self) -> int | None:
+        """Nanoseconds until the next call, negative when it is late, None when it is cancelled."""
+        self._check_usable()
+        return None if self._canceled else self._next_call_ns - self._now_ns()
+
+    def _now_ns(self) -> int:
+        return self._clock._now_ns()
+
+    def _follows_clock_topic(self) -> bool:
+        return self._jump_handle is not None and bool(self._clock.ros_time_is_active)  # type: ignore[attr-defined]
+
+    def _delay_ns(self) -> int | None:
+        """Time on the monotonic clock until a look at the timer makes sense; None when something else will bring it up."""
+        if self._canceled:
+            return None
+        delay_ns = self._next_call_ns - self._now_ns()
+        if delay_ns <= 0:
+            return 0
+        return None if self._follows_clock_topic() else delay_ns
+
+    def _reschedule(self) -> None:
+        executor = None if self._executor is None else self._executor()
+        if executor is not None:
+            executor._timers.schedule(self, self._delay_ns())
+
+    def _attach(self, executor: Executor) -> None:
+        executor._timers.schedule(self, self._delay_ns())
+
+    def _detach(self, executor: Executor) -> None:
+        executor._timers.discard(self)
+
+    def _take(self) -> Work | None:
+        now_ns = self._now_ns()
+        if self._canceled:
+            return None
+        if self._next_call_ns > now_ns:  # its clock went back or stands still
+            self._reschedule()
+            return None
+        self._last_call_ns = now_ns
+        self._next_call_ns += self._period_ns
+        if self._next_call_ns < now_ns:
+            self._skip_missed_periods(now_ns)
+        self._reschedule()
+        return None if self.callback is None else (self.callback, ())
+
+    def _skip_missed_periods(self, now_ns: int) -> None:
+        if self._period_ns == 0:
+            self._next_call_ns = now_ns
+        else:
+            behind_ns = now_ns - self._next_call_ns
+            self._next_call_ns += (1 + (behind_ns - 1) // self._period_ns) * self._period_ns
+
+    def _follow_jumps(self) -> Any:
+        from .clock import JumpThreshold
+        from .duration import Duration
+
+        every_jump = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=Duration(nanoseconds=-1), on_clock_change=True)
+        return self._clock.create_jump_callback(every_jump, pre_callback=self._before_jump, post_callback=self._after_jump)
+
+    def _before_jump(self) -> None:
+        self._remaining_ns = self._next_call_ns - self._now_ns()
+
+    def _after_jump(self, jump: TimeJump) -> None:
+        from .clock import ClockChange
+
+        now_ns = self._now_ns()
+        if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+            if now_ns != 0:
+                self._next_call_ns = now_ns + self._remaining_ns
+                self._last_call_ns = self._next_call_ns - self._period_ns
+        elif now_ns < self._last_call_ns:
+            self._last_call_ns = now_ns
+            self._next_call_ns = now_ns + self._period_ns
+        self._reschedule()
+
+    def _close(self) -> None:
+        if self._jump_handle is not None:
+            self._jump_handle.unregister()
+
+
+class Rate:
+    """Sleeps in step with a timer; another thread has to spin the timer's node."""
+
+    def __init__(self, timer: Timer, *, context: Context) -> None:
+        self._timer = timer
+        self._ticked = threading.Condition()
+        self._ticks = 0
+        self._interrupted = False
+        self._destroyed = False
+        timer.callback = self._tick
+        context.on_shutdown(self._interrupt)
+
+    def sleep(self) -> None:
+        """Block until the timer's next call.
+
+        Raises:
+            ROSInterruptException: The context was shut down.
+            RuntimeError: The rate was destroyed.
+        """
+        with self._ticked:
+            if self._destroyed:
+                raise RuntimeError("Rate cannot sleep because it has been destroyed")
+            seen = self._ticks
+            self._ticked.wait_for(lambda: self._ticks != seen or self._interrupted or self._destroyed)
+            if self._interrupted:
+                raise ROSInterruptException
+
+    def destroy(self) -> None:
+        """End all sleeps."""
+        with self._ticked:
+            self._destroyed = True
+            self._ticked.notify_all()
+
+    def _tick(self) -> None:
+        with self._ticked:
+            self._ticks += 1
+            self._ticked.notify_all()
+
+    def _interrupt(self) -> None:
+        with self._ticked:
+            self._interrupted = True
+            self._ticked.notify_all()

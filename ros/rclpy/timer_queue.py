@@ -1,0 +1,73 @@
+"""The timers of an executor, ordered by the moment at which they are due."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import threading
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .timer import Timer
+
+__all__ = ["TimerQueue"]
+
+
+class TimerQueue:
+    """A heap of due moments on the monotonic clock. Thread-safe.
+
+    A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the newest ticket of a timer counts.
+
+    Args:
+        on_earlier: Called, without locks held, when the next moment came nearer: whoever waits for it must wait anew.
+    """
+
+    def __init__(self, on_earlier: Callable[[], None]) -> None:
+        self._on_earlier = on_earlier
+        self._heap: list[tuple[int, int, Timer]] = []
+        self._tickets: dict[Timer, int] = {}
+        self._next_ticket = itertools.count()
+        self._lock = threading.Lock()
+
+    def schedule(self, timer: Timer, delay_ns: int | None) -> None:
+        """Have ``timer`` come due after ``delay_ns``; None: not until it is scheduled again. Replaces its former entry."""
+        with self._lock:
+            if delay_ns is None:
+                self._tickets.pop(timer, None)
+                return
+            ticket = self._tickets[timer] = next(self._next_ticket)
+            entry = (time.monotonic_ns() + delay_ns, ticket, timer)
+            heapq.heappush(self._heap, entry)
+            is_first = self._heap[0] is entry
+        if is_first:
+            self._on_earlier()
+
+    def discard(self, timer: Timer) -> None:
+        """Forget ``timer``."""
+        self.schedule(timer, None)
+
+    def time_until_next(self) -> int | None:
+        """Nanoseconds until the next timer is due, 0 when one is, None when there is none."""
+        with self._lock:
+            self._drop_stale()
+            return max(0, self._heap[0][0] - time.monotonic_ns()) if self._heap else None
+
+    def pop_due(self) -> list[Timer]:
+        """Remove and return the timers that are due; each must be scheduled again to come back."""
+        due: list[Timer] = []
+        with self._lock:
+            now = time.monotonic_ns()
+            self._drop_stale()
+            while self._heap and self._heap[0][0] <= now:
+                timer = heapq.heappop(self._heap)[2]
+                del self._tickets[timer]
+                due.append(timer)
+                self._drop_stale()
+        return due
+
+    def _drop_stale(self) -> None:
+        while self._heap and self._tickets.get(self._heap[0][2]) != self._heap[0][1]:
+            heapq.heappop(self._heap)

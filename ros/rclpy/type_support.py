@@ -1,0 +1,58 @@
+"""What the middleware has to know of a message or service class."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from turtlewire import msg
+from turtlewire.wire.base import TypeId
+
+__all__ = ["check_for_type_support", "check_is_valid_msg_type", "check_is_valid_srv_type", "service_type_ids", "type_id"]
+
+_ROS_1_HINT = (
+    " This might be a ROS 1 message type but it should be a ROS 2 message type."
+    " Make sure to source your ROS 2 workspace after your ROS 1 workspace."
+)
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Make sure that something is a generated message, service or action class.
+
+    Raises:
+        AttributeError: It is not; the text is ROS 2's.
+    """
+    if not isinstance(msg_or_srv_type, type) or not issubclass(msg_or_srv_type, (msg.Message, msg.Service, msg.Action)):
+        kind = type(msg_or_srv_type).__name__
+        raise AttributeError(f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}")
+
+
+def check_is_valid_msg_type(msg_type: Any) -> None:
+    """Make sure that something is a message class.
+
+    Raises:
+        RuntimeError: It is a service or action class; AttributeError when it is no interface class at all.
+    """
+    check_for_type_support(msg_type)
+    if not issubclass(msg_type, msg.Message):
+        raise RuntimeError("The message type provided is not valid, this might be a service or action")
+
+
+def check_is_valid_srv_type(srv_type: Any) -> None:
+    """Make sure that something is a service class.
+
+    Raises:
+        RuntimeError: It is a message or action class; AttributeError when it is no interface class at all.
+    """
+    check_for_type_support(srv_type)
+    if not issubclass(srv_type, msg.Service):
+        raise RuntimeError("The service type provided is not valid, this might be a message or action")
+
+
+def type_id(name: str) -> TypeId:
+    """``turtlesim/msg/Pose`` with its hash."""
+    return TypeId(name, msg.type_hash(name))
+
+
+def service_type_ids(name: str) -> tuple[TypeId, TypeId]:
+    """The request and the response of ``turtlesim/srv/Spawn`` with their hashes."""
+    return type_id(f"{name}_Request"), type_id(f"{name}_Response")

@@ -1,0 +1,79 @@
+"""Functions on the default context, and small helpers."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .context import Context
+
+__all__ = [
+    "get_available_rmw_implementations",
+    "get_default_context",
+    "get_rmw_implementation_identifier",
+    "ok",
+    "remove_ros_args",
+    "shutdown",
+    "timeout_sec_to_nsec",
+    "try_shutdown",
+]
+
+_default_context: Context | None = None
+_lock = threading.Lock()
+
+
+def get_default_context(*, shutting_down: bool = False) -> Context:
+    """The context that is used where none is given.
+
+    Args:
+        shutting_down: Return it for the last time: the next call makes a new one, so that ``init`` can follow ``shutdown``.
+    """
+    global _default_context  # noqa: PLW0603 - there is one for the process
+    from .context import Context
+
+    with _lock:
+        context = Context() if _default_context is None else _default_context
+        _default_context = None if shutting_down else context
+        return context
+
+
+def ok(*, context: Context | None = None) -> bool:
+    """Whether the context (None: the default one) is initialized and has not been shut down."""
+    return (get_default_context() if context is None else context).ok()
+
+
+def shutdown(*, context: Context | None = None) -> None:
+    """Shut a context down (None: the default one); see :meth:`rclpy.context.Context.shutdown`."""
+    (get_default_context(shutting_down=True) if context is None else context).shutdown()
+
+
+def try_shutdown(*, context: Context | None = None) -> None:
+    """Shut a context down (None: the default one) unless that has happened; never raises for that."""
+    (get_default_context(shutting_down=True) if context is None else context).try_shutdown()
+
+
+def remove_ros_args(args: list[str] | None = None) -> list[str]:
+    """``args`` (None: ``sys.argv``) without its ``--ros-args`` blocks; the first entry, the program, stays."""
+    import sys
+
+    from .arguments import Arguments
+
+    return list(Arguments.parse(sys.argv if args is None else args).user_args)
+
+
+def get_rmw_implementation_identifier() -> str:
+    """The middleware in use: ``rmw_cyclonedds_cpp`` unless ``RMW_IMPLEMENTATION`` says otherwise."""
+    import os
+
+    return os.environ.get("RMW_IMPLEMENTATION") or "rmw_cyclonedds_cpp"
+
+
+def get_available_rmw_implementations() -> set[str]:
+    """The middlewares that ``RMW_IMPLEMENTATION`` may name."""
+    return {"rmw_cyclonedds_cpp", "local"}
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Seconds to nanoseconds; None and negative values, which mean "no limit", to -1."""
+    return -1 if timeout_sec is None or timeout_sec < 0 else int(float(timeout_sec) * 1_000_000_000)
