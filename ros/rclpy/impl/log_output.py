@@ -120,8 +120,7 @@ def emit(record: LogRecord) -> None:
 
 def configure(
     *,
-    default_level: int | None = None,
-    logger_levels: dict[str, int] | None = None,
+    levels: dict[str, int] | None = None,
     console: bool = True,
     rosout: bool = True,
     file: bool = True,
@@ -130,8 +129,7 @@ def configure(
     """Apply what the command line says, and read the environment anew. A context calls it when it starts.
 
     Args:
-        default_level: Level of all loggers that have none of their own or inherited; unchanged if None.
-        logger_levels: Level of single loggers.
+        levels: Logger name to severity; the empty name means those that neither have nor inherit one. Other levels stay.
         console: Whether to write to the console.
         rosout: Whether to publish to ``/rosout``.
         file: Whether to write a log file.
@@ -139,9 +137,7 @@ def configure(
     """
     global _console, _file, _rosout_enabled  # noqa: PLW0603 - as above
     shutdown()
-    if default_level:
-        log_levels.set_level("", default_level)
-    for name, level in (logger_levels or {}).items():
+    for name, level in (levels or {}).items():
         log_levels.set_level(name, level)
     _console = _Console()
     _console.enabled = console

@@ -1,0 +1,258 @@
+"""What ``--ros-args`` says: remap rules, parameters, log levels and the enclave.
+
+::
+
+    program user args --ros-args -r from:=to -p name:=value --params-file f.yaml --log-level debug -- more user args
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .impl.rcl_remap import RemapRule
+    from .impl.rcl_yaml_param_parser import ParameterValue
+
+__all__ = ["Arguments"]
+
+_BEGIN = "--ros-args"
+_END = "--"
+
+
+class _Option(NamedTuple):
+    """A flag with a value: what errors call the value, what they say when it is missing, and who takes it."""
+
+    label: str
+    missing: str
+    method: str
+
+
+_REMAP = _Option("remap rule", "Couldn't parse trailing {} flag. No remap rule found.", "_add_remap_rule")
+_PARAM = _Option("parameter override rule", "Couldn't parse trailing {} flag. No parameter override found.", "_add_parameter")
+_ENCLAVE = _Option("enclave name", "Couldn't parse trailing {} flag. No enclave path provided.", "_set_enclave")
+_OPTIONS = {
+    "-r": _REMAP,
+    "--remap": _REMAP,
+    "-p": _PARAM,
+    "--param": _PARAM,
+    "-e": _ENCLAVE,
+    "--enclave": _ENCLAVE,
+    "--params-file": _Option("params file", "Couldn't parse trailing {} flag. No file path provided.", "_add_parameter_file"),
+    "--log-level": _Option("log level", "Couldn't parse trailing log level flag: '{}'. No log level provided.", "_set_log_level"),
+    "--log-file-name": _Option(
+        "log file name prefix", "Couldn't parse trailing {} flag. No string prefix provided.", "_set_log_file_name"
+    ),
+    "--log-config-file": _Option("log config file", "Couldn't parse trailing {} flag. No file path provided.", "_set_log_config_file"),
+}
+_SWITCHES = {
+    f"--{verb}-{attribute.replace('_', '-')}": (attribute, verb == "enable")
+    for verb in ("enable", "disable")
+    for attribute in ("stdout_logs", "rosout_logs", "external_lib_logs")
+}
+
+
+class Arguments:
+    """The parsed ``--ros-args`` blocks of a command line. Not changed after :meth:`parse`.
+
+    Attributes:
+        user_args: What is not in the blocks, the program's name included.
+        log_levels: Logger name to severity number; the empty name means all others.
+        log_file_name: First part of the log file's name, None for the program's.
+        log_config_file: Configuration file of a logging backend, None when none is given.
+        stdout_logs: Whether to log to the console.
+        rosout_logs: Whether to log to ``/rosout``.
+        external_lib_logs: Whether to log to a file.
+        enclave: Security enclave, ``/`` by default.
+    """
+
+    def __init__(self) -> None:
+        self.user_args: list[str] = []
+        self.log_levels: dict[str, int] = {}
+        self.log_file_name: str | None = None
+        self.log_config_file: str | None = None
+        self.stdout_logs = True
+        self.rosout_logs = True
+        self.external_lib_logs = True
+        self.enclave = "/"
+        self._rules: list[RemapRule] = []
+        #: Per command line, later ones win: node name pattern to parameters.
+        self._parameter_maps: list[dict[str, dict[str, ParameterValue]]] = [{}]
+
+    @classmethod
+    def parse(cls, argv: Sequence[str]) -> Arguments:
+        """Read a command line.
+
+        Raises:
+            RCLInvalidROSArgsError: A rule is malformed, or a parameter file cannot be read; the text says which.
+            UnknownROSArgsError: A block holds something that is no flag; the text lists all of that.
+        """
+        self = cls()
+        unknown: list[str] = []
+        words = iter(argv)
+        in_block = False
+        for word in words:
+            if word == _BEGIN:
+                in_block = True
+            elif not in_block:
+                self.user_args.append(word)
+            elif word == _END:
+                in_block = False
+            elif word in _OPTIONS:
+                self._take_option(word, next(words, None))
+            elif word in _SWITCHES:
+                setattr(self, *_SWITCHES[word])
+            else:
+                unknown.append(word)
+        if unknown:
+            raise UnknownROSArgsError(repr(unknown))
+        return self
+
+    @classmethod
+    def parse_global(cls, argv: Sequence[str]) -> Arguments:
+        """Read the command line of a process: as :meth:`parse`, with the log line and the error that ``rclpy.init`` shows.
+
+        Raises:
+            RCLError: A rule is malformed.
+            UnknownROSArgsError: A block holds something that is no flag.
+        """
+        try:
+            return cls.parse(argv)
+        except RCLInvalidROSArgsError as error:
+            from .logging import get_logger
+
+            get_logger("rcl").error("Failed to parse global arguments")
+            raise RCLError(f"failed to initialize rcl: {error}") from None
+
+    @classmethod
+    def parse_local(cls, argv: Sequence[str]) -> Arguments:
+        """Read the arguments of a single node.
+
+        Raises:
+            RCLInvalidROSArgsError: A rule is malformed.
+            UnknownROSArgsError: A block holds something that is no flag.
+        """
+        try:
+            return cls.parse(argv)
+        except RCLInvalidROSArgsError as error:
+            raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
+
+    def followed_by(self, other: Arguments) -> Arguments:
+        """These arguments (of a node) before ``other`` (of the process): remap rules and parameters of these win."""
+        both = Arguments()
+        both.__dict__.update(self.__dict__)
+        both._rules = self._rules + other._rules
+        both._parameter_maps = other._parameter_maps + self._parameter_maps
+        return both
+
+    def remap_node_name(self, node_name: str) -> str:
+        """The name that a node of this name gets."""
+        return self._remap("NODE_NAME", node_name, node_name, "/")
+
+    def remap_namespace(self, node_name: str, namespace: str) -> str:
+        """The namespace that the node gets; ``node_name`` is its name after renaming."""
+        return self._remap("NAMESPACE", namespace, node_name, namespace)
+
+    def remap_topic(self, topic: str, node_name: str, namespace: str) -> str:
+        """The topic that a node uses instead of ``topic``; both are fully qualified."""
+        return self._remap("TOPIC", topic, node_name, namespace)
+
+    def remap_service(self, service: str, node_name: str, namespace: str) -> str:
+        """The service that a node uses instead of ``service``; both are fully qualified."""
+        return self._remap("SERVICE", service, node_name, namespace)
+
+    def _remap(self, kind: str, name: str, node_name: str, namespace: str) -> str:
+        if not self._rules:
+            return name
+        from .impl.rcl_remap import RemapKind, remap
+
+        return remap(self._rules, RemapKind[kind], name, node_name, namespace)
+
+    def parameter_overrides(self, node_fqn: str) -> dict[str, Any]:
+        """The values that the command line and its files give to a node's parameters.
+
+        Args:
+            node_fqn: Fully qualified name after renaming, for example ``/ns/listener``.
+
+        Returns:
+            Name to bool, int, float, str or a list of one of them.
+        """
+        overrides: dict[str, Any] = {}
+        for nodes in self._parameter_maps:
+            for pattern, parameters in nodes.items():
+                if _matches(pattern, node_fqn):
+                    overrides.update(parameters)
+        return overrides
+
+    def _take_option(self, flag: str, value: str | None) -> None:
+        option = _OPTIONS[flag]
+        if value is None:
+            raise RCLInvalidROSArgsError(option.missing.format(flag))
+        try:
+            getattr(self, option.method)(value)
+        except ValueError as error:
+            raise RCLInvalidROSArgsError(f"Couldn't parse {option.label}: '{flag} {value}'. Error: {error}") from None
+
+    def _add_remap_rule(self, text: str) -> None:
+        from .impl.rcl_remap import parse_remap_rule
+
+        self._rules.append(parse_remap_rule(text))
+
+    def _add_parameter(self, text: str) -> None:
+        from .impl.rcl_param_rule import parse_parameter_rule
+
+        node_name, parameter_name, value = parse_parameter_rule(text)
+        self._parameter_maps[0].setdefault(node_name, {})[parameter_name] = value
+
+    def _add_parameter_file(self, path: str) -> None:
+        from .impl.rcl_yaml_param_parser import parse_file
+
+        for node_name, parameters in parse_file(path).items():
+            self._parameter_maps[0].setdefault(node_name, {}).update(parameters)
+
+    def _set_log_level(self, text: str) -> None:
+        from .logging import get_logging_severity_from_string
+
+        name, separator, level = text.partition(":=")
+        if not separator:
+            name, level = "", text
+        elif not name:
+            raise ValueError("Argument has an invalid logger item that name is empty")
+        try:
+            self.log_levels[name] = get_logging_severity_from_string(level).value
+        except RuntimeError:
+            raise ValueError("Argument does not use a valid severity level") from None
+
+    def _set_log_file_name(self, prefix: str) -> None:
+        if not prefix or "/" in prefix or "\0" in prefix:
+            raise ValueError("The prefix of a file name must not be empty or hold a slash")
+        self.log_file_name = prefix
+
+    def _set_log_config_file(self, path: str) -> None:
+        self.log_config_file = path
+
+    def _set_enclave(self, name: str) -> None:
+        from turtlewire.wire import names
+
+        fault = names.validate_namespace(name)
+        if fault is not None:
+            message = fault.message.replace("namespace", "context name")
+            raise ValueError(f"Enclave name is not valid: '{message}'. Invalid index: {fault.index}")
+        self.enclave = name
+
+
+def _matches(pattern: str, node_fqn: str) -> bool:
+    """Whether a node name of a parameter file means this node: ``/*`` is one token, ``/**`` any number of them."""
+    if not pattern.startswith("/"):
+        pattern = f"/{pattern}"
+    if pattern in {"/**", node_fqn}:
+        return True
+    if "*" not in pattern:
+        return False
+    import re
+
+    expression = re.escape(pattern).replace(r"/\*\*", r"(/\w+)*").replace(r"/\*", r"(/\w+)")
+    return re.fullmatch(expression, node_fqn) is not None
