@@ -88,10 +88,14 @@ class TopicService(Service):
         for payload, _ in self.requests.take(limit):
             split = split_header(payload)
             if split is None:
-                _warn_short(self.service, "request")
+                self.warn_short("request")
             else:
                 requests.append(split)
         return requests
+
+    def warn_short(self, what: str) -> None:
+        """Say that a peer with another layout was here."""
+        _warn_short(self.service, what)
 
     def send_response(self, request_id: RequestId, cdr: bytes) -> None:
         """See :meth:`Service.send_response`."""

@@ -1,0 +1,46 @@
+"""Cyclone's configuration for a domain, made from what the environment says about discovery."""
+
+from __future__ import annotations
+
+import os
+import re
+
+from turtlewire.errors import WireError
+from turtlewire.wire.environment import Discovery, Range
+
+__all__ = ["domain_configuration"]
+
+#: So many processes of one host and domain can see each other.
+_MAX_PARTICIPANTS = 120
+_ADDRESS = re.compile(r"[A-Za-z0-9.:_%\[\]-]+")
+
+
+def domain_configuration(discovery: Discovery) -> str:
+    """The configuration: ours first and then ``CYCLONEDDS_URI``, so that the user has the last word.
+
+    Raises:
+        WireError: A static peer is not an address.
+    """
+    multicast = discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}
+    parts = [] if multicast else ["<General><AllowMulticast>false</AllowMulticast></General>"]
+    if discovery.range == Range.OFF:
+        # A tag of our own: participants with different tags do not see each other, not even on this host.
+        tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
+        parts.append(f"<Discovery><ParticipantIndex>none</ParticipantIndex>{tag}</Discovery>")
+    else:
+        index = f"<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{_MAX_PARTICIPANTS}</MaxAutoParticipantIndex>"
+        parts.append(f"<Discovery>{index}{_peers(discovery)}</Discovery>")
+    ours = f"<CycloneDDS><Domain>{''.join(parts)}</Domain></CycloneDDS>"
+    users = os.environ.get("CYCLONEDDS_URI", "")
+    return f"{ours},{users}" if users else ours
+
+
+def _peers(discovery: Discovery) -> str:
+    addresses = ["localhost"] if discovery.range == Range.LOCALHOST else []
+    if discovery.range != Range.SYSTEM_DEFAULT:
+        addresses += discovery.static_peers
+    for address in addresses:
+        if not _ADDRESS.fullmatch(address):
+            error = WireError(f"ROS_STATIC_PEERS: {address!r} is not an address")
+            raise error.with_hint("Write host names or IP addresses, separated by ';'.")
+    return "<Peers>" + "".join(f'<Peer address="{address}"/>' for address in addresses) + "</Peers>" if addresses else ""

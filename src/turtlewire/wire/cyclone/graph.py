@@ -1,0 +1,161 @@
+"""The graph as this participant sees it: Cyclone's builtin topics, and the ``ros_discovery_info`` of the others."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.errors import CdrError
+from turtlewire.wire import names
+from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, GraphView, NodeEndpoints, parse_user_data, unpack_discovery_info
+from turtlewire.wire.qos import Durability, History, QoS
+from turtlewire.wire.report import warn_once
+
+from . import library as dds
+from .endpoints import CycloneSubscription
+from .qos import read_qos, read_user_data
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .announcer import Announcer
+    from .participant import Participant
+    from .reader import ReaderThread
+
+__all__ = ["CycloneGraph"]
+
+_BATCH = 64
+_EVERYTHING = 1_000_000
+
+
+class _Endpoint(NamedTuple):
+    kind: str
+    dds_topic: str
+    dds_type: str
+    type_hash: str
+    qos: QoS
+
+
+class _BuiltinReader:
+    """Reads one of Cyclone's builtin topics."""
+
+    def __init__(self, participant: int, topic: int) -> None:
+        self._reader = dds.check(dds.create_reader(participant, topic, None, None), "watch the graph")
+        self.condition = dds.check(dds.create_read_condition(self._reader, dds.ANY_STATE), "watch the graph")
+
+    def take(self, sample: type[ctypes.Structure]) -> Iterator[tuple[bool, ctypes.Structure]]:
+        """What is new: whether it is alive, and the sample (only its key is valid when not)."""
+        pointers, infos = (ctypes.c_void_p * _BATCH)(), (dds.SampleInfo * _BATCH)()
+        count = _BATCH
+        while count == _BATCH:
+            pointers[0] = None
+            count = dds.take_samples(self._reader, pointers, infos, _BATCH, _BATCH)
+            if count <= 0:
+                return
+            try:
+                for index in range(count):
+                    alive = infos[index].valid_data and infos[index].instance_state == dds.INSTANCE_ALIVE
+                    yield alive, ctypes.cast(pointers[index], ctypes.POINTER(sample)).contents
+            finally:
+                dds.return_loan(self._reader, pointers, count)
+
+
+class CycloneGraph(GraphView):
+    """Collects what Cyclone discovers. Started at its first use, because most processes never ask."""
+
+    def __init__(self, participant: Participant, announcer: Announcer, reader: ReaderThread) -> None:
+        super().__init__()
+        self._announcer = announcer
+        self._participant_gid = participant.gid
+        self._lock = threading.RLock()
+        self._enclaves: dict[bytes, str] = {}
+        self._endpoints: dict[bytes, _Endpoint] = {}
+        self._announced: dict[bytes, list[NodeEndpoints]] = {}
+        qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
+        self._infos = CycloneSubscription(participant, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos, topic=DISCOVERY_TOPIC, ignore_local=True)
+        self._participants = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PARTICIPANT)
+        self._publications = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PUBLICATION)
+        self._subscriptions = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_SUBSCRIPTION)
+        self._update()
+        for source in (self._participants, self._publications, self._subscriptions):
+            reader.watch(source.condition, self._on_news)
+        reader.watch(self._infos.condition(), self._on_news)
+
+    def _on_news(self) -> None:
+        self._update()
+        self.notify_changed()
+
+    def _update(self) -> None:
+        """Take over everything that is new.
+
+        Announcements are taken first and kept only from participants that are known after that: so the last words of one that
+        has gone do not bring its nodes back.
+        """
+        with self._lock:
+            infos = self._infos.take(limit=_EVERYTHING)
+            self._update_participants()
+            self._update_endpoints("publisher", self._publications)
+            self._update_endpoints("subscription", self._subscriptions)
+            for cdr, _ in infos:
+                self._update_nodes(cdr)
+
+    def _update_participants(self) -> None:
+        for alive, sample in self._participants.take(dds.BuiltinParticipant):
+            gid = bytes(sample.key)
+            if alive:
+                self._enclaves[gid] = parse_user_data(read_user_data(sample.qos)).get("enclave", "")
+            else:
+                self._enclaves.pop(gid, None)
+                self._announced.pop(gid, None)
+
+    def _update_endpoints(self, kind: str, source: _BuiltinReader) -> None:
+        for alive, sample in source.take(dds.BuiltinEndpoint):
+            gid = bytes(sample.key)
+            if alive and sample.topic_name.startswith(b"DCPS"):
+                continue  # Cyclone's own readers of this very information
+            if alive:
+                user_data = parse_user_data(read_user_data(sample.qos))
+                topic, type_name = sample.topic_name.decode("utf-8", "replace"), sample.type_name.decode("utf-8", "replace")
+                self._endpoints[gid] = _Endpoint(kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos))
+            else:
+                self._endpoints.pop(gid, None)
+
+    def _update_nodes(self, cdr: bytes) -> None:
+        try:
+            participant, nodes = unpack_discovery_info(cdr)
+        except CdrError as error:
+            warn_once("discovery_info", f"ignored a participant's announcement of its nodes: {error}")
+            return
+        if participant in self._enclaves:
+            self._announced[participant] = nodes
+
+    def _all_nodes(self) -> list[tuple[NodeInfo, NodeEndpoints]]:
+        announced = {self._participant_gid: self._announcer.nodes(), **self._announced}
+        return [
+            (NodeInfo(node.name, node.namespace, self._enclaves.get(participant, "")), node)
+            for participant, nodes in announced.items()
+            for node in nodes
+        ]
+
+    def nodes(self) -> list[NodeInfo]:
+        """See :meth:`Graph.nodes`."""
+        with self._lock:
+            return [info for info, _ in self._all_nodes()]
+
+    def endpoints(self) -> list[EndpointInfo]:
+        """See :meth:`Graph.endpoints`."""
+        with self._lock:
+            owners = {gid: info for info, node in self._all_nodes() for gid in (*node.readers, *node.writers)}
+            return [_endpoint_info(gid, endpoint, owners.get(gid)) for gid, endpoint in self._endpoints.items()]
+
+
+def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:
+    topic = names.topic_from_dds(endpoint.dds_topic)
+    type_name = names.type_from_dds(endpoint.dds_type)
+    qos = endpoint.qos
+    if topic is None:
+        topic = endpoint.dds_topic
+        qos = qos._replace(avoid_ros_namespace_conventions=names.service_from_dds(topic) is None)
+    return EndpointInfo(endpoint.kind, topic, type_name, endpoint.type_hash, owner, gid, qos)

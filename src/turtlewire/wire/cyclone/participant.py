@@ -1,0 +1,123 @@
+"""A DDS participant, its topics, and the domain that it lives in."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+
+from turtlewire.errors import WireError
+from turtlewire.wire import names
+from turtlewire.wire.environment import discovery
+from turtlewire.wire.graph import format_user_data
+
+from . import library as dds
+from .configuration import domain_configuration
+
+__all__ = ["Participant"]
+
+# An opaque type for the default serializer: a struct of at least one byte, without keys. All bytes of a sample are kept as they are.
+_ADR, _TYPE_1BY, _RTS = 0x01 << 24, 0x01 << 16, 0x00
+_OPS = (ctypes.c_uint32 * 3)(_ADR | _TYPE_1BY, 0, _RTS)
+_NO_OPTIMIZE, _RESTRICT_DATA_REPRESENTATION = 1 << 0, 1 << 7
+_XCDR1 = 1 << 0
+
+
+class _Domains:
+    """The Cyclone domains of this process; a domain ends with the last participant in it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._users: dict[int, int] = {}
+        self._handles: dict[int, int] = {}
+
+    def join(self, domain_id: int) -> None:
+        """Make the domain, unless it is there."""
+        with self._lock:
+            if not self._users.get(domain_id):
+                handle = dds.create_domain(domain_id, domain_configuration(discovery()).encode())
+                if handle != dds.RETCODE_PRECONDITION_NOT_MET:  # somebody else in this process made it: it is theirs
+                    self._handles[domain_id] = dds.check(handle, f"join domain {domain_id}")
+            self._users[domain_id] = self._users.get(domain_id, 0) + 1
+
+    def leave(self, domain_id: int) -> None:
+        """End the domain if nobody else is in it."""
+        with self._lock:
+            self._users[domain_id] -= 1
+            if not self._users[domain_id] and domain_id in self._handles:
+                dds.delete(self._handles.pop(domain_id))
+
+
+_domains = _Domains()
+
+
+class Participant:
+    """A participant of a domain.
+
+    Attributes:
+        handle: Cyclone's handle of it.
+        gid: Its 16 bytes.
+    """
+
+    def __init__(self, domain_id: int, enclave: str) -> None:
+        self._domain_id = domain_id
+        self._lock = threading.Lock()
+        self._topics: dict[tuple[str, str], int] = {}
+        _domains.join(domain_id)
+        try:
+            self.handle = self._create(enclave)
+        except WireError:
+            _domains.leave(domain_id)
+            raise
+        self.gid = dds.guid_of(self.handle)
+
+    def _create(self, enclave: str) -> int:
+        qos = dds.create_qos()
+        try:
+            _set_enclave(qos, enclave)
+            return dds.check(dds.create_participant(self._domain_id, qos, None), f"join domain {self._domain_id}")
+        finally:
+            dds.delete_qos(qos)
+
+    def set_enclave(self, enclave: str) -> None:
+        """Announce another enclave."""
+        qos = dds.create_qos()
+        try:
+            _set_enclave(qos, enclave)
+            dds.check(dds.set_qos(self.handle, qos), "announce the enclave")
+        finally:
+            dds.delete_qos(qos)
+
+    def topic(self, dds_topic: str, type_name: str) -> int:
+        """The handle of a topic; it lives as long as the participant."""
+        with self._lock:
+            key = (dds_topic, type_name)
+            if key not in self._topics:
+                self._topics[key] = self._create_topic(dds_topic, type_name)
+            return self._topics[key]
+
+    def _create_topic(self, dds_topic: str, type_name: str) -> int:
+        for topic, other_type in self._topics:
+            if topic == dds_topic:
+                error = WireError(f"topic {dds_topic} has type {other_type} in this process, and cannot have type {type_name} too")
+                raise error.with_hint("Give one of the two another topic name, or run it in a process of its own.")
+        descriptor = dds.TopicDescriptor(
+            size=1,
+            align=1,
+            flags=_RESTRICT_DATA_REPRESENTATION | _NO_OPTIMIZE,
+            type_name=names.type_to_dds(type_name).encode(),
+            op_count=len(_OPS),
+            ops=ctypes.cast(_OPS, ctypes.c_void_p),
+            meta=b"",
+            restrict_data_representation=_XCDR1,
+        )
+        return dds.check(dds.create_topic(self.handle, descriptor, dds_topic.encode(), None, None), f"create topic {dds_topic}")
+
+    def close(self) -> None:
+        """Leave the domain; everything made in this participant is deleted."""
+        dds.delete(self.handle)
+        _domains.leave(self._domain_id)
+
+
+def _set_enclave(qos: int, enclave: str) -> None:
+    user_data = format_user_data(enclave=enclave)
+    dds.qset_user_data(qos, user_data, len(user_data))

@@ -1,0 +1,164 @@
+"""Services as rmw_cyclonedds does them: which server belongs to which client is in the user data of their endpoints."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.errors import WireError
+from turtlewire.wire.graph import parse_user_data
+from turtlewire.wire.report import warn_once
+from turtlewire.wire.services import TopicClient, TopicService, join_header, split_header
+
+from . import library as dds
+from .qos import read_user_data
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import RequestId
+
+    from .endpoints import CyclonePublisher, CycloneSubscription
+    from .reader import ReaderThread
+
+__all__ = ["CycloneClient", "CycloneService", "format_service_id"]
+
+#: How long a response waits for the client's end of the reply topic to be discovered.
+_PATIENCE_NS = 1_000_000_000
+_KNOWN_CLIENTS = 1000
+
+
+def format_service_id(participant_gid: bytes, number: int) -> str:
+    """The ``clientid`` or ``serviceid`` of an endpoint pair, in rmw_cyclonedds's spelling (` 1.10.a8.…`)."""
+    first, *rest = participant_gid[:12] + number.to_bytes(4, "big")
+    return f"{first:2x}." + ".".join(f"{byte:x}" for byte in rest)
+
+
+class CycloneClient(TopicClient):
+    """A client: a writer of requests and a reader of replies."""
+
+    requests: CyclonePublisher
+    replies: CycloneSubscription
+
+    def __init__(self, service: str, requests: CyclonePublisher, replies: CycloneSubscription) -> None:
+        handle = ctypes.c_uint64()
+        dds.check(dds.get_instance_handle(requests.handle, handle), f"create a client of {service}")
+        super().__init__(service, handle.value, requests, replies)
+
+    def is_ready(self) -> bool:
+        """See :meth:`Client.is_ready`: one and the same server reads our requests and writes replies to us."""
+        readers = _matched_ids(self.requests.handle, dds.matched_subscriptions, dds.matched_subscription_data, "serviceid")
+        writers = _matched_ids(self.replies.handle, dds.matched_publications, dds.matched_publication_data, "serviceid")
+        return not readers.isdisjoint(writers)
+
+
+class _Waiting(NamedTuple):
+    client: str
+    deadline_ns: int
+    payload: bytes
+
+
+class CycloneService(TopicService):
+    """A server: a reader of requests and a writer of replies.
+
+    A client's request can arrive before its reply reader is discovered; a reply sent now would be lost. Such replies wait, on the
+    reader thread, for the discovery.
+    """
+
+    requests: CycloneSubscription
+    replies: CyclonePublisher
+
+    def __init__(self, service: str, requests: CycloneSubscription, replies: CyclonePublisher, reader: ReaderThread) -> None:
+        super().__init__(service, requests, replies)
+        self._reader = reader
+        self._lock = threading.Lock()
+        self._clients: dict[int, str] = {}
+        self._reachable: set[str | None] | None = None
+        self._waiting: list[_Waiting] = []
+
+    def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
+        """See :meth:`Service.take`."""
+        requests = []
+        for payload, info in self.requests.take(limit):
+            split = split_header(payload)
+            if split is None:
+                self.warn_short("request")
+                continue
+            self._remember(split[0].client_id, info.publisher_gid)
+            requests.append(split)
+        return requests
+
+    def _remember(self, client_id: int, writer_gid: bytes) -> None:
+        client = parse_user_data(self.requests.user_data_of(writer_gid)).get("clientid")
+        if client is not None:
+            if len(self._clients) >= _KNOWN_CLIENTS:
+                self._clients.clear()
+            self._clients[client_id] = client
+
+    def send_response(self, request_id: RequestId, cdr: bytes) -> None:
+        """See :meth:`Service.send_response`."""
+        payload = join_header(request_id, cdr)
+        client = self._clients.get(request_id.client_id)
+        if client is not None and not self._can_reach(client):
+            deadline = time.monotonic_ns() + _PATIENCE_NS
+            with self._lock:
+                self._waiting.append(_Waiting(client, deadline, payload))
+            self._reader.call_at(deadline, self.send_waiting)
+            if not self._can_reach(client):
+                return
+            self.send_waiting()
+        else:
+            self.replies.publish(payload)
+
+    def _can_reach(self, client: str) -> bool:
+        reachable = self._reachable
+        if reachable is None:
+            reachable = _matched_ids(self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data, "clientid")
+            self._reachable = reachable
+        return client in reachable
+
+    def matched(self) -> None:
+        """On the reader thread: the matching subscriptions of the reply topic are others now."""
+        self._reachable = None
+        if self._waiting:
+            self.send_waiting()
+
+    def send_waiting(self) -> None:
+        """Send the waiting replies that can arrive now; those that waited long enough are dropped."""
+        now = time.monotonic_ns()
+        with self._lock:
+            ready = [waiting for waiting in self._waiting if self._can_reach(waiting.client)]
+            self._waiting = [waiting for waiting in self._waiting if waiting not in ready and waiting.deadline_ns > now]
+        for waiting in ready:
+            try:
+                self.replies.publish(waiting.payload)
+            except WireError as error:  # noqa: PERF203 - one client's trouble is not another's
+                warn_once(f"reply {self.service}", str(error))
+
+
+def _matched_ids(
+    handle: int, list_matched: Callable[..., int], read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]], key: str
+) -> set[str | None]:
+    """The ``clientid`` or ``serviceid`` of all endpoints that match; None stands for those that say none."""
+    ids: set[str | None] = set()
+    for instance in _matched_handles(handle, list_matched):
+        endpoint = read_matched(handle, instance)
+        if endpoint:
+            try:
+                ids.add(parse_user_data(read_user_data(endpoint.contents.qos)).get(key))
+            finally:
+                dds.free_endpoint(endpoint)
+    return ids
+
+
+def _matched_handles(handle: int, list_matched: Callable[..., int]) -> list[int]:
+    count = list_matched(handle, None, 0)
+    while count > 0:
+        found = (ctypes.c_uint64 * count)()
+        total = list_matched(handle, found, count)
+        if total <= count:
+            return list(found[: max(total, 0)])
+        count = total  # one more came in between
+    return []

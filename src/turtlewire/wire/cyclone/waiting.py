@@ -1,0 +1,122 @@
+"""Blocking for many things at once: a ``dds_waitset`` with a guard condition that wakes it."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from typing import Generic, TypeVar
+
+from turtlewire.wire.base import Client, Entity, Service, Subscription, WaitSet
+from turtlewire.wire.services import TopicClient, TopicService
+
+from . import library as dds
+from .endpoints import CycloneSubscription
+
+__all__ = ["ConditionSet", "CycloneWaitSet"]
+
+T = TypeVar("T")
+
+_GUARD = 0
+
+
+class ConditionSet(Generic[T]):
+    """Conditions (and entities with statuses), each with the object that :meth:`wait` returns for it."""
+
+    def __init__(self, participant: int) -> None:
+        self._wait_set = dds.check(dds.create_wait_set(participant), "create a wait set")
+        self._guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
+        dds.check(dds.wait_set_attach(self._wait_set, self._guard, _GUARD), "attach a guard condition")
+        self._objects: dict[int, T] = {}
+        self._triggered = (ctypes.c_int64 * 16)()
+        self._lock = threading.Lock()
+        self._closed = False
+
+    def attach(self, condition: int, returned: T) -> None:
+        """Include a condition, or an entity whose enabled statuses count."""
+        with self._lock:
+            self._objects[condition] = returned
+            if len(self._objects) >= len(self._triggered):
+                self._triggered = (ctypes.c_int64 * (4 * len(self._objects)))()
+        dds.check(dds.wait_set_attach(self._wait_set, condition, condition), "attach to a wait set")
+
+    def detach(self, condition: int) -> None:
+        """Exclude it; nothing happens when it is not attached."""
+        with self._lock:
+            attached = self._objects.pop(condition, None) is not None
+        if attached:
+            dds.wait_set_detach(self._wait_set, condition)
+
+    def wait(self, timeout_ns: int | None) -> list[T]:
+        """Block until something is triggered or :meth:`wake` is called; one thread at a time."""
+        triggered = self._triggered
+        timeout = dds.INFINITY if timeout_ns is None else max(timeout_ns, 0)
+        count = dds.wait_set_wait(self._wait_set, triggered, len(triggered), timeout)
+        if count < 0:
+            if self._closed:
+                return []
+            dds.check(count, "wait")
+        found = []
+        for index in range(min(count, len(triggered))):
+            token = triggered[index]
+            if token == _GUARD:
+                if not self._closed:
+                    dds.set_guard_condition(self._guard, False)
+            elif token in self._objects:
+                found.append(self._objects[token])
+        return found
+
+    def wake(self) -> None:
+        """End the current or the next wait."""
+        dds.set_guard_condition(self._guard, True)
+
+    def close(self) -> None:
+        """End the waits, now and in the future, and delete. Idempotent."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        self.wake()
+        dds.delete(self._wait_set)
+        dds.delete(self._guard)
+
+
+class CycloneWaitSet(WaitSet):
+    """The wait set of an executor."""
+
+    def __init__(self, participant: int) -> None:
+        self._conditions: ConditionSet[Entity] = ConditionSet(participant)
+
+    def attach(self, entity: Subscription | Client | Service) -> None:
+        """See :meth:`WaitSet.attach`."""
+        subscription = _readable_part(entity)
+        self._conditions.attach(subscription.condition(), entity)
+        subscription.attached_to(self)
+
+    def detach(self, entity: Subscription | Client | Service) -> None:
+        """See :meth:`WaitSet.detach`."""
+        self.forget(_readable_part(entity))
+
+    def forget(self, subscription: CycloneSubscription) -> None:
+        """Exclude a subscription that is about to close."""
+        self._conditions.detach(subscription.condition())
+
+    def wait(self, timeout_ns: int | None = None) -> list[Entity]:
+        """See :meth:`WaitSet.wait`."""
+        return self._conditions.wait(timeout_ns)
+
+    def wake(self) -> None:
+        """See :meth:`WaitSet.wake`."""
+        self._conditions.wake()
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        self._conditions.close()
+
+
+def _readable_part(entity: Subscription | Client | Service) -> CycloneSubscription:
+    if isinstance(entity, TopicClient):
+        entity = entity.replies
+    elif isinstance(entity, TopicService):
+        entity = entity.requests
+    assert isinstance(entity, CycloneSubscription)
+    return entity
