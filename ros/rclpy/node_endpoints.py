@@ -10,6 +10,7 @@ from turtlewire.wire import names
 
 from .callback_groups import MutuallyExclusiveCallbackGroup
 from .client import Client
+from .entity import Entity
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 from .guard_condition import GuardCondition
 from .publisher import Publisher
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
     from .callback_groups import CallbackGroup
     from .clock import Clock
-    from .entity import Entity
     from .node import Node
     from .qos_overriding_options import QoSOverridingOptions
     from .waitable import Waitable
@@ -53,7 +53,7 @@ class NodeEndpoints:
     def entities(self) -> list[Entity]:
         """Those that an executor serves."""
         with self._lock:
-            return [owned for kind, group in self._owned.items() if kind is not Publisher and kind is not Rate for owned in group]
+            return [owned for group in self._owned.values() for owned in group if isinstance(owned, Entity)]
 
     def create_publisher(
         self,
@@ -142,11 +142,15 @@ class NodeEndpoints:
 
         self._own(Waitable, waitable)
 
+    def keep(self, resource: Any) -> None:
+        """Destroy ``resource`` together with the node; it calls ``_on_destroy(itself)`` when it was destroyed before."""
+        self._own(type(resource), resource)
+
     def _own(self, kind: type, owned: Any) -> Any:
         with self._lock:
             self._owned.setdefault(kind, []).append(owned)
         owned._on_destroy = self._disown
-        if kind is not Publisher:
+        if isinstance(owned, Entity):
             executor = self._node.executor
             if executor is not None:
                 executor._attach(owned, self._node)
