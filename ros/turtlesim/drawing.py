@@ -1,0 +1,119 @@
+"""Everything the pens have drawn since the last clear, kept for the browsers: those that watch, and those that come later."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections import deque
+from itertools import islice
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from turtlesim.model import Stroke
+
+__all__ = ["RECORD_SIZE", "Drawing"]
+
+#: One line on its way to the browser: colour and width as 0xRRGGBBWW, then x0, y0, x1, y1 in pixels of the 500 x 500 image.
+_RECORD = struct.Struct("<I4f")
+RECORD_SIZE = _RECORD.size
+#: Strokes kept one by one, for browsers that watch; one that falls back further starts again.
+_RECENT = 20_000
+#: Lines kept of what is older. Beyond them the oldest are forgotten: a browser that opens then does not see them.
+_OLDER = 200_000
+#: How far a joined line may pass beside a point that the turtle visited [pixels].
+_TOLERANCE = 0.05
+
+
+class Drawing:
+    """Strokes in the order in which they were drawn; the older ones joined to longer lines that look the same.
+
+    A reader keeps a position, -1 at first, and hands it to :meth:`since`. Not thread-safe.
+    """
+
+    def __init__(self) -> None:
+        self._recent: deque[tuple[str, Stroke]] = deque()
+        self._next = 0
+        self._cleared_at = 0
+        self._older: deque[_Line] = deque(maxlen=_OLDER)
+        self._open: dict[str, _Line] = {}
+
+    def add(self, turtle: str, stroke: Stroke) -> None:
+        """Append a stroke of the turtle of that name."""
+        self._recent.append((turtle, stroke))
+        self._next += 1
+        if len(self._recent) > _RECENT:
+            self._age(*self._recent.popleft())
+
+    def clear(self) -> None:
+        """Forget everything; every reader starts again."""
+        self._recent.clear()
+        self._older.clear()
+        self._open.clear()
+        self._next += 1
+        self._cleared_at = self._next
+
+    def since(self, position: int) -> tuple[bool, bytes, int]:
+        """What a reader has not got yet.
+
+        Args:
+            position: From the reader's last call, -1 for a new reader.
+
+        Returns:
+            Whether the reader must begin with an empty picture, the records (each of :data:`RECORD_SIZE` bytes), and the new position.
+        """
+        first_recent = self._next - len(self._recent)
+        restart = position < max(first_recent, self._cleared_at)
+        records = [line.record() for line in self._older] if restart else []
+        skip = 0 if restart else position - first_recent
+        records += [_record(stroke) for _, stroke in islice(self._recent, skip, None)]
+        return restart, b"".join(records), self._next
+
+    def _age(self, turtle: str, stroke: Stroke) -> None:
+        line = self._open.get(turtle)
+        if line is None or not line.extend(stroke):
+            self._open[turtle] = line = _Line(stroke)
+            self._older.append(line)
+
+
+class _Line:
+    """A straight line that stands for one or more strokes, each of which begins where the one before ended."""
+
+    __slots__ = ("_direction", "_half_angle_left", "_half_angle_right", "_length", "_stroke")
+
+    def __init__(self, stroke: Stroke) -> None:
+        self._stroke = stroke
+        self._length = math.hypot(stroke.x1 - stroke.x0, stroke.y1 - stroke.y0)
+        self._direction = math.atan2(stroke.y1 - stroke.y0, stroke.x1 - stroke.x0)
+        self._half_angle_left = self._half_angle_right = _half_angle(self._length)
+
+    def extend(self, stroke: Stroke) -> bool:
+        """Lead on to the end of ``stroke``, if no point visited so far is then further away than the tolerance.
+
+        Each point, seen from the beginning, leaves a wedge of directions that pass it closely enough; the end must be in all of them.
+        """
+        line = self._stroke
+        if (stroke.x0, stroke.y0, stroke.pen) != (line.x1, line.y1, line.pen):
+            return False
+        dx, dy = stroke.x1 - line.x0, stroke.y1 - line.y0
+        length = math.hypot(dx, dy)
+        turn = math.remainder(math.atan2(dy, dx) - self._direction, math.tau)
+        if length < self._length or not -self._half_angle_right <= turn <= self._half_angle_left:
+            return False
+        half_angle = _half_angle(length)
+        self._half_angle_left = min(self._half_angle_left, turn + half_angle)
+        self._half_angle_right = min(self._half_angle_right, half_angle - turn)
+        self._length = length
+        self._stroke = line._replace(x1=stroke.x1, y1=stroke.y1)
+        return True
+
+    def record(self) -> bytes:
+        return _record(self._stroke)
+
+
+def _half_angle(distance: float) -> float:
+    return math.asin(_TOLERANCE / distance) if distance > _TOLERANCE else math.pi
+
+
+def _record(stroke: Stroke) -> bytes:
+    pen = stroke.pen
+    return _RECORD.pack(pen.r << 24 | pen.g << 16 | pen.b << 8 | pen.width, stroke.x0, stroke.y0, stroke.x1, stroke.y1)

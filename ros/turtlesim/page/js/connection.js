@@ -1,0 +1,44 @@
+// The WebSocket to the simulator, opened again whenever it is lost.
+
+const FIRST_RETRY_MS = 250;
+const LAST_RETRY_MS = 2000;
+
+export class Connection {
+  #socket = null;
+  #retryMs = FIRST_RETRY_MS;
+  #handlers;
+
+  /** `handlers`: onState("live" or "lost"), onScene(scene), onFrame(ArrayBuffer), onError(text). */
+  constructor(handlers) {
+    this.#handlers = handlers;
+    this.#open();
+  }
+
+  /** Send a command; says whether it went out. */
+  send(command) {
+    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    this.#socket.send(JSON.stringify(command));
+    return true;
+  }
+
+  #open() {
+    const socket = new WebSocket(`ws://${location.host}/live`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.#retryMs = FIRST_RETRY_MS;
+      this.#handlers.onState("live");
+    };
+    socket.onmessage = ({ data }) => (typeof data === "string" ? this.#takeText(JSON.parse(data)) : this.#handlers.onFrame(data));
+    socket.onclose = () => {
+      this.#handlers.onState("lost");
+      setTimeout(() => this.#open(), this.#retryMs);
+      this.#retryMs = Math.min(2 * this.#retryMs, LAST_RETRY_MS);
+    };
+    this.#socket = socket;
+  }
+
+  #takeText(message) {
+    if (message.type === "scene") this.#handlers.onScene(message);
+    else if (message.type === "error") this.#handlers.onError(message.text);
+  }
+}

@@ -1,0 +1,43 @@
+// Keys and buttons. Each press is one command, as in turtle_teleop_key; holding repeats it.
+
+const LINEAR = 2.0;
+const ANGULAR = 2.0;
+const REPEAT_MS = 120;
+const DRIVES = {
+  up: { linear: LINEAR, angular: 0 },
+  down: { linear: -LINEAR, angular: 0 },
+  left: { linear: 0, angular: ANGULAR },
+  right: { linear: 0, angular: -ANGULAR },
+};
+const KEYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right" };
+
+/** Call `drive({linear, angular})` for each press of an arrow key or of the pad. */
+export function listenForDriving(pad, drive) {
+  const buttons = new Map([...pad.querySelectorAll("button")].map((button) => [button.dataset.drive, button]));
+  addEventListener("keydown", (event) => {
+    const direction = KEYS[event.key];
+    if (!direction || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    buttons.get(direction).classList.add("pressed");
+    drive(DRIVES[direction]);
+  });
+  addEventListener("keyup", (event) => buttons.get(KEYS[event.key])?.classList.remove("pressed"));
+  addEventListener("blur", () => buttons.forEach((button) => button.classList.remove("pressed")));
+  for (const [direction, button] of buttons) repeatWhilePressed(button, () => drive(DRIVES[direction]));
+}
+
+function repeatWhilePressed(button, act) {
+  let timer = null;
+  const release = () => clearInterval(timer);
+  button.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    act();
+    clearInterval(timer);
+    timer = setInterval(act, REPEAT_MS);
+  });
+  for (const type of ["pointerup", "pointercancel", "pointerleave"]) button.addEventListener(type, release);
+  button.addEventListener("click", (event) => {
+    if (event.detail === 0) act(); // the keyboard or a screen reader pressed it
+  });
+  button.addEventListener("contextmenu", (event) => event.preventDefault());
+}

@@ -1,0 +1,80 @@
+// The binary frames of the stream, and the place between two of them at which the display is.
+
+export const FIELD_METRES = 499 / 45;
+export const IMAGE_PIXELS = 500;
+export const PIXELS_PER_METRE = 45;
+const TICK_MS = 16;
+const POSE_FLOATS = 5;
+const STROKE_WORDS = 5;
+const HEADER_WORDS = 5;
+
+/** Take a frame apart. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and width, x0, y0, x1, y1]. */
+export function decodeFrame(buffer) {
+  const [tick, version, turtleCount, strokeCount, restart] = new Uint32Array(buffer, 0, HEADER_WORDS);
+  const strokesAt = 4 * (HEADER_WORDS + POSE_FLOATS * turtleCount);
+  return {
+    tick,
+    version,
+    turtleCount,
+    restart: restart === 1,
+    poses: new Float32Array(buffer, 4 * HEADER_WORDS, POSE_FLOATS * turtleCount),
+    strokes: {
+      count: strokeCount,
+      points: new Float32Array(buffer, strokesAt, STROKE_WORDS * strokeCount),
+      pens: new Uint32Array(buffer, strokesAt, STROKE_WORDS * strokeCount),
+    },
+  };
+}
+
+/** The pose of turtle `index` in a frame. */
+export function poseOf(frame, index) {
+  const at = POSE_FLOATS * index;
+  const [x, y, theta, v, w] = frame.poses.subarray(at, at + POSE_FLOATS);
+  return { x, y, theta, v, w };
+}
+
+/** Plays frames a little behind their arrival, so that the turtles move smoothly whatever the display's rate and the network's mood. */
+export class Playback {
+  static #DELAY_TICKS = 1.5;
+  static #KEPT = 16;
+  #frames = [];
+  #head = 0;
+  #lastTime = 0;
+
+  push(frame) {
+    const newest = this.#frames.at(-1);
+    if (newest && (frame.version !== newest.version || frame.tick < newest.tick)) this.#frames = [];
+    this.#frames.push(frame);
+    if (this.#frames.length > Playback.#KEPT) this.#frames.shift();
+  }
+
+  get newest() {
+    return this.#frames.at(-1) ?? null;
+  }
+
+  /** Poses at the display's time `now` [ms], or null while there is no frame. */
+  sample(now) {
+    if (!this.#frames.length) return null;
+    this.#advance(now);
+    let i = this.#frames.length - 1;
+    while (i > 0 && this.#frames[i].tick > this.#head) i -= 1;
+    const a = this.#frames[i];
+    const b = this.#frames[i + 1] ?? a;
+    const part = b.tick > a.tick ? Math.min(1, Math.max(0, (this.#head - a.tick) / (b.tick - a.tick))) : 1;
+    return Array.from({ length: a.turtleCount }, (_, k) => between(poseOf(a, k), poseOf(b, k), part));
+  }
+
+  #advance(now) {
+    const target = this.#frames.at(-1).tick - Playback.#DELAY_TICKS;
+    this.#head += (now - this.#lastTime) / TICK_MS;
+    this.#lastTime = now;
+    const late = target - this.#head;
+    this.#head = Math.abs(late) > 8 ? target : this.#head + 0.08 * late;
+  }
+}
+
+function between(a, b, part) {
+  if (Math.hypot(b.x - a.x, b.y - a.y) > 1.5) return b; // a teleport, not a movement
+  const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
+  return { ...b, x: a.x + part * (b.x - a.x), y: a.y + part * (b.y - a.y), theta: a.theta + part * turn };
+}

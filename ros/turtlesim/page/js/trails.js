@@ -1,0 +1,62 @@
+// What the pens have drawn, kept as lines so that it is sharp at any size.
+
+import { IMAGE_PIXELS } from "./frames.js";
+
+const MOST_LINES = 400_000;
+
+export class Trails {
+  #points = new Float32Array(4 * 1024);
+  #pens = new Uint32Array(1024);
+  count = 0;
+
+  clear() {
+    this.count = 0;
+  }
+
+  append(strokes) {
+    if (this.count + strokes.count > MOST_LINES) this.#forgetHalf();
+    this.#reserve(this.count + strokes.count);
+    for (let k = 0; k < strokes.count; k += 1) {
+      this.#pens[this.count] = strokes.pens[5 * k];
+      this.#points.set(strokes.points.subarray(5 * k + 1, 5 * k + 5), 4 * this.count);
+      this.count += 1;
+    }
+  }
+
+  /** Draw the lines from number `first` on into a square of `size` device pixels; neighbours of one pen become one path. */
+  draw(ctx, size, first = 0) {
+    const scale = size / IMAGE_PIXELS;
+    ctx.lineCap = "round";
+    ctx.lineJoin = "round";
+    let pen = null;
+    for (let k = first; k < this.count; k += 1) {
+      const [x0, y0, x1, y1] = this.#points.subarray(4 * k, 4 * k + 4);
+      if (this.#pens[k] !== pen) {
+        if (pen !== null) ctx.stroke();
+        pen = this.#pens[k];
+        ctx.strokeStyle = `rgb(${pen >>> 24} ${(pen >>> 16) & 255} ${(pen >>> 8) & 255})`;
+        ctx.lineWidth = (pen & 255) * scale;
+        ctx.beginPath();
+      }
+      ctx.moveTo(x0 * scale, y0 * scale);
+      ctx.lineTo(x1 * scale, y1 * scale);
+    }
+    if (pen !== null) ctx.stroke();
+  }
+
+  #reserve(count) {
+    if (count <= this.#pens.length) return;
+    const capacity = Math.max(count, 2 * this.#pens.length);
+    const [points, pens] = [new Float32Array(4 * capacity), new Uint32Array(capacity)];
+    points.set(this.#points);
+    pens.set(this.#pens);
+    [this.#points, this.#pens] = [points, pens];
+  }
+
+  #forgetHalf() {
+    const kept = this.count >> 1;
+    this.#points.copyWithin(0, 4 * (this.count - kept), 4 * this.count);
+    this.#pens.copyWithin(0, this.count - kept, this.count);
+    this.count = kept;
+  }
+}

@@ -1,0 +1,93 @@
+"""What a page may ask of the simulator: JSON from the browser, checked and turned into plain tuples."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any, NamedTuple
+
+__all__ = ["Clear", "Command", "CommandError", "Drive", "Kill", "Reset", "Spawn", "Teleport", "parse_command"]
+
+#: All other fields are numbers.
+_TEXT_FIELDS = frozenset({"turtle", "name"})
+#: Longest turtle name that a page may send.
+_MAX_NAME = 255
+
+
+class CommandError(ValueError):
+    """The browser sent something that is no command; the text says what."""
+
+
+class Drive(NamedTuple):
+    """One velocity command: metres per second ahead, radians per second to the left."""
+
+    turtle: str
+    linear: float
+    angular: float
+
+
+class Spawn(NamedTuple):
+    """A new turtle at (x, y) [m] with heading theta [rad]; an empty name takes the next free one."""
+
+    x: float
+    y: float
+    theta: float
+    name: str
+
+
+class Teleport(NamedTuple):
+    """A turtle's new place (x, y) [m] and heading theta [rad]."""
+
+    turtle: str
+    x: float
+    y: float
+    theta: float
+
+
+class Kill(NamedTuple):
+    """The end of a turtle."""
+
+    turtle: str
+
+
+class Clear(NamedTuple):
+    """An empty picture."""
+
+
+class Reset(NamedTuple):
+    """The world as it was at the start."""
+
+
+Command = Drive | Spawn | Teleport | Kill | Clear | Reset
+
+_COMMANDS: dict[str, type[Any]] = {kind.__name__.lower(): kind for kind in (Drive, Spawn, Teleport, Kill, Clear, Reset)}
+
+
+def parse_command(text: str | bytes) -> Command:
+    """The command in a message such as ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
+
+    Raises:
+        CommandError: No JSON, an unknown type, or a field that is missing, unknown or of the wrong kind.
+    """
+    try:
+        message = json.loads(text)
+    except ValueError as error:
+        raise CommandError(f"not JSON: {error}") from error
+    if not isinstance(message, dict) or not isinstance(message.get("type"), str) or message["type"] not in _COMMANDS:
+        raise CommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
+    kind = _COMMANDS[message.pop("type")]
+    if message.keys() != set(kind._fields):
+        expected, got = (", ".join(names) or "no fields" for names in (kind._fields, message))
+        raise CommandError(f"{kind.__name__.lower()} has {expected}; got {got}")
+    command: Command = kind(**{name: _checked(name, message[name]) for name in kind._fields})
+    return command
+
+
+def _checked(name: str, value: object) -> str | float:
+    if name in _TEXT_FIELDS:
+        if not isinstance(value, str) or len(value) > _MAX_NAME:
+            raise CommandError(f"{name} is a text of at most {_MAX_NAME} characters")
+        return value
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or abs(value) > 1e6:
+        raise CommandError(f"{name} is a number between -1000000 and 1000000")
+    return float(value)

@@ -1,0 +1,173 @@
+"""The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
+
+What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, and one binary frame for each tick that the browser
+keeps up with. A frame is little-endian: five 32-bit unsigned integers (tick, version of the scene that it belongs to, number of turtles,
+number of strokes, 1 if the picture starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta, linear and angular
+velocity), and the strokes as :mod:`turtlesim.drawing` packs them. What comes back: :mod:`turtlesim.page_commands`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+import sys
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlesim.drawing import RECORD_SIZE, Drawing
+from turtlesim.page_commands import CommandError, parse_command
+from turtlewire.web import Server
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlesim.model import TurtleTick
+    from turtlesim.page_commands import Command
+
+__all__ = ["Scene", "Screen", "desktop_is_there", "open_browser"]
+
+_HEADER = struct.Struct("<5I")
+_PAGE = Path(__file__).parent / "page"
+#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in use.
+DEFAULT_PORT = 7070
+
+
+class Scene(NamedTuple):
+    """What changes rarely.
+
+    Attributes:
+        node: Fully qualified name of the simulator's node.
+        turtles: Names in the order in which frames list their poses.
+        background: Red, green and blue, 0..255.
+        missing: Turtles that somebody wants to hear of or to drive, and that do not exist.
+    """
+
+    node: str
+    turtles: tuple[str, ...]
+    background: tuple[int, int, int]
+    missing: tuple[str, ...]
+
+
+class Screen:
+    """Serves the page. Methods are called by the simulator's thread; the server's thread reads what they left.
+
+    Attributes:
+        url: The page's address.
+    """
+
+    def __init__(self, scene: Scene, on_command: Callable[[Command], None]) -> None:
+        """Start serving.
+
+        Args:
+            scene: What to show first.
+            on_command: Called on the server's thread for each command of a page; it must only pass the command on.
+        """
+        self._lock = threading.Lock()
+        self._scene = scene
+        self._version = 0
+        self._tick = 0
+        self._poses = b""
+        self._shown: tuple[str, ...] = ()
+        self._drawing = Drawing()
+        self._server = Server(_PAGE, lambda: _Session(self, on_command), port=_wanted_port())
+        self.url = self._server.url
+
+    def show(self, ticks: list[TurtleTick]) -> None:
+        """Take what one tick of the world did."""
+        with self._lock:
+            self._tick += 1
+            self._shown = tuple(tick.turtle.name for tick in ticks)
+            self._poses = struct.pack(f"<{5 * len(ticks)}f", *(value for tick in ticks for value in tick.pose))
+            for tick in ticks:
+                for stroke in tick.teleport_strokes:
+                    self._drawing.add(tick.turtle.name, stroke)
+                if tick.move_stroke is not None:
+                    self._drawing.add(tick.turtle.name, tick.move_stroke)
+        self._server.notify()
+
+    def set_scene(self, scene: Scene) -> None:
+        """Show other turtles, another background or other hints from now on."""
+        with self._lock:
+            if scene != self._scene:
+                self._scene = scene
+                self._version += 1
+
+    def clear(self) -> None:
+        """Wipe the pen's picture."""
+        with self._lock:
+            self._drawing.clear()
+
+    def close(self) -> None:
+        """Stop serving; pages say that they lost the simulator and try again."""
+        self._server.close()
+
+    def _scene_since(self, version: int) -> tuple[int, str | None]:
+        """The scene as JSON if it changed after ``version``."""
+        with self._lock:
+            if version == self._version:
+                return version, None
+            return self._version, json.dumps({"type": "scene", "version": self._version, **self._scene._asdict()})
+
+    def _frame_since(self, position: int) -> tuple[int, bytes]:
+        """The newest poses and the strokes after ``position``."""
+        with self._lock:
+            restart, strokes, position = self._drawing.since(position)
+            current = self._shown == self._scene.turtles
+            poses = self._poses if current else b""
+            header = _HEADER.pack(self._tick & 0xFFFFFFFF, self._version, len(poses) // 20, len(strokes) // RECORD_SIZE, restart)
+        return position, header + poses + strokes
+
+
+class _Session:
+    """One browser that shows the page."""
+
+    def __init__(self, screen: Screen, on_command: Callable[[Command], None]) -> None:
+        self._screen = screen
+        self._on_command = on_command
+        self._version = -1
+        self._position = -1
+        self._errors: list[str] = []
+
+    def outgoing(self) -> list[str | bytes]:
+        messages: list[str | bytes] = [json.dumps({"type": "error", "text": text}) for text in self._errors]
+        self._errors.clear()
+        self._version, scene = self._screen._scene_since(self._version)
+        if scene is not None:
+            messages.append(scene)
+        self._position, frame = self._screen._frame_since(self._position)
+        return [*messages, frame]
+
+    def receive(self, message: str | bytes) -> None:
+        try:
+            command = parse_command(message)
+        except CommandError as error:
+            self._errors.append(str(error))
+        else:
+            self._on_command(command)
+
+    def closed(self) -> None:
+        """Nothing to do: a session owns nothing but its place in the stream."""
+
+
+def desktop_is_there() -> bool:
+    """Whether a browser that opens now would be seen by somebody."""
+    if sys.platform in ("darwin", "win32"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def open_browser(url: str) -> None:
+    """Open the page in the user's browser, unless there is no desktop or TURTLEWIRE_BROWSER=0 forbids it."""
+    if os.environ.get("TURTLEWIRE_BROWSER") != "0" and desktop_is_there():
+        import webbrowser
+
+        webbrowser.open(url)
+
+
+def _wanted_port() -> int:
+    text = os.environ.get("TURTLEWIRE_PORT", "")
+    if text and not (text.isdecimal() and int(text) < 65536):
+        raise ValueError(f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}")
+    return int(text or DEFAULT_PORT)
