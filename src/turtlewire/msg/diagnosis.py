@@ -99,11 +99,10 @@ class _ByteWalk:
             raise self.fault(path, start, f"a string that is not valid {'UTF-8' if narrow else 'UTF-32'} ({fault.reason})") from None
 
     def length(self, type_: AbstractType, path: str, extra: int = 0) -> int:
-        start = self.offset
         (length,) = Struct(f"{self.order}I").unpack(self.take(4, 4, path))
         limit = getattr(type_, "maximum_size", None)
         if limit is not None and length > limit + extra:
-            raise self.fault(path, start, f"a length of {length - extra}, but {type_} holds at most {limit}")
+            raise self.fault(path, self.offset - 4, f"a length of {length - extra}, but {type_} holds at most {limit}")
         return int(length)
 
     def take(self, size: int, alignment: int, path: str) -> bytes:
