@@ -1,0 +1,226 @@
+# ruff: noqa: ARG002 -- the methods of the interface itself use none of their arguments
+"""What every kind of buffer can do with a lookup: transform stamped data, and convert it to other types."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING, Any
+
+from rclpy.duration import Duration
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geometry_msgs.msg import TransformStamped
+
+__all__ = [
+    "BufferInterface",
+    "ConvertRegistration",
+    "NotImplementedException",
+    "Stamped",
+    "TransformRegistration",
+    "TypeException",
+    "convert",
+]
+
+
+#: Answer at once.
+NO_TIMEOUT = Duration()
+
+
+class TypeException(Exception):  # noqa: N818 -- ROS 2's name
+    """Nobody has registered how to transform or convert this type.
+
+    Attributes:
+        errstr: The text.
+    """
+
+    def __init__(self, errstr: str) -> None:
+        super().__init__(errstr)
+        self.errstr = errstr
+
+
+class NotImplementedException(Exception):  # noqa: N818 -- ROS 2's name
+    """This kind of buffer lacks a method of the interface.
+
+    Attributes:
+        errstr: The text.
+    """
+
+    def __init__(self) -> None:
+        self.errstr = "CanTransform or LookupTransform not implemented"
+        super().__init__(self.errstr)
+
+
+def _unknown_type(key: Any) -> TypeException:
+    error = TypeException(f"Type {key} is not loaded or supported")
+    package = str(getattr(key, "__module__", "")).partition(".")[0]
+    if package in {"geometry_msgs", "sensor_msgs"} and hasattr(error, "add_note"):
+        error.add_note(f"`import tf2_{package}` registers the types of {package} that can be transformed.")
+    return error
+
+
+class BufferInterface:
+    """Base of the buffers: lookups by another name, and :meth:`transform`, which applies them.
+
+    Attributes:
+        registration: Where the functions that transform a type are found; one for the whole process.
+    """
+
+    def __init__(self) -> None:
+        self.registration = TransformRegistration()
+
+    def transform(self, object_stamped: Any, target_frame: str, timeout: Any = NO_TIMEOUT, new_type: type | None = None) -> Any:
+        """Express an object in another frame, at the time of its stamp.
+
+        Args:
+            object_stamped: Has a ``header``, and a type that is registered (``import tf2_geometry_msgs`` registers many).
+            target_frame: The frame to express it in.
+            timeout: How long to wait until the transform is known (``rclpy.duration.Duration``).
+            new_type: Convert the result to this type.
+
+        Raises:
+            TypeException: Its type is not registered.
+            TransformException: The transform is not known, see :meth:`lookup_transform`.
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transformed = do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
+        return transformed if new_type is None else convert(transformed, new_type)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_TIMEOUT,
+        new_type: type | None = None,
+    ) -> Any:
+        """Express an object in a frame as it was at another time; ``fixed_frame`` is the frame that does not move in between.
+
+        Args:
+            object_stamped: As for :meth:`transform`.
+            target_frame: The frame to express it in.
+            target_time: The time of that frame (``rclpy.time.Time``).
+            fixed_frame: Does not move between the two times.
+            timeout: How long to wait until the transform is known.
+            new_type: Convert the result to this type.
+
+        Raises:
+            TypeException: Its type is not registered.
+            TransformException: The transform is not known.
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transform = self.lookup_transform_full(target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout)
+        transformed = do_transform(object_stamped, transform)
+        return transformed if new_type is None else convert(transformed, new_type)
+
+    def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT) -> TransformStamped:
+        """The transform that takes data from ``source_frame`` to ``target_frame`` at ``time``."""
+        raise NotImplementedException
+
+    def lookup_transform_full(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = NO_TIMEOUT
+    ) -> TransformStamped:
+        """The transform from ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of ``fixed_frame``."""
+        raise NotImplementedException
+
+    def can_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT) -> Any:
+        """Whether :meth:`lookup_transform` would succeed."""
+        raise NotImplementedException
+
+    def can_transform_full(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = NO_TIMEOUT
+    ) -> Any:
+        """Whether :meth:`lookup_transform_full` would succeed."""
+        raise NotImplementedException
+
+
+def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802 -- ROS 2's name
+    """Give an object a header, in place, and return it."""
+    from std_msgs.msg import Header
+
+    obj.header = Header(frame_id=frame_id, stamp=stamp)
+    return obj
+
+
+class TransformRegistration:
+    """Which function transforms which type; all instances share one table."""
+
+    _transforms: dict[type, Callable[[Any, TransformStamped], Any]] = {}  # noqa: RUF012 -- shared by all instances
+
+    def print_me(self) -> None:
+        """Print the table."""
+        print(self._transforms)  # noqa: T201 -- what it is for
+
+    def add(self, key: type, callback: Callable[[Any, TransformStamped], Any]) -> None:
+        """Transform objects of type ``key`` by ``callback(object, transform)``."""
+        self._transforms[key] = callback
+
+    def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
+        """The function for a type.
+
+        Raises:
+            TypeException: There is none.
+        """
+        try:
+            return self._transforms[key]
+        except KeyError:
+            raise _unknown_type(key) from None
+
+
+class ConvertRegistration:
+    """How types are converted: to a message, from a message, or directly; all instances share one table."""
+
+    _to_msg: dict[type, Callable[[Any], Any]] = {}  # noqa: RUF012 -- shared by all instances
+    _from_msg: dict[type, Callable[[Any], Any]] = {}  # noqa: RUF012
+    _convert: dict[tuple[type, type], Callable[[Any], Any]] = {}  # noqa: RUF012
+
+    def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
+        """Make a ``key`` of its message by ``callback(message)``."""
+        self._from_msg[key] = callback
+
+    def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
+        """Make a message of a ``key`` by ``callback(object)``."""
+        self._to_msg[key] = callback
+
+    def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
+        """Convert from ``key[0]`` to ``key[1]`` by ``callback(object)``."""
+        self._convert[key] = callback
+
+    def get_from_msg(self, key: type) -> Callable[[Any], Any]:
+        """The function of :meth:`add_from_msg`; raises :class:`TypeException` when there is none."""
+        return self._get(self._from_msg, key)
+
+    def get_to_msg(self, key: type) -> Callable[[Any], Any]:
+        """The function of :meth:`add_to_msg`; raises :class:`TypeException` when there is none."""
+        return self._get(self._to_msg, key)
+
+    def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
+        """The function of :meth:`add_convert`; raises :class:`TypeException` when there is none."""
+        return self._get(self._convert, key)
+
+    @staticmethod
+    def _get(table: dict[Any, Callable[[Any], Any]], key: Any) -> Callable[[Any], Any]:
+        try:
+            return table[key]
+        except KeyError:
+            raise _unknown_type(key) from None
+
+
+def convert(a: Any, b_type: type) -> Any:
+    """Convert ``a`` to ``b_type``: directly where that is registered, as a copy to its own type, else by way of a message.
+
+    Raises:
+        TypeException: No way is registered.
+    """
+    registration = ConvertRegistration()
+    try:
+        direct = registration.get_convert((type(a), b_type))
+    except TypeException:
+        if type(a) is b_type:
+            return deepcopy(a)
+        return registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
+    return direct(a)

@@ -1,0 +1,87 @@
+"""Publishes transforms that stay, for those who come later as well."""
+
+from __future__ import annotations
+
+import threading
+from contextlib import suppress
+from copy import deepcopy
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary, ref
+
+from rclpy.exceptions import InvalidHandle
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from tf2_msgs.msg import TFMessage
+
+from .transform_broadcaster import as_list
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rclpy.node import Node
+
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.context import Context
+    from rclpy.publisher import Publisher
+
+__all__ = ["StaticTransformBroadcaster"]
+
+
+class _Kept:
+    """What one publisher keeps for late joiners."""
+
+    def __init__(self, publisher: Publisher) -> None:
+        self._publisher = ref(publisher)  # its node owns it; whoever comes to replace a transform must not keep it alive
+        self.transforms: dict[str, TransformStamped] = {}
+
+    def publish(self) -> None:
+        """Send all of it in one message; a publisher that is gone keeps nothing any more."""
+        publisher = self._publisher()
+        if publisher is not None:
+            with suppress(InvalidHandle):
+                publisher.publish(TFMessage(transforms=list(self.transforms.values())))
+
+
+_lock = threading.Lock()
+#: By context and topic, then by child frame: the publisher that keeps the transform, which is the one that sent it last.
+_keepers: WeakKeyDictionary[Context, dict[str, dict[str, _Kept]]] = WeakKeyDictionary()
+
+
+class StaticTransformBroadcaster:
+    """Tells everybody who listens, now or later, where frames stand that do not move.
+
+    All transforms that were sent are published together, so that the one message that is kept for late joiners holds them all. A transform
+    that is sent again replaces the former one, also when another broadcaster of this process sent that. Thread-safe.
+
+    Args:
+        node: Who publishes.
+        qos: Quality of service of ``/tf_static``, or a depth; one message is kept for late joiners unless given.
+
+    Attributes:
+        pub_tf: The publisher.
+    """
+
+    def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
+        if qos is None:
+            qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
+        self.pub_tf = node.create_publisher(TFMessage, "/tf_static", qos)
+        self._kept = _Kept(self.pub_tf)
+        with _lock:
+            self._keepers = _keepers.setdefault(node.context, {}).setdefault(self.pub_tf.topic_name, {})
+
+    def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
+        """Publish one or several transforms, each the pose of ``child_frame_id`` in ``header.frame_id``.
+
+        They are copied: what the caller does to the messages later does not count until they are sent again.
+        """
+        with _lock:
+            replaced = []
+            for each in deepcopy(as_list(transform)):
+                child = each.child_frame_id
+                keeper = self._keepers.get(child, self._kept)
+                if keeper is not self._kept:
+                    del keeper.transforms[child]
+                    replaced.append(keeper)
+                self._keepers[child] = self._kept
+                self._kept.transforms[child] = each
+            for keeper in (*replaced, self._kept):
+                keeper.publish()

@@ -1,0 +1,41 @@
+"""Publishes transforms that change."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rclpy.qos import QoSProfile
+from tf2_msgs.msg import TFMessage
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rclpy.node import Node
+
+    from geometry_msgs.msg import TransformStamped
+
+__all__ = ["TransformBroadcaster"]
+
+
+class TransformBroadcaster:
+    """Tells everybody who listens where frames are at the moment.
+
+    Args:
+        node: Who publishes.
+        qos: Quality of service of ``/tf``, or a depth; 100 messages are kept unless given.
+
+    Attributes:
+        pub_tf: The publisher.
+    """
+
+    def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
+        self.pub_tf = node.create_publisher(TFMessage, "/tf", QoSProfile(depth=100) if qos is None else qos)
+
+    def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
+        """Publish one transform, or several in one message. Each is the pose of ``child_frame_id`` in ``header.frame_id``."""
+        self.pub_tf.publish(TFMessage(transforms=as_list(transform)))
+
+
+def as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
+    """One or several transforms as a list."""
+    return [*transform] if hasattr(transform, "__iter__") else [transform]

@@ -1,0 +1,154 @@
+"""Fills a buffer with what is published on ``/tf`` and ``/tf_static``."""
+
+from __future__ import annotations
+
+from threading import Thread, current_thread
+from typing import TYPE_CHECKING, Any
+
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from turtlewire.tf import listener as engine
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+    from tf2_msgs.msg import TFMessage
+
+    from .buffer import Buffer
+
+__all__ = ["DEFAULT_STATIC_TF_TOPIC", "DEFAULT_TF_TOPIC", "StaticTransformListener", "TransformListener"]
+
+DEFAULT_TF_TOPIC = "/tf"
+DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+
+
+class TransformListener:
+    """Keeps a buffer filled, from a thread of the middleware: nothing has to spin for it.
+
+    So a lookup may wait for a transform wherever it is called, in a callback of a single-threaded executor too. It listens until it is
+    unregistered or its node is destroyed, also when nobody refers to it any more.
+
+    Args:
+        buffer: What to fill.
+        node: Whose subscriptions they are in the graph; None makes a node of its own in the default context.
+        spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
+        qos: Quality of service of the first subscription, or a depth; depth 100 unless given.
+        static_qos: Quality of service of the second one; depth 100 and transient local unless given.
+        tf_topic: Where transforms that change come from.
+        tf_static_topic: Where transforms that stay come from.
+        static_only: Listen to the second topic only.
+
+    Attributes:
+        buffer: What it fills.
+        node: Its node.
+    """
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Node | None,
+        *,
+        spin_thread: bool = False,
+        qos: QoSProfile | int | None = None,
+        static_qos: QoSProfile | int | None = None,
+        tf_topic: str = DEFAULT_TF_TOPIC,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
+        static_only: bool = False,
+    ) -> None:
+        self.buffer = buffer
+        self._own_node = _make_node() if node is None else None
+        self.node: Node = self._own_node if node is None else node
+        self._on_destroy: Callable[[TransformListener], None] | None = None
+        self._engine = engine.TransformListener(
+            buffer.store,
+            self.node.wire,
+            context=self.node.context.wire,
+            topic=None if static_only else self.node.resolve_topic_name(tf_topic),
+            static_topic=self.node.resolve_topic_name(tf_static_topic),
+            qos=_profile(qos, QoSProfile(depth=100)).to_wire(),
+            static_qos=_profile(
+                static_qos, QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
+            ).to_wire(),
+        )
+        self.node._endpoints.keep(self)
+        self.executor: SingleThreadedExecutor | None = None
+        self.dedicated_listener_thread: Thread | None = None
+        if spin_thread:
+            self.executor = SingleThreadedExecutor(context=self.node.context)
+            self.executor.add_node(self.node)
+            self.dedicated_listener_thread = Thread(target=_spin, args=(self.executor,), name="transform-listener", daemon=True)
+            self.dedicated_listener_thread.start()
+
+    def unregister(self) -> None:
+        """Stop listening; what is in the buffer stays. Idempotent."""
+        self.destroy()
+
+    def destroy(self) -> None:
+        """What :meth:`unregister` does; the node calls it when it is destroyed itself."""
+        self._engine.close()
+        if self._on_destroy is not None:
+            self._on_destroy(self)
+            self._on_destroy = None
+        if self.executor is not None:
+            self.executor.shutdown()
+        thread = self.dedicated_listener_thread
+        if thread is not None and thread is not current_thread():
+            thread.join()
+        if self._own_node is not None:
+            node, self._own_node = self._own_node, None
+            node.destroy_node()
+
+    def callback(self, data: TFMessage) -> None:
+        """Store the transforms of a message that came some other way, a bag for example."""
+        for transform in data.transforms:
+            self.buffer.set_transform(transform, "default_authority")
+
+    def static_callback(self, data: TFMessage) -> None:
+        """:meth:`callback` for transforms that stay."""
+        for transform in data.transforms:
+            self.buffer.set_transform_static(transform, "default_authority")
+
+
+class StaticTransformListener(TransformListener):
+    """A :class:`TransformListener` that listens to ``/tf_static`` only.
+
+    Args:
+        buffer: What to fill.
+        node: Whose subscription it is in the graph; None makes a node of its own in the default context.
+        spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
+        static_qos: Quality of service, or a depth; depth 100 and transient local unless given.
+        tf_static_topic: Where the transforms come from.
+    """
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Node | None,
+        *,
+        spin_thread: bool = False,
+        static_qos: QoSProfile | int | None = None,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
+    ) -> None:
+        super().__init__(
+            buffer, node, spin_thread=spin_thread, static_qos=static_qos, tf_static_topic=tf_static_topic, static_only=True
+        )
+
+
+def _make_node() -> Any:
+    from rclpy.node import Node
+
+    return Node("transform_listener_impl", enable_rosout=False, start_parameter_services=False)
+
+
+def _profile(qos: QoSProfile | int | None, default: QoSProfile) -> QoSProfile:
+    if qos is None:
+        return default
+    return qos if isinstance(qos, QoSProfile) else QoSProfile(depth=qos)
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    try:
+        executor.spin()
+    except ExternalShutdownException:
+        pass  # the context was shut down, and the thread ends with it

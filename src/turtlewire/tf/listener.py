@@ -1,0 +1,170 @@
+"""Fills buffers from the wire: the bytes of each ``TFMessage`` go into the buffer as they are, on the wire's reader thread.
+
+No message object is made and no executor takes part, so a lookup may wait for data wherever it is called. All buffers of one context
+that listen to a topic share one subscription, and each keeps its own store.
+"""
+
+from __future__ import annotations
+
+import threading
+from contextlib import suppress
+from typing import TYPE_CHECKING, NamedTuple
+from weakref import WeakKeyDictionary
+
+from turtlewire import msg, wire
+from turtlewire.errors import WireError
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import TracebackType
+    from typing import Protocol
+
+    from turtlewire.wire import base
+
+    class Store(Protocol):
+        """The part of :class:`turtlewire.Buffer` that a listener feeds."""
+
+        def ingest(self, cdr: bytes, *, static: bool = False) -> int:
+            """Store the transforms of a serialized ``TFMessage``."""
+            ...
+
+
+__all__ = ["QOS", "STATIC_QOS", "STATIC_TOPIC", "TOPIC", "TYPE_NAME", "TransformListener"]
+
+#: Where transforms that change are published.
+TOPIC = "/tf"
+#: Where transforms that stay are published, for late joiners as well.
+STATIC_TOPIC = "/tf_static"
+TYPE_NAME = "tf2_msgs/msg/TFMessage"
+QOS = QoS(depth=100)
+STATIC_QOS = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
+
+
+class _Member(NamedTuple):
+    node: base.Node
+    store: Store
+
+
+class _Channel:
+    """One subscription that feeds several buffers. It belongs to the node of the first of them."""
+
+    def __init__(self, topic: str, qos: QoS, *, static: bool) -> None:
+        self._topic = topic
+        self._qos = qos
+        self._static = static
+        self._lock = threading.Lock()  # guards the changes; the reader thread takes the tuple as it finds it
+        self._members: tuple[_Member, ...] = ()
+        self._subscription: base.Subscription | None = None
+
+    def join(self, member: _Member) -> None:
+        """Feed one more buffer from now on."""
+        with self._lock:
+            self._members = (*self._members, member)
+            # What publishers keep for late joiners comes once, at the start of a subscription: a newcomer needs a new one.
+            if self._subscription is None or self._qos.durability == Durability.TRANSIENT_LOCAL:
+                self._subscribe()
+
+    def leave(self, member: _Member) -> None:
+        """Feed one buffer less; the last one ends the subscription."""
+        with self._lock:
+            owner = self._members[0]
+            self._members = tuple(other for other in self._members if other is not member)
+            if not self._members:
+                assert self._subscription is not None
+                self._subscription.close()
+                self._subscription = None
+            elif member is owner:
+                with suppress(WireError):  # the whole context is closed, and nothing more will come for the others either
+                    self._subscribe()
+
+    def _subscribe(self) -> None:
+        former = self._subscription
+        type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+        self._subscription = self._members[0].node.create_subscription(self._topic, type_id, self._qos, self._on_message)
+        if former is not None:
+            former.close()  # after the new one is there: a transform that comes twice is stored once, a lost one is lost
+
+    def _on_message(self, cdr: bytes, _info: base.MessageInfo) -> None:
+        for member in self._members:
+            member.store.ingest(cdr, static=self._static)
+
+
+class _Channels:
+    """All channels of this process."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._of_context: WeakKeyDictionary[base.Context, dict[tuple[str, QoS, bool], _Channel]] = WeakKeyDictionary()
+
+    def get(self, context: base.Context, topic: str, qos: QoS, *, static: bool) -> _Channel:
+        """The channel of a topic, made when it is asked for first."""
+        with self._lock:
+            channels = self._of_context.setdefault(context, {})
+            return channels.setdefault((topic, qos, static), _Channel(topic, qos, static=static))
+
+
+_channels = _Channels()
+
+
+class TransformListener:
+    """Keeps a buffer filled until it is closed; also a context manager.
+
+    Args:
+        buffer: What to fill.
+        node: Whose subscription it is in the graph; close the listener before the node. None makes a node of its own.
+        context: The participant that ``node`` belongs to; None joins the domain of the environment.
+        topic: Fully qualified name of the topic of changing transforms; None listens to static ones only.
+        static_topic: Fully qualified name of the topic of static transforms; None leaves them out.
+        qos: Of the first subscription.
+        static_qos: Of the second one.
+    """
+
+    def __init__(
+        self,
+        buffer: Store,
+        node: base.Node | None = None,
+        *,
+        context: base.Context | None = None,
+        topic: str | None = TOPIC,
+        static_topic: str | None = STATIC_TOPIC,
+        qos: QoS = QOS,
+        static_qos: QoS = STATIC_QOS,
+    ) -> None:
+        self._own_context = wire.open_context() if context is None else None
+        context = context or self._own_context
+        assert context is not None
+        self._own_node = context.create_node("transform_listener") if node is None else None
+        node = node or self._own_node
+        assert node is not None
+        self._member = _Member(node, buffer)
+        self._lock = threading.Lock()
+        self._joined: list[_Channel] = []
+        for channel in self._wanted(context, topic, static_topic, qos, static_qos):
+            channel.join(self._member)
+            self._joined.append(channel)
+
+    @staticmethod
+    def _wanted(context: base.Context, topic: str | None, static_topic: str | None, qos: QoS, static_qos: QoS) -> Iterator[_Channel]:
+        if topic is not None:
+            yield _channels.get(context, topic, qos, static=False)
+        if static_topic is not None:
+            yield _channels.get(context, static_topic, static_qos, static=True)
+
+    def close(self) -> None:
+        """Stop filling the buffer; what is in it stays. Idempotent, callable from any thread."""
+        with self._lock:
+            joined, self._joined = self._joined, []
+        for channel in joined:
+            channel.leave(self._member)
+        if self._own_node is not None:
+            self._own_node.close()
+        if self._own_context is not None:
+            self._own_context.close()
+
+    def __enter__(self) -> TransformListener:  # noqa: PYI034 -- typing.Self comes with Python 3.11
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
