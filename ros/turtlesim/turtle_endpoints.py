@@ -1,0 +1,98 @@
+"""The ROS side of one turtle: its topics and services."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from geometry_msgs.msg import Twist
+from turtlesim.model import Pen
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from turtlesim.model import Turtle, TurtleTick
+    from turtlesim.path import PathImage
+
+__all__ = ["QUEUE_DEPTH", "TurtleEndpoints", "are_finite"]
+
+#: History depth of all topics of a turtle; reliable and volatile, as a mere depth says.
+QUEUE_DEPTH = 7
+#: Commands must fit into single precision, in which velocities are published.
+_LARGEST = 3.4e38
+
+
+class TurtleEndpoints:
+    """Everything that ROS sees of a turtle; :meth:`destroy` takes it off the graph again.
+
+    Raises (on construction):
+        InvalidTopicNameException: The turtle's name is no part of a topic's name.
+    """
+
+    def __init__(self, node: Node, turtle: Turtle) -> None:
+        self._node = node
+        self._turtle = turtle
+        name = turtle.name
+        node.resolve_topic_name(f"{name}/cmd_vel")  # a wrong name fails here, before anything is made
+        self._cmd_vel = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH)
+        self._pose = node.create_publisher(Pose, f"{name}/pose", QUEUE_DEPTH)
+        self._color = node.create_publisher(Color, f"{name}/color_sensor", QUEUE_DEPTH)
+        self._services = [
+            node.create_service(SetPen, f"{name}/set_pen", self._on_set_pen),
+            node.create_service(TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative),
+            node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute),
+        ]
+
+    def publish(self, tick: TurtleTick, path: PathImage) -> None:
+        """Send pose and colour to whoever listens; the tick's last stroke must not be on ``path`` yet."""
+        if self._pose.get_subscription_count():
+            x, y, theta, linear_velocity, angular_velocity = tick.pose
+            self._pose.publish(Pose(x=x, y=y, theta=theta, linear_velocity=linear_velocity, angular_velocity=angular_velocity))
+        if self._color.get_subscription_count():
+            r, g, b = path.colour_at(*tick.sensor_pixel)
+            self._color.publish(Color(r=r, g=g, b=b))
+
+    def destroy(self) -> None:
+        """Leave the graph."""
+        self._node.destroy_subscription(self._cmd_vel)
+        self._node.destroy_publisher(self._pose)
+        self._node.destroy_publisher(self._color)
+        for service in self._services:
+            self._node.destroy_service(service)
+
+    def _on_cmd_vel(self, message: Any) -> None:
+        forward, lateral, turning = message.linear.x, message.linear.y, message.angular.z
+        if not are_finite(forward, lateral, turning):
+            self._node.get_logger().warning(
+                f"Ignored a velocity command for [{self._turtle.name}] that is not finite: x={forward}, y={lateral}, angular z={turning}"
+            )
+            return
+        holonomic = self._node.get_parameter("holonomic").value
+        if self._turtle.drive(forward, lateral if holonomic else 0.0, turning):
+            self._node.get_logger().warning("Velocity command received during rotation goal. Aborting goal")
+
+    def _on_set_pen(self, request: Any, response: Any) -> Any:
+        self._turtle.set_pen(Pen(request.r, request.g, request.b, request.width), off=bool(request.off))
+        return response
+
+    def _on_teleport_relative(self, request: Any, response: Any) -> Any:
+        if self._accepts_teleport(request.linear, request.angular):
+            self._turtle.teleport_relative(request.linear, request.angular)
+        return response
+
+    def _on_teleport_absolute(self, request: Any, response: Any) -> Any:
+        if self._accepts_teleport(request.x, request.y, request.theta):
+            self._turtle.teleport_absolute(request.x, request.y, request.theta)
+        return response
+
+    def _accepts_teleport(self, *numbers: float) -> bool:
+        if are_finite(*numbers):
+            return True
+        self._node.get_logger().error(f"Cannot teleport [{self._turtle.name}] to what is not finite: {', '.join(map(str, numbers))}")
+        return False
+
+
+def are_finite(*numbers: float) -> bool:
+    """Whether a turtle can be told these numbers and stay on the field."""
+    return all(math.isfinite(number) and abs(number) <= _LARGEST for number in numbers)

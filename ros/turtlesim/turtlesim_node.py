@@ -1,0 +1,256 @@
+"""The simulator's node: turtles on a field, with the topics, services, parameters and texts of ROS 2's turtlesim."""
+
+from __future__ import annotations
+
+import sys
+from collections import deque
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_srvs.srv import Empty
+from turtlesim import page_commands
+from turtlesim.missing_turtles import MissingTurtles
+from turtlesim.model import FIELD_SIZE, TICK_NS, World
+from turtlesim.path import PathImage
+from turtlesim.srv import Kill, Spawn
+from turtlesim.turtle_endpoints import QUEUE_DEPTH, TurtleEndpoints, are_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.publisher import Publisher
+    from turtlesim.model import Turtle
+    from turtlesim.screen import Screen
+
+__all__ = ["TurtlesimNode", "main"]
+
+_BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
+
+
+class TurtlesimNode(Node):
+    """One simulator: it moves its turtles every 16 ms.
+
+    Args:
+        headless: Whether to do without the page.
+        options: Given on to :class:`rclpy.node.Node`.
+
+    Attributes:
+        world: The model.
+    """
+
+    def __init__(self, *, headless: bool = False, **options: Any) -> None:
+        super().__init__("turtlesim", **options)
+        self._declare_parameters()
+        self.world = World()
+        self._path = PathImage()
+        self._endpoints_of: dict[str, TurtleEndpoints] = {}
+        self._page_commands: deque[page_commands.Command] = deque()
+        self._page_publishers: dict[str, Publisher] = {}
+        self._screen: Screen | None = None
+        self._hinted: set[str] = set()
+        self.create_service(Empty, "clear", self._on_clear)
+        self.create_service(Empty, "reset", self._on_reset)
+        self.create_service(Spawn, "spawn", self._on_spawn)
+        self.create_service(Kill, "kill", self._on_kill)
+        self.get_logger().info(f"Starting turtlesim with node name {self.get_fully_qualified_name()}")
+        self._missing = MissingTurtles(self, lambda: self.world.turtles, self._on_missing)
+        self._add(self.world.spawn_centred())
+        self.add_post_set_parameters_callback(lambda _: self._show_scene())
+        if not headless:
+            self._open_screen()
+        self.create_timer(TICK_NS / 1e9, self._on_tick)
+
+    def close(self) -> None:
+        """Stop watching the graph and serving the page."""
+        self._missing.close()
+        if self._screen is not None:
+            self._screen.close()
+
+    def _declare_parameters(self) -> None:
+        for channel, (name, default) in _BACKGROUND.items():
+            descriptor = ParameterDescriptor(
+                description=f"{name} channel of the background color",
+                integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
+            )
+            self.declare_parameter(f"background_{channel}", default, descriptor)
+        self.declare_parameter("holonomic", False, ParameterDescriptor(description="If true, then turtles will be holonomic"))
+
+    # Time
+
+    def _on_tick(self) -> None:
+        for _ in range(len(self._page_commands)):
+            command = self._page_commands.popleft()
+            self._page_actions[type(command)](self, command)
+        ticks = self.world.step(self.get_clock().now().nanoseconds)
+        for tick in ticks:
+            if tick.clamped_from is not None:
+                x, y_down = tick.clamped_from
+                self.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y_down:f}])")
+            for stroke in tick.teleport_strokes:
+                self._path.draw(stroke)
+            self._endpoints_of[tick.turtle.name].publish(tick, self._path)
+            if tick.move_stroke is not None:
+                self._path.draw(tick.move_stroke)
+        if self._screen is not None:
+            self._screen.show(ticks)
+
+    # Turtles
+
+    def _add(self, turtle: Turtle) -> None:
+        """Announce a turtle of the world; one whose name ROS does not allow leaves the world again, and the error is raised."""
+        try:
+            self._endpoints_of[turtle.name] = TurtleEndpoints(self, turtle)
+        except InvalidTopicNameException:
+            self.world.kill(turtle.name)
+            raise
+        x, y = turtle.x, FIELD_SIZE - turtle.y_down
+        self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{turtle.theta:f}]")
+        self._missing.forget(turtle.name)
+        self._show_scene()
+
+    def _remove(self, name: str) -> None:
+        self._endpoints_of.pop(name).destroy()
+        publisher = self._page_publishers.pop(name, None)
+        if publisher is not None:
+            self.destroy_publisher(publisher)
+
+    def _spawn(self, x: float, y: float, theta: float, name: str) -> str:
+        """Add a turtle; its name, or an empty text after an error was logged."""
+        if not are_finite(x, y, theta):
+            self.get_logger().error(f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}")
+            return ""
+        turtle = self.world.spawn(x, y, theta, name)
+        if turtle is None:
+            self.get_logger().error(f"A turtle named [{name}] already exists")
+            return ""
+        try:
+            self._add(turtle)
+        except InvalidTopicNameException as error:
+            self.get_logger().error(f"Cannot name a turtle [{name}]: {error}")
+            return ""
+        return turtle.name
+
+    def _kill(self, name: str) -> None:
+        if self.world.kill(name) is None:
+            self.get_logger().error(f"Tried to kill turtle [{name}], which does not exist")
+            return
+        self._remove(name)
+        self._show_scene()
+
+    def _clear(self) -> None:
+        self.get_logger().info("Clearing turtlesim.")
+        self._clear_drawing()
+
+    def _clear_drawing(self) -> None:
+        self._path.clear()
+        if self._screen is not None:
+            self._screen.clear()
+
+    def _reset(self) -> None:
+        self.get_logger().info("Resetting turtlesim.")
+        for name in list(self._endpoints_of):
+            self._remove(name)
+        self.world.reset()
+        self._add(self.world.spawn_centred())
+        self._clear_drawing()
+
+    # Services
+
+    def _on_clear(self, _: Any, response: Any) -> Any:
+        self._clear()
+        return response
+
+    def _on_reset(self, _: Any, response: Any) -> Any:
+        self._reset()
+        return response
+
+    def _on_spawn(self, request: Any, response: Any) -> Any:
+        response.name = self._spawn(request.x, request.y, request.theta, request.name)
+        return response
+
+    def _on_kill(self, request: Any, response: Any) -> Any:
+        self._kill(request.name)
+        return response
+
+    # The page
+
+    def _open_screen(self) -> None:
+        from turtlesim.screen import Screen, open_browser
+
+        self._screen = Screen(self._scene(), self._page_commands.append)
+        self.get_logger().info(f"The field is shown at {self._screen.url}")
+        open_browser(self._screen.url)
+
+    def _scene(self) -> Any:
+        from turtlesim.screen import Scene
+
+        red, green, blue = (self.get_parameter(f"background_{channel}").value for channel in _BACKGROUND)
+        return Scene(self.get_fully_qualified_name(), tuple(sorted(self.world.turtles)), (red, green, blue), self._missing.names)
+
+    def _show_scene(self) -> None:
+        if self._screen is not None:
+            self._screen.set_scene(self._scene())
+
+    def _on_missing(self) -> None:
+        for name in set(self._missing.names) - self._hinted:
+            self._hinted.add(name)
+            service = self.resolve_service_name("spawn")
+            request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
+            self.get_logger().info(
+                f"Somebody waits for {name}, and there is no turtle of that name. "
+                f'To add it, type: ros2 service call {service} turtlesim/srv/Spawn "{request}"'
+            )
+        self._show_scene()
+
+    def _drive_from_page(self, command: page_commands.Drive) -> None:
+        """Publish the command, so that it arrives like any other and everybody can listen to it."""
+        name = command.turtle
+        if name not in self.world.turtles:
+            return
+        publisher = self._page_publishers.get(name)
+        if publisher is None:
+            publisher = self._page_publishers[name] = self.create_publisher(Twist, f"{name}/cmd_vel", QUEUE_DEPTH)
+        if not publisher.get_subscription_count():  # it has not found our own subscription yet
+            self._page_commands.append(command)
+            return
+        message = Twist()
+        message.linear.x = command.linear
+        message.angular.z = command.angular
+        publisher.publish(message)
+
+    def _teleport_from_page(self, command: page_commands.Teleport) -> None:
+        turtle = self.world.turtles.get(command.turtle)
+        if turtle is not None:
+            turtle.teleport_absolute(command.x, command.y, command.theta)
+
+    _page_actions: ClassVar[dict[type, Callable[[TurtlesimNode, Any], object]]] = {
+        page_commands.Drive: _drive_from_page,
+        page_commands.Teleport: _teleport_from_page,
+        page_commands.Spawn: lambda self, command: self._spawn(*command),
+        page_commands.Kill: lambda self, command: self._kill(command.turtle),
+        page_commands.Clear: lambda self, _: self._clear(),
+        page_commands.Reset: lambda self, _: self._reset(),
+    }
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the simulator until Ctrl-C. ``--headless`` does without the page."""
+    rclpy.init(args=args)
+    node = TurtlesimNode(headless="--headless" in (sys.argv if args is None else args))
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.close()
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
