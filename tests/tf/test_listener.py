@@ -1,0 +1,213 @@
+"""The raw-bytes listener over both middlewares: data arrive without anybody spinning, and no message object is ever made."""
+
+from __future__ import annotations
+
+import gc
+import os
+import threading
+import weakref
+
+import pytest
+
+from turtlewire import Buffer, errors, msg, wire
+from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+LONG_NS = 10_000_000_000
+
+
+def tf_bytes(parent, child, x=0.0, stamp_s=1):
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp.sec = stamp_s
+    transform.transform.translation.x = x
+    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
+
+
+class Domain:
+    """A publishing and a listening context."""
+
+    def __init__(self, middleware):
+        self.sender, self.receiver = (wire.open_context(middleware=middleware) for _ in range(2))
+        self.talker = self.sender.create_node("talker")
+        self.node = self.receiver.create_node("listener")
+        self.tf = self.talker.create_publisher("/tf", TYPE, QOS)
+        self.tf_static = self.talker.create_publisher("/tf_static", TYPE, STATIC_QOS._replace(depth=1))
+
+    def wait_for_subscriptions(self, publisher, count=1):
+        assert self.sender.graph.wait_for(lambda: publisher.subscription_count() == count, LONG_NS), publisher.subscription_count()
+
+    def subscriptions(self, topic="/tf"):
+        return [end for end in self.receiver.graph.endpoints() if (end.kind, end.topic) == ("subscription", topic)]
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def domain(request):
+    domain = Domain(request.param)
+    yield domain
+    domain.sender.close()
+    domain.receiver.close()
+
+
+def test_transforms_arrive_while_nobody_spins(domain):
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot", x=3.0))
+        assert buffer.lookup_transform("world", "robot", 0, LONG_NS).translation == (3.0, 0.0, 0.0)
+
+
+def test_no_message_object_is_made(domain, monkeypatch):
+    data = tf_bytes("world", "robot")
+
+    def forbidden(*_arguments, **_keywords):
+        raise AssertionError("the listener decoded a message")
+
+    monkeypatch.setattr(msg, "deserialize", forbidden)
+    for name in (TYPE_NAME, "geometry_msgs/msg/TransformStamped", "geometry_msgs/msg/Transform", "std_msgs/msg/Header"):
+        monkeypatch.setattr(msg.get_message(name), "__init__", forbidden)
+        monkeypatch.setattr(msg.get_message(name), "_from_cdr", forbidden)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(data)
+        assert buffer.lookup_transform("world", "robot", 0, LONG_NS).frame_id == "world"
+
+
+def test_it_arrives_on_the_reader_thread_of_the_wire(domain):
+    buffer, arrived, threads = Buffer(), threading.Event(), []
+    buffer.add_change_listener(lambda: (threads.append(threading.current_thread()), arrived.set()))
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot"))
+        assert arrived.wait(10)
+    assert threads[0] is not threading.main_thread()
+
+
+def test_static_transforms_reach_those_who_come_later(domain):
+    domain.tf_static.publish(tf_bytes("world", "wall", x=1.0))
+    first, second = Buffer(), Buffer()
+    with TransformListener(first, domain.node, context=domain.receiver):
+        assert first.lookup_transform("world", "wall", 0, LONG_NS).translation[0] == 1.0
+        with TransformListener(second, domain.node, context=domain.receiver):  # joins a subscription that has received it already
+            assert second.lookup_transform("world", "wall", 0, LONG_NS).translation[0] == 1.0
+
+
+def test_buffers_of_a_context_share_the_subscription_and_nothing_else(domain):
+    buffers = [Buffer() for _ in range(5)]
+    listeners = [TransformListener(buffer, domain.node, context=domain.receiver) for buffer in buffers]
+    domain.wait_for_subscriptions(domain.tf)
+    assert len(domain.subscriptions("/tf")) == len(domain.subscriptions("/tf_static")) == 1
+    domain.tf.publish(tf_bytes("world", "robot"))
+    for buffer in buffers:
+        buffer.lookup_transform("world", "robot", 0, LONG_NS)
+    buffers[0].clear()
+    assert buffers[1].lookup_transform("world", "robot").stamp_ns == 1_000_000_000
+    with pytest.raises(errors.TransformException):
+        buffers[0].lookup_transform("world", "robot", 5)
+    for listener in listeners:
+        listener.close()
+    domain.wait_for_subscriptions(domain.tf, 0)
+
+
+def test_other_topics_and_other_qualities_are_not_shared(domain):
+    buffers = [Buffer() for _ in range(3)]
+    other = domain.talker.create_publisher("/robot1/tf", TYPE, QOS)
+    with (
+        TransformListener(buffers[0], domain.node, context=domain.receiver),
+        TransformListener(buffers[1], domain.node, context=domain.receiver, topic="/robot1/tf", static_topic=None),
+        TransformListener(buffers[2], domain.node, context=domain.receiver, qos=QoS(depth=1), static_topic=None),
+    ):
+        domain.wait_for_subscriptions(domain.tf, 2)
+        domain.wait_for_subscriptions(other, 1)
+        other.publish(tf_bytes("world", "robot1"))
+        buffers[1].lookup_transform("world", "robot1", 0, LONG_NS)
+        domain.tf.publish(tf_bytes("world", "robot"))
+        for buffer in (buffers[0], buffers[2]):
+            buffer.lookup_transform("world", "robot", 0, LONG_NS)
+        assert not buffers[0].frame_exists("robot1")
+        assert not buffers[1].frame_exists("robot")
+
+
+def test_static_only(domain):
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver, topic=None):
+        domain.wait_for_subscriptions(domain.tf_static)
+        assert domain.tf.subscription_count() == 0
+        domain.tf_static.publish(tf_bytes("world", "wall"))
+        buffer.lookup_transform("world", "wall", 0, LONG_NS)
+
+
+def test_the_subscription_moves_on_when_its_first_owner_leaves(domain):
+    other_node = domain.receiver.create_node("other")
+    first, second = Buffer(), Buffer()
+    leaving = TransformListener(first, domain.node, context=domain.receiver)
+    with TransformListener(second, other_node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        leaving.close()
+        domain.node.close()
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot"))
+        second.lookup_transform("world", "robot", 0, LONG_NS)
+        assert not first.frame_exists("robot")
+
+
+def test_closing_stops_the_flow_and_keeps_the_data(domain):
+    buffer, still_open = Buffer(), Buffer()
+    listener = TransformListener(buffer, domain.node, context=domain.receiver)
+    with TransformListener(still_open, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.tf.publish(tf_bytes("world", "robot", stamp_s=1))
+        buffer.lookup_transform("world", "robot", 1_000_000_000, LONG_NS)
+        listener.close()
+        listener.close()
+        domain.tf.publish(tf_bytes("world", "robot", stamp_s=2))
+        still_open.lookup_transform("world", "robot", 2_000_000_000, LONG_NS)
+        assert buffer.lookup_transform("world", "robot").stamp_ns == 1_000_000_000
+
+
+def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
+    topic = f"/tf_of_{type(domain.sender).__name__}"  # each topic is reported once in a process
+    publisher = domain.talker.create_publisher(topic, TYPE, QOS)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver, topic=topic):
+        domain.wait_for_subscriptions(publisher)
+        for _ in range(3):
+            publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
+        publisher.publish(tf_bytes("world", "robot"))
+        buffer.lookup_transform("world", "robot", 0, LONG_NS)
+    assert capfd.readouterr().err.count(f"a message on {topic} was lost") == 1
+
+
+def test_listeners_may_be_closed_after_their_context(domain):
+    first, second = (TransformListener(Buffer(), domain.node, context=domain.receiver) for _ in range(2))
+    domain.receiver.close()
+    first.close()
+    second.close()
+
+
+def test_a_closed_context_is_not_kept_alive(domain):
+    context = wire.open_context(middleware="local")
+    node = context.create_node("short")
+    TransformListener(Buffer(), node, context=context).close()
+    node.close()
+    context.close()
+    gone = weakref.ref(context)
+    del context, node
+    gc.collect()
+    assert gone() is None
+
+
+def test_alone_it_joins_the_domain_of_the_environment(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    sender = wire.open_context(int(os.environ["ROS_DOMAIN_ID"]))
+    publisher = sender.create_node("talker").create_publisher("/tf", TYPE, QOS)
+    buffer = Buffer()
+    with TransformListener(buffer):
+        publisher.publish(tf_bytes("world", "robot"))
+        buffer.lookup_transform("world", "robot", 0, LONG_NS)
+        assert [node.name for node in sender.graph.nodes()] == ["talker", "transform_listener"]
+    assert [node.name for node in sender.graph.nodes()] == ["talker"]
+    sender.close()
