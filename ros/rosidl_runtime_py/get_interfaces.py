@@ -1,0 +1,93 @@
+"""Which interfaces there are, and where they are defined."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire import msg
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = [
+    "get_action_interfaces",
+    "get_interface_packages",
+    "get_interface_path",
+    "get_interfaces",
+    "get_message_interfaces",
+    "get_service_interfaces",
+]
+
+_KINDS = ("msg", "srv", "action")
+
+
+def get_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+    """Interfaces by package.
+
+    Args:
+        package_names: The packages; None for all.
+
+    Returns:
+        ``{"turtlesim": ["msg/Color", "srv/Spawn", ...]}``.
+
+    Raises:
+        LookupError: A package is unknown.
+    """
+    return _interfaces(package_names, _KINDS)
+
+
+def get_message_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+    """Messages by package; as `get_interfaces`."""
+    return _interfaces(package_names, ("msg",))
+
+
+def get_service_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+    """Services by package; as `get_interfaces`."""
+    return _interfaces(package_names, ("srv",))
+
+
+def get_action_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+    """Actions by package; as `get_interfaces`."""
+    return _interfaces(package_names, ("action",))
+
+
+def get_interface_packages() -> list[str]:
+    """Names of all packages with interfaces."""
+    return list(msg.interface_names())
+
+
+def get_interface_path(interface_name: str) -> str:
+    """Path of the file that defines an interface.
+
+    Args:
+        interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file.
+
+    Returns:
+        The path.
+
+    Raises:
+        ValueError: It is not the name of an interface.
+        LookupError: There is no such package or interface.
+    """
+    parts = interface_name.split("/")
+    if len(parts) < 2:
+        raise ValueError(f"Invalid name '{interface_name}'. Expected at least two parts separated by '/'")
+    if not all(parts):
+        raise ValueError(f"Invalid name '{interface_name}'. Must not contain empty parts")
+    if ".." in parts:
+        raise ValueError(f"Invalid name '{interface_name}'. Must not contain '..'")
+    if parts[0] not in msg.interface_names():
+        raise LookupError(f"Unknown package '{parts[0]}'")
+    return msg.interface_path(interface_name.partition(".")[0])
+
+
+def _interfaces(package_names: Iterable[str] | None, kinds: tuple[str, ...]) -> dict[str, list[str]]:
+    packages = msg.interface_names()
+    found: dict[str, list[str]] = {}
+    for package in packages if package_names is None else package_names:
+        if package not in packages:
+            raise LookupError(f"Unknown package '{package}'")
+        names = [f"{kind}/{name}" for kind in kinds for name in packages[package][kind]]
+        if names or package_names is not None:
+            found[package] = names
+    return found

@@ -1,0 +1,81 @@
+"""Interface classes by their names."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosidl_runtime_py.import_message import import_message_from_namespaced_type
+from turtlewire.msg import Action, Message, Service
+from turtlewire.msg.types import NamespacedType
+
+__all__ = [
+    "get_action",
+    "get_interface",
+    "get_message",
+    "get_namespaced_type",
+    "get_service",
+    "is_action",
+    "is_message",
+    "is_service",
+]
+
+
+def get_namespaced_type(identifier: str) -> NamespacedType:
+    """Type of a name like ``geometry_msgs/msg/Twist``.
+
+    Raises:
+        ValueError: It is not a name of three parts.
+    """
+    parts = identifier.split("/")
+    if len(parts) != 3 or not all(part.isidentifier() for part in parts):
+        raise ValueError(f"Expected the full name of an interface (package/msg/Name), got '{identifier}'")
+    return NamespacedType.parse(identifier)
+
+
+def get_interface(identifier: str) -> Any:
+    """Class of a message, service or action.
+
+    Raises:
+        ValueError: ``identifier`` is not the name of an interface.
+        ModuleNotFoundError: The package is unknown.
+        AttributeError: The package has no such interface.
+    """
+    return import_message_from_namespaced_type(get_namespaced_type(identifier))
+
+
+def get_message(identifier: str) -> Any:
+    """Class of a message, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``; raises as `get_interface` does."""
+    return _get(identifier, "msg", Message, "message")
+
+
+def get_service(identifier: str) -> Any:
+    """Class of a service, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``; raises as `get_interface` does."""
+    return _get(identifier, "srv", Service, "service")
+
+
+def get_action(identifier: str) -> Any:
+    """Class of an action, ``turtlesim/action/RotateAbsolute`` or without the middle; raises as `get_interface` does."""
+    return _get(identifier, "action", Action, "action")
+
+
+def is_message(interface: Any) -> bool:
+    """Whether it is a message class."""
+    return isinstance(interface, type) and issubclass(interface, Message)
+
+
+def is_service(interface: Any) -> bool:
+    """Whether it is a service class."""
+    return isinstance(interface, type) and issubclass(interface, Service)
+
+
+def is_action(interface: Any) -> bool:
+    """Whether it is an action class."""
+    return isinstance(interface, type) and issubclass(interface, Action)
+
+
+def _get(identifier: str, kind: str, base: type, word: str) -> Any:
+    full_name = identifier.replace("/", f"/{kind}/") if identifier.count("/") == 1 else identifier
+    interface = get_interface(full_name)
+    if not (isinstance(interface, type) and issubclass(interface, base)):
+        raise ValueError(f"Expected the full name of a {word}, got '{identifier}'")
+    return interface
