@@ -80,10 +80,10 @@ class _File:
             _write_line(self._fd, line)
 
     def _open(self) -> None:
-        name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"  # noqa: PTH119 - pathlib costs 5 ms
+        name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"
         try:
             directory = _directory()
-            os.makedirs(directory, exist_ok=True)  # noqa: PTH103
+            os.makedirs(directory, exist_ok=True)
             path = f"{directory}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
             self._fd = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
         except OSError as error:
@@ -156,12 +156,11 @@ def shutdown() -> None:
 def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
     """Hand the records of logger ``name`` and of its children to ``sink``, on the thread that logs."""
     if name in _rosout_sinks:
-        warning = (
-            "Publisher already registered for node name: '%s'. If this is due to multiple nodes with the same name then all logs for the "
-            "logger named '%s' will go out over the existing publisher. As soon as any node with that name is destructed it will unregister "
-            "the publisher, preventing any further logs for that name from being published on the rosout topic."
+        text = (
+            f"Publisher already registered for node name: '{name}'. If this is due to multiple nodes with the same name then all logs for "
+            f"the logger named '{name}' will go out over the existing publisher. As soon as any node with that name is destructed it will "
+            "unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
         )
-        text = warning % (name, name)
         emit(LogRecord(time.time_ns(), LoggingSeverity.WARN, "rcl.logging_rosout", text, __file__, "add_rosout_sink", 0))
         return
     _rosout_sinks[name] = sink
@@ -181,7 +180,7 @@ def logging_directory() -> Path:
 
 def _directory() -> str:
     directory = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
-    return os.path.expanduser(directory)  # noqa: PTH111 - pathlib costs 5 ms
+    return os.path.expanduser(directory)
 
 
 def _sink_of(name: str) -> Callable[[LogRecord], None] | None:

@@ -33,7 +33,7 @@ class _Throttle:
     def __init__(self, options: dict[str, Any]) -> None:
         from rclpy.clock import Clock
 
-        clock = options.get("throttle_time_source_type", None)
+        clock = options.get("throttle_time_source_type")
         if clock is not None and not isinstance(clock, Clock):
             raise ValueError(f'Received throttle_time_source_type of "{clock}" is not a clock instance.')
         self._now_ns: Callable[[], int] = time.time_ns if clock is None else clock._now_ns

@@ -1,0 +1,26 @@
+"""From a topic name as typed to a fully qualified one."""
+
+from __future__ import annotations
+
+from turtlewire.wire import names
+
+__all__ = ["expand_topic_name"]
+
+
+def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
+    """Expand a topic or service name: ``~/x`` becomes ``/ns/node/x``, ``x`` becomes ``/ns/x``, ``{node}`` and ``{ns}`` are filled in.
+
+    Raises:
+        ValueError: One of the three breaks the rules.
+    """
+    for what, fault in (
+        ("topic name is invalid", names.validate_topic_name(topic_name)),
+        ("node name is invalid", names.validate_node_name(node_name)),
+        ("node namespace is invalid", names.validate_namespace(node_namespace)),
+    ):
+        if fault is not None:
+            raise ValueError(f"{what}: {fault.message}")
+    try:
+        return names.expand_topic_name(topic_name, node_name, node_namespace)
+    except ValueError as error:
+        raise ValueError(f"topic name is invalid: {error}") from None

@@ -1,0 +1,236 @@
+"""Parameters: a name, a type and a value; their message form and their YAML form."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import rcl_interfaces.msg
+
+__all__ = [
+    "PARAMETER_SEPARATOR_STRING",
+    "Parameter",
+    "get_parameter_value",
+    "parameter_dict_from_yaml_file",
+    "parameter_value_to_python",
+]
+
+PARAMETER_SEPARATOR_STRING = "."
+
+
+class Parameter:
+    """A named value. Not changed after construction.
+
+    Args:
+        name: Its name, with dots between the levels.
+        type_: Its type; found from the value when None.
+        value: A bool, int, float, str, a list of one of them, a list of single bytes, or None.
+
+    Raises:
+        TypeError: The value has no type that a parameter can have, or ``type_`` is something else.
+        ValueError: Type and value do not agree.
+    """
+
+    class Type(Enum):
+        """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``."""
+
+        NOT_SET = 0
+        BOOL = 1
+        INTEGER = 2
+        DOUBLE = 3
+        STRING = 4
+        BYTE_ARRAY = 5
+        BOOL_ARRAY = 6
+        INTEGER_ARRAY = 7
+        DOUBLE_ARRAY = 8
+        STRING_ARRAY = 9
+
+        @classmethod
+        def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
+            """The type of a Python value; an empty list counts as a BYTE_ARRAY, as in ROS 2.
+
+            Raises:
+                TypeError: No parameter can have this value.
+            """
+            if parameter_value is None:
+                return cls.NOT_SET
+            for python_type, scalar in _SCALARS:
+                if isinstance(parameter_value, python_type):
+                    return cls[scalar]
+            if not _is_array(parameter_value):
+                raise TypeError(f"The given value is not one of the allowed types '{parameter_value}'.")
+            for python_type, item in _ITEMS:
+                if all(isinstance(each, python_type) for each in parameter_value):
+                    return cls[f"{item}_ARRAY"]
+            raise TypeError(f"The given value is not a list of one of the allowed types '{parameter_value}'.")
+
+        def check(self, parameter_value: Any) -> bool:
+            """Whether a Python value agrees with this type."""
+            if self is Parameter.Type.NOT_SET:
+                return parameter_value is None
+            if not self.name.endswith("_ARRAY"):
+                return isinstance(parameter_value, _PYTHON_TYPES[self.name])
+            item_type = _PYTHON_TYPES[self.name.removesuffix("_ARRAY")]
+            return _is_array(parameter_value) and all(isinstance(each, item_type) for each in parameter_value)
+
+    def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
+        if type_ is None:
+            type_ = Parameter.Type.from_parameter_value(value)
+        if not isinstance(type_, Parameter.Type):
+            raise TypeError(f"type must be an instance of '{Parameter.Type!r}'")
+        if not type_.check(value):
+            raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
+        self._type_ = type_
+        self._name = name
+        self._value = value
+
+    @classmethod
+    def from_parameter_msg(cls, param_msg: rcl_interfaces.msg.Parameter) -> Parameter:
+        """Convert from the message type.
+
+        Raises:
+            ValueError: The message has an unknown type number.
+        """
+        type_ = Parameter.Type(param_msg.value.type)
+        return cls(param_msg.name, type_, parameter_value_to_python(param_msg.value))
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._name
+
+    @property
+    def type_(self) -> Parameter.Type:
+        """Its type."""
+        return self._type_
+
+    @property
+    def value(self) -> Any:
+        """Its value, None when it is not set."""
+        return self._value
+
+    def get_parameter_value(self) -> rcl_interfaces.msg.ParameterValue:
+        """Convert the value to the message type."""
+        from rcl_interfaces.msg import ParameterValue
+
+        message = ParameterValue(type=self._type_.value)
+        if self._type_ is not Parameter.Type.NOT_SET:
+            setattr(message, _value_field(self._type_), self._value)
+        return message
+
+    def to_parameter_msg(self) -> rcl_interfaces.msg.Parameter:
+        """Convert to the message type."""
+        from rcl_interfaces.msg import Parameter as ParameterMsg
+
+        return ParameterMsg(name=self._name, value=self.get_parameter_value())
+
+    def __repr__(self) -> str:
+        return f"Parameter(name={self._name!r}, type_={self._type_}, value={self._value!r})"
+
+
+# bool comes before int, of which Python makes it a kind.
+_SCALARS: tuple[tuple[type, str], ...] = ((bool, "BOOL"), (int, "INTEGER"), (float, "DOUBLE"), (str, "STRING"))
+_ITEMS: tuple[tuple[type, str], ...] = ((bytes, "BYTE"), *_SCALARS)
+_PYTHON_TYPES = {name: python_type for python_type, name in _ITEMS}
+
+
+def _is_array(value: Any) -> bool:
+    from array import array
+
+    return isinstance(value, (list, tuple, array))
+
+
+def _value_field(type_: Parameter.Type) -> str:
+    """The field of ``ParameterValue`` that holds a value of this type."""
+    return f"{type_.name.lower()}_value"
+
+
+def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue) -> Any:
+    """The Python value of a message.
+
+    Raises:
+        RuntimeError: The message has an unknown type number.
+    """
+    try:
+        type_ = Parameter.Type(parameter_value.type)
+    except ValueError:
+        raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
+    return None if type_ is Parameter.Type.NOT_SET else getattr(parameter_value, _value_field(type_))
+
+
+def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
+    """The value that a YAML text stands for; what is no value of a parameter is taken as a string."""
+    import yaml
+
+    try:
+        value = yaml.safe_load(string_value)
+    except yaml.YAMLError:
+        value = string_value
+    return _value_from_yaml(value, string_value)
+
+
+def _value_from_yaml(value: Any, text: str) -> rcl_interfaces.msg.ParameterValue:
+    """A loaded YAML value; ``text`` stands in for what no parameter can hold (null, dates, mixed lists)."""
+    try:
+        parameter = Parameter("", value=value)
+    except TypeError:
+        parameter = Parameter("", value=text)
+    if parameter.type_ is Parameter.Type.NOT_SET:
+        parameter = Parameter("", value=text)
+    return parameter.get_parameter_value()
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str, use_wildcard: bool = False, target_nodes: Sequence[str] | None = None, namespace: str = ""
+) -> dict[str, rcl_interfaces.msg.Parameter]:
+    """Read parameters from a YAML file.
+
+    Args:
+        parameter_file: Path of the file.
+        use_wildcard: Whether the parameters below ``/**`` belong to the result.
+        target_nodes: Names of nodes in the file; all if None.
+        namespace: Put before each name.
+
+    Returns:
+        Full name to message.
+
+    Raises:
+        RuntimeError: The file is no parameter file, or has nothing of what was asked for.
+    """
+    import yaml
+
+    with open(parameter_file, encoding="utf-8") as file:
+        content = yaml.safe_load(file)
+    if not isinstance(content, dict):
+        raise RuntimeError(  # noqa: TRY004 - what ROS 2 raises
+            f"YAML file is not a valid ROS parameter file: '{parameter_file}' holds no nodes"
+        )
+    nodes = [name for name in content if name != "/**"] if target_nodes is None else list(target_nodes)
+    for node in nodes:
+        if node not in content:
+            raise RuntimeError(f"Param file does not contain parameters for {node},only for nodes: {list(content)} ")
+    if use_wildcard and "/**" in content:
+        nodes.insert(0, "/**")
+    if not nodes:
+        raise RuntimeError("Param file does not contain selected parameters")
+    parameters: dict[str, rcl_interfaces.msg.Parameter] = {}
+    for node in nodes:
+        section = content[node]
+        if not isinstance(section, dict) or not isinstance(section.get("ros__parameters"), dict):
+            raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {node}")  # noqa: TRY004 - as above
+        _flatten(section["ros__parameters"], namespace, parameters)
+    return parameters
+
+
+def _flatten(tree: dict[Any, Any], prefix: str, parameters: dict[str, rcl_interfaces.msg.Parameter]) -> None:
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+
+    for key, value in tree.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict):
+            _flatten(value, f"{name}{PARAMETER_SEPARATOR_STRING}", parameters)
+        else:
+            parameters[name] = ParameterMsg(name=name, value=_value_from_yaml(value, str(value)))

@@ -1,0 +1,78 @@
+"""Whether a parameter's value agrees with its descriptor: type, read-only and range, with ROS 2's reasons."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .parameter import Parameter
+
+if TYPE_CHECKING:
+    import rcl_interfaces.msg
+
+__all__ = ["PARAMETER_REL_TOL", "READ_ONLY", "WRONG_TYPE", "refusal"]
+
+#: Relative tolerance of the comparisons with the ends and steps of a range of doubles.
+PARAMETER_REL_TOL = 1e-6
+#: How the reason of a type conflict begins.
+WRONG_TYPE = "Wrong parameter type"
+READ_ONLY = "Trying to set a read-only parameter: {}."
+
+
+def refusal(parameter: Parameter, descriptor: rcl_interfaces.msg.ParameterDescriptor, *, declaring: bool = False) -> str:
+    """Why ``parameter`` must not be set; an empty string when it may.
+
+    Args:
+        parameter: The new value.
+        descriptor: What was declared.
+        declaring: Then a read-only parameter gets its value, and a typed one may stay without.
+    """
+    if descriptor.read_only and not declaring:
+        return READ_ONLY.format(parameter.name)
+    if parameter.type_ is Parameter.Type.NOT_SET:
+        return "" if declaring or descriptor.dynamic_typing else "Static parameter cannot be undeclared"
+    if not descriptor.dynamic_typing and descriptor.type != parameter.type_.value:
+        return f"{WRONG_TYPE}, expected '{Parameter.Type(descriptor.type)}' got '{parameter.type_}'"
+    if parameter.type_ is Parameter.Type.INTEGER and descriptor.integer_range:
+        return _integer_refusal(parameter, descriptor.integer_range[0])
+    if parameter.type_ is Parameter.Type.DOUBLE and descriptor.floating_point_range:
+        return _double_refusal(parameter, descriptor.floating_point_range[0])
+    return ""
+
+
+def _integer_refusal(parameter: Parameter, limits: rcl_interfaces.msg.IntegerRange) -> str:
+    low, high = sorted((limits.from_value, limits.to_value))
+    value = parameter.value
+    if value in {low, high}:
+        return ""
+    if not low < value < high:
+        return _out_of_range(parameter, low, high)
+    if limits.step and (value - low) % limits.step:
+        return _off_step(parameter, low, high, limits.step)
+    return ""
+
+
+def _double_refusal(parameter: Parameter, limits: rcl_interfaces.msg.FloatingPointRange) -> str:
+    low, high = sorted((limits.from_value, limits.to_value))
+    value = parameter.value
+    if _is_close(value, low) or _is_close(value, high):
+        return ""
+    if not low < value < high:
+        return _out_of_range(parameter, low, high)
+    if limits.step and not _is_close(low + round((value - low) / limits.step) * limits.step, value):
+        return _off_step(parameter, low, high, limits.step)
+    return ""
+
+
+def _is_close(one: float, other: float) -> bool:
+    import math
+
+    return math.isclose(one, other, rel_tol=PARAMETER_REL_TOL)
+
+
+def _out_of_range(parameter: Parameter, low: float, high: float) -> str:
+    return f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: {parameter.value}"
+
+
+def _off_step(parameter: Parameter, low: float, high: float, step: float) -> str:
+    text = f"The parameter value for {parameter.name} is not a valid step."
+    return f"{text} Min: {low}, max: {high}, value: {parameter.value}, step: {step}"

@@ -1,0 +1,474 @@
+"""The parameters of one node: declared, read, set, described, with callbacks and events. ``Node`` hands all of it on to here."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import parameter_descriptors
+from .exceptions import (
+    ImmutableParameterException,
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    ParameterAlreadyDeclaredException,
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
+from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from .validate_parameter_name import validate_parameter_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    import rcl_interfaces.msg
+    from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, ParameterValue, SetParametersResult
+
+    from .time import Time
+
+__all__ = ["NodeParameters"]
+
+_EMPTY_LIST = (
+    "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the original parameters list."
+)
+
+
+class NodeParameters:
+    """Holds the parameters of a node.
+
+    A change goes through these steps, in ROS 2's order: callbacks before it, which may change the list; type, range and read-only;
+    the deciding callbacks, newest first; the store; an event; callbacks after it. No lock is held over a callback.
+
+    Args:
+        node_fqn: Fully qualified name of the node, for events.
+        overrides: Values from the command line, which replace those of declarations.
+        constructor_overrides: Values that the program gave to the node; they win over the command line's.
+        allow_undeclared: Whether parameters may be read and set without a declaration.
+        now: Gives the stamp of events.
+        publish_event: Takes the events.
+    """
+
+    def __init__(
+        self,
+        *,
+        node_fqn: str,
+        overrides: dict[str, Any],
+        constructor_overrides: Iterable[Parameter] | None,
+        allow_undeclared: bool,
+        now: Callable[[], Time],
+        publish_event: Callable[[ParameterEvent], None],
+    ) -> None:
+        self._node_fqn = node_fqn
+        self._overrides = dict(overrides)
+        self._overrides.update((parameter.name, parameter.value) for parameter in constructor_overrides or ())
+        self._allow_undeclared = allow_undeclared
+        self._now = now
+        self._publish_event = publish_event
+        self._parameters: dict[str, Parameter] = {}
+        self._descriptors: dict[str, ParameterDescriptor] = {}
+        self._pre_set_callbacks: list[Callable[[list[Parameter]], list[Parameter]]] = []
+        self._on_set_callbacks: list[Callable[[list[Parameter]], SetParametersResult]] = []
+        self._post_set_callbacks: list[Callable[[list[Parameter]], None]] = []
+
+    # -- declaring
+
+    def declare_parameter(
+        self, name: str, value: Any = None, descriptor: ParameterDescriptor | None = None, ignore_override: bool = False
+    ) -> Parameter:
+        """Declare one parameter; see :meth:`declare_parameters` for what is raised.
+
+        Args:
+            name: Its name.
+            value: Default value, which fixes the type, or a ``Parameter.Type`` to fix the type alone.
+            descriptor: Range, description, read-only, dynamic typing.
+            ignore_override: Whether to use ``value`` even if the command line says otherwise.
+
+        Returns:
+            The parameter with the value that it got.
+        """
+        declaration = (name,) if value is None and descriptor is None else (name, value, descriptor or _new_descriptor())
+        return self.declare_parameters("", [declaration], ignore_override)[0]
+
+    def declare_parameters(
+        self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
+    ) -> list[Parameter]:
+        """Declare several parameters, each as ``(name)``, ``(name, value or type)`` or ``(name, value or type, descriptor)``.
+
+        Args:
+            namespace: Put before each name, with a dot between; nothing if empty.
+            parameters: The declarations.
+            ignore_override: Whether to use the given values even if the command line says otherwise.
+
+        Returns:
+            The parameters with the values that they got.
+
+        Raises:
+            ParameterAlreadyDeclaredException: One is declared already; then none is declared.
+            InvalidParameterException: A name is empty.
+            InvalidParameterTypeException: The command line gives a value of another type.
+            InvalidParameterValueException: A value is out of range or was refused by a callback.
+            TypeError, ValueError: A declaration is malformed.
+        """
+        declared: dict[str, tuple[Parameter, ParameterDescriptor]] = {}
+        for index, declaration in enumerate(parameters):
+            name, value, descriptor = _read_declaration(index, declaration)
+            name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+            validate_parameter_name(name)
+            if not ignore_override and name in self._overrides:
+                parameter = _override(name, self._overrides[name], descriptor)
+            else:
+                parameter = Parameter(name, value=value)
+            declared[name] = (parameter, descriptor)
+        repeated = [name for name in declared if name in self._parameters]
+        if repeated:
+            raise ParameterAlreadyDeclaredException(repeated)
+        for parameter, descriptor in declared.values():
+            reason = self._set_atomically([parameter], {parameter.name: descriptor})
+            if reason.startswith(parameter_descriptors.WRONG_TYPE):
+                raise InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
+            if reason:
+                raise InvalidParameterValueException(parameter.name, parameter.value, reason)
+        return [self._parameters[name] for name in declared]
+
+    def declare_overrides(self) -> None:
+        """Declare every parameter that the command line or the constructor names, each with a type that may change."""
+        for name, value in self._overrides.items():
+            descriptor = _new_descriptor()
+            descriptor.dynamic_typing = True
+            self.declare_parameter(name, value, descriptor, ignore_override=True)
+
+    def undeclare_parameter(self, name: str) -> None:
+        """Forget a parameter.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name.
+            ImmutableParameterException: It is read-only.
+        """
+        if name not in self._parameters:
+            raise ParameterNotDeclaredException(name)
+        if self._descriptors[name].read_only:
+            raise ImmutableParameterException(name)
+        del self._parameters[name]
+        del self._descriptors[name]
+
+    # -- reading
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether a parameter is declared."""
+        return name in self._parameters
+
+    def get_parameter(self, name: str) -> Parameter:
+        """One parameter.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ParameterUninitializedException: It was declared with a type alone, and was never set.
+        """
+        parameter = self._parameters.get(name)
+        if parameter is None:
+            if self._allow_undeclared:
+                return Parameter(name, Parameter.Type.NOT_SET)
+            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+        if parameter.type_ is Parameter.Type.NOT_SET and not self._descriptors[name].dynamic_typing:
+            raise ParameterUninitializedException(name)
+        return parameter
+
+    def get_parameters(self, names: list[str]) -> list[Parameter]:
+        """Several parameters; raises as :meth:`get_parameter`."""
+        if not all(isinstance(name, str) for name in names):
+            raise TypeError("All names must be instances of type str")
+        return [self.get_parameter(name) for name in names]
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        """One parameter, or the alternative (a parameter that is not set, if None) when it has no value."""
+        parameter = self._parameters.get(name)
+        if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
+            return parameter
+        return Parameter(name, Parameter.Type.NOT_SET) if alternative_value is None else alternative_value
+
+    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
+        """The parameters below ``prefix``, by the rest of their names."""
+        start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
+        return {name[len(start) :]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
+
+    def get_parameter_type(self, name: str) -> int:
+        """The number of a parameter's type.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+        """
+        if name not in self._parameters and not self._allow_undeclared:
+            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+        return int(self.get_parameter_or(name).type_.value)
+
+    def get_parameter_types(self, names: list[str]) -> list[int]:
+        """The types of several parameters; raises as :meth:`get_parameter_type`."""
+        if not all(isinstance(name, str) for name in names):
+            raise TypeError("All names must be instances of type str")
+        return [self.get_parameter_type(name) for name in names]
+
+    def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
+        """The names of parameters, and the prefixes that they have.
+
+        Args:
+            prefixes: Names or beginnings of names up to a dot; all parameters if empty.
+            depth: How many levels below a prefix; 0 means all.
+        """
+        from rcl_interfaces.msg import ListParametersResult
+
+        if not isinstance(prefixes, list):
+            raise TypeError("The prefixes argument must be a list")
+        if not all(isinstance(prefix, str) for prefix in prefixes):
+            raise TypeError("All prefixes must be instances of type str")
+        if not isinstance(depth, int):
+            raise TypeError("The depth must be instance of type int")
+        if depth < 0:
+            raise ValueError("The depth must be greater than or equal to zero")
+        names = [name for name in self._parameters if _is_listed(name, prefixes, depth)]
+        parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
+        return ListParametersResult(names=names, prefixes=list(dict.fromkeys(parent for parent in parents if parent)))
+
+    # -- setting
+
+    def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
+        """Set parameters one after the other.
+
+        Returns:
+            A result for each; a failure does not keep the others from being set.
+
+        Raises:
+            ParameterNotDeclaredException: One is not declared and undeclared ones are not allowed; those before it are set.
+        """
+        return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """Set all of the parameters or none.
+
+        Raises:
+            ParameterNotDeclaredException: One is not declared, and undeclared ones are not allowed.
+        """
+        from rcl_interfaces.msg import SetParametersResult
+
+        self._check_declared(parameter_list)
+        for callback in list(self._pre_set_callbacks):
+            parameter_list = callback(parameter_list)
+            if not parameter_list:
+                return SetParametersResult(successful=False, reason=_EMPTY_LIST)
+        self._check_declared(parameter_list)
+        reason = self._set_atomically(parameter_list)
+        return SetParametersResult(successful=not reason, reason=reason)
+
+    def _check_declared(self, parameter_list: list[Parameter]) -> None:
+        undeclared = [parameter.name for parameter in parameter_list if parameter.name not in self._parameters]
+        if undeclared and not self._allow_undeclared:
+            # ROS 2 leaves the first name out of this text; the hint has all of them.
+            hint = " ".join(self._hint(name) for name in undeclared)
+            raise ParameterNotDeclaredException(undeclared[1:]).with_hint(hint)
+
+    def _set_atomically(self, parameter_list: list[Parameter], declarations: dict[str, ParameterDescriptor] | None = None) -> str:
+        """Check, store and tell; returns why not, an empty string when it is done."""
+        descriptors = declarations or {parameter.name: self._descriptor(parameter.name) for parameter in parameter_list}
+        for parameter in parameter_list:
+            reason = parameter_descriptors.refusal(parameter, descriptors[parameter.name], declaring=declarations is not None)
+            if reason:
+                return reason
+        for callback in list(self._on_set_callbacks):
+            result = callback(parameter_list)
+            if result is None:
+                raise TypeError(f"{callback!r} decides about parameters: it has to return a SetParametersResult, but returned None")
+            if not result.successful:
+                return result.reason or "refused by a callback, which gave no reason"
+        event = self._store(parameter_list, descriptors, declaring=declarations is not None)
+        self._publish_event(event)
+        for after in list(self._post_set_callbacks):
+            after(parameter_list)
+        return ""
+
+    def _store(
+        self, parameter_list: list[Parameter], descriptors: dict[str, ParameterDescriptor], *, declaring: bool
+    ) -> ParameterEvent:
+        from rcl_interfaces.msg import ParameterEvent
+
+        event = ParameterEvent(node=self._node_fqn)
+        for parameter in parameter_list:
+            name = parameter.name
+            if parameter.type_ is Parameter.Type.NOT_SET and not declaring:
+                event.deleted_parameters.append(parameter.to_parameter_msg())
+                self._parameters.pop(name, None)
+                self._descriptors.pop(name, None)
+                continue
+            is_new = self.get_parameter_or(name).type_ is Parameter.Type.NOT_SET
+            (event.new_parameters if is_new else event.changed_parameters).append(parameter.to_parameter_msg())
+            self._descriptors[name] = descriptors[name]
+            self._parameters[name] = parameter
+        event.stamp = self._now().to_msg()
+        return event
+
+    # -- describing
+
+    def describe_parameter(self, name: str) -> ParameterDescriptor:
+        """What was declared of a parameter, with its present type.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+        """
+        descriptor = self._descriptors.get(name)
+        if descriptor is None:
+            if not self._allow_undeclared:
+                raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+            descriptor = _new_descriptor()
+        elif descriptor.dynamic_typing:
+            descriptor.type = self._parameters[name].type_.value
+        descriptor.name = name
+        return descriptor
+
+    def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
+        """Several descriptors; raises as :meth:`describe_parameter`."""
+        return [self.describe_parameter(name) for name in names]
+
+    def set_descriptor(
+        self, name: str, descriptor: ParameterDescriptor, alternative_value: ParameterValue | None = None
+    ) -> rcl_interfaces.msg.ParameterValue:
+        """Give a parameter another descriptor.
+
+        Args:
+            name: The parameter.
+            descriptor: The new one.
+            alternative_value: Set when the present value does not agree with the new descriptor.
+
+        Returns:
+            The value that the parameter has now.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ImmutableParameterException: It is read-only.
+            InvalidParameterValueException: Neither value agrees with the descriptor.
+        """
+        if name not in self._parameters:
+            return self.get_parameter(name).get_parameter_value()
+        if self._descriptors[name].read_only:
+            raise ImmutableParameterException(name)
+        if not descriptor.dynamic_typing and not descriptor.type:
+            descriptor.type = self._parameters[name].type_.value
+        if parameter_descriptors.refusal(self._parameters[name], descriptor, declaring=True):
+            alternative = self._parameters[name]
+            if alternative_value is not None:
+                from rcl_interfaces.msg import Parameter as ParameterMsg
+
+                alternative = Parameter.from_parameter_msg(ParameterMsg(name=name, value=alternative_value))
+            reason = self._set_atomically([alternative], {name: descriptor})
+            if reason:
+                raise InvalidParameterValueException(name, alternative.value, reason)
+        self._descriptors[name] = descriptor
+        return self.get_parameter(name).get_parameter_value()
+
+    # -- callbacks
+
+    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Call ``callback(parameters)`` before parameters are set; what it returns is set instead."""
+        self._pre_set_callbacks.insert(0, callback)
+
+    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Let ``callback(parameters)`` decide whether parameters are set or declared; it is asked before the older ones."""
+        self._on_set_callbacks.insert(0, callback)
+
+    def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Call ``callback(parameters)`` after parameters were set or declared."""
+        self._post_set_callbacks.insert(0, callback)
+
+    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Undo :meth:`add_pre_set_parameters_callback`; ValueError when it was not added."""
+        self._pre_set_callbacks.remove(callback)
+
+    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Undo :meth:`add_on_set_parameters_callback`; ValueError when it was not added."""
+        self._on_set_callbacks.remove(callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Undo :meth:`add_post_set_parameters_callback`; ValueError when it was not added."""
+        self._post_set_callbacks.remove(callback)
+
+    # -- helpers
+
+    def _descriptor(self, name: str) -> ParameterDescriptor:
+        descriptor = self._descriptors.get(name)
+        if descriptor is None:
+            descriptor = _new_descriptor()
+            descriptor.dynamic_typing = True
+        return descriptor
+
+    def _hint(self, name: str) -> str:
+        """Which declared name is meant, perhaps."""
+        import difflib
+
+        near = difflib.get_close_matches(name, self._parameters, n=3)
+        known = f"did you mean {' or '.join(map(repr, near))}?" if near else f"declared are {sorted(self._parameters)}."
+        return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
+
+
+def _new_descriptor() -> ParameterDescriptor:
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    return ParameterDescriptor()
+
+
+def _read_declaration(index: int, declaration: tuple[Any, ...]) -> tuple[str, Any, ParameterDescriptor]:
+    """Name, default value (None when there is none) and descriptor with the type filled in."""
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    if not 1 <= len(declaration) <= 3:
+        raise TypeError(
+            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; expecting length between 1 and 3"
+        )
+    name, value, descriptor = (*declaration, None, None)[:3]
+    if not isinstance(name, str):
+        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
+    if descriptor is None and len(declaration) < 3:
+        descriptor = ParameterDescriptor()
+    if not isinstance(descriptor, ParameterDescriptor):
+        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+    if len(declaration) == 1:
+        _warn_of_name_alone(name)
+        descriptor.dynamic_typing = True
+    if not isinstance(value, Parameter.Type):
+        if value is not None and not descriptor.dynamic_typing:
+            descriptor.type = Parameter.Type.from_parameter_value(value).value
+        return name, value, descriptor
+    if value is Parameter.Type.NOT_SET:
+        raise ValueError(f"Cannot declare parameter {name} statically to be of type NOT_SET")
+    if descriptor.dynamic_typing:
+        raise ValueError(
+            f"When declaring parameter {name} passing a descriptor with`dynamic_typing=True` "
+            "is not allowed when the parameter type is specified"
+        )
+    descriptor.type = value.value
+    return name, None, descriptor
+
+
+def _warn_of_name_alone(name: str) -> None:
+    import warnings
+
+    warnings.warn(
+        f"when declaring parameter named '{name}', declaring a parameter only providing its name is deprecated. You have to either:\n"
+        '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
+        "\t- Pass a name and a parameter type.\n"
+        "\t- Pass a name and a descriptor with `dynamic_typing=True",
+        stacklevel=6,
+    )
+
+
+def _override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
+    """The parameter that the command line gives; its empty list is one of the declared type, which YAML cannot tell."""
+    if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
+        return Parameter(name, Parameter.Type(descriptor.type), value)
+    return Parameter(name, value=value)
+
+
+def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
+    def is_near(rest: str) -> bool:
+        return depth == 0 or rest.count(PARAMETER_SEPARATOR_STRING) < depth
+
+    if not prefixes:
+        return is_near(name)
+    return any(
+        name == prefix or (name.startswith(f"{prefix}{PARAMETER_SEPARATOR_STRING}") and is_near(name[len(prefix) + 1 :]))
+        for prefix in prefixes
+    )

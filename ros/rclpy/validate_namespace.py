@@ -1,0 +1,24 @@
+"""The rules for namespaces."""
+
+from __future__ import annotations
+
+from turtlewire.wire import names
+
+from .exceptions import InvalidNamespaceException
+
+__all__ = ["validate_namespace"]
+
+
+def validate_namespace(namespace: str) -> bool:
+    """Check a fully qualified namespace.
+
+    Returns:
+        True.
+
+    Raises:
+        InvalidNamespaceException: It breaks a rule.
+    """
+    fault = names.validate_namespace(namespace)
+    if fault is not None:
+        raise InvalidNamespaceException(namespace, fault.message, fault.index)
+    return True

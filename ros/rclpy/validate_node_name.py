@@ -1,0 +1,24 @@
+"""The rules for node names."""
+
+from __future__ import annotations
+
+from turtlewire.wire import names
+
+from .exceptions import InvalidNodeNameException
+
+__all__ = ["validate_node_name"]
+
+
+def validate_node_name(node_name: str) -> bool:
+    """Check the base name of a node.
+
+    Returns:
+        True.
+
+    Raises:
+        InvalidNodeNameException: It breaks a rule.
+    """
+    fault = names.validate_node_name(node_name)
+    if fault is not None:
+        raise InvalidNodeNameException(node_name, fault.message, fault.index)
+    return True

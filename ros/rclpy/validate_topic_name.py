@@ -1,0 +1,29 @@
+"""The rules for topic and service names, for a name as typed: relative, private (``~``), with substitutions."""
+
+from __future__ import annotations
+
+from turtlewire.wire import names
+
+from .exceptions import InvalidServiceNameException, InvalidTopicNameException
+
+__all__ = ["validate_topic_name"]
+
+
+def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
+    """Check a name as typed: relative, private (``~``), with substitutions.
+
+    Args:
+        name: The name.
+        is_service: Whether it is a service's.
+
+    Returns:
+        True.
+
+    Raises:
+        InvalidTopicNameException, InvalidServiceNameException: It breaks a rule.
+    """
+    fault = names.validate_topic_name(name)
+    if fault is not None:
+        error = InvalidServiceNameException if is_service else InvalidTopicNameException
+        raise error(name, fault.message, fault.index)
+    return True
