@@ -28,7 +28,7 @@ __all__ = [
 NO_TIMEOUT = Duration()
 
 
-class TypeException(Exception):  # noqa: N818 -- ROS 2's name
+class TypeException(Exception):
     """Nobody has registered how to transform or convert this type.
 
     Attributes:
@@ -40,7 +40,7 @@ class TypeException(Exception):  # noqa: N818 -- ROS 2's name
         self.errstr = errstr
 
 
-class NotImplementedException(Exception):  # noqa: N818 -- ROS 2's name
+class NotImplementedException(Exception):
     """This kind of buffer lacks a method of the interface.
 
     Attributes:

@@ -17,10 +17,9 @@ from .transform_broadcaster import as_list
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from rclpy.node import Node
-
     from geometry_msgs.msg import TransformStamped
     from rclpy.context import Context
+    from rclpy.node import Node
     from rclpy.publisher import Publisher
 
 __all__ = ["StaticTransformBroadcaster"]

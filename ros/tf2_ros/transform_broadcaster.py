@@ -10,9 +10,8 @@ from tf2_msgs.msg import TFMessage
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from rclpy.node import Node
-
     from geometry_msgs.msg import TransformStamped
+    from rclpy.node import Node
 
 __all__ = ["TransformBroadcaster"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from threading import Thread, current_thread
 from typing import TYPE_CHECKING, Any
 
@@ -61,7 +62,7 @@ class TransformListener:
         self.node: Node = self._own_node if node is None else node
         self._on_destroy: Callable[[TransformListener], None] | None = None
         self._engine = engine.TransformListener(
-            buffer.store,
+            buffer.engine,
             self.node.wire,
             context=self.node.context.wire,
             topic=None if static_only else self.node.resolve_topic_name(tf_topic),
@@ -130,9 +131,7 @@ class StaticTransformListener(TransformListener):
         static_qos: QoSProfile | int | None = None,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
-        super().__init__(
-            buffer, node, spin_thread=spin_thread, static_qos=static_qos, tf_static_topic=tf_static_topic, static_only=True
-        )
+        super().__init__(buffer, node, spin_thread=spin_thread, static_qos=static_qos, tf_static_topic=tf_static_topic, static_only=True)
 
 
 def _make_node() -> Any:
@@ -148,7 +147,5 @@ def _profile(qos: QoSProfile | int | None, default: QoSProfile) -> QoSProfile:
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:
-    try:
+    with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
         executor.spin()
-    except ExternalShutdownException:
-        pass  # the context was shut down, and the thread ends with it
