@@ -1,0 +1,74 @@
+"""What a launch description does, step by step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from launch.condition import Condition
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+
+__all__ = ["Action"]
+
+
+class Action(LaunchDescriptionEntity):
+    """Base of all actions. Its condition, if it has one, is asked at each visit.
+
+    Args:
+        condition: Take effect only when it holds.
+    """
+
+    def __init__(self, *, condition: Condition | None = None) -> None:
+        self._condition = condition
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        """Read the attributes that all actions of XML and YAML files have: ``if`` and ``unless``."""
+        from launch.conditions import IfCondition, UnlessCondition
+
+        if_text = entity.get_attr("if", optional=True)
+        unless_text = entity.get_attr("unless", optional=True)
+        if if_text is not None and unless_text is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if if_text is not None:
+            return cls, {"condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))}
+        if unless_text is not None:
+            return cls, {"condition": UnlessCondition(predicate_expression=parser.parse_substitution(unless_text))}
+        return cls, {}
+
+    @property
+    def condition(self) -> Condition | None:
+        """The condition, or None."""
+        return self._condition
+
+    def describe(self) -> str:
+        """How ``ros2 launch --print`` shows it."""
+        return self.__repr__()
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Execute when the condition holds, then tell whoever waits for the completion."""
+        if self._condition is not None and not self._condition.evaluate(context):
+            return None
+        try:
+            return self.execute(context)
+        finally:
+            self._announce_completion(context)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Take effect; the returned entities are visited next."""
+        raise NotImplementedError(f"{type(self).__name__} does not define execute()")
+
+    def _announce_completion(self, context: LaunchContext) -> None:
+        from launch.events import ExecutionComplete
+
+        event = ExecutionComplete(action=self)
+        if not context.would_handle_event(event):
+            return
+        future = self.get_asyncio_future()
+        if future is None:
+            context.emit_event_sync(event)
+        else:
+            future.add_done_callback(lambda _: context.emit_event_sync(event))

@@ -1,0 +1,82 @@
+"""Extends an environment variable that is a list."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+
+__all__ = ["AppendEnvironmentVariable"]
+
+
+@expose_action("append_env")
+class AppendEnvironmentVariable(Action):
+    """Adds a value to an environment variable such as ``PATH``; sets it when it is not there.
+
+    Args:
+        name: Its name.
+        value: The value.
+        prepend: Add it before the others: true or false, or a text that says so.
+        separator: What stands between values.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: bool | SomeSubstitutionsType = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._name = normalize_to_list_of_substitutions(name)
+        self._value = normalize_to_list_of_substitutions(value)
+        self._prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
+        self._separator = normalize_to_list_of_substitutions(separator)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
+        """Read an ``append_env`` element."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
+        if prepend is not None:
+            kwargs["prepend"] = parser.parse_if_substitutions(prepend)
+        separator = entity.get_attr("separator", optional=True)
+        if separator is not None:
+            kwargs["separator"] = parser.parse_substitution(separator)
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self._name
+
+    @property
+    def value(self) -> list[Substitution]:
+        """The value."""
+        return self._value
+
+    def execute(self, context: LaunchContext) -> None:
+        """Add the value."""
+        from launch.conditions import evaluate_condition_expression
+
+        name = perform_substitutions(context, self._name)
+        value = perform_substitutions(context, self._value)
+        if name in context.environment:
+            parts = [context.environment[name], value]
+            if evaluate_condition_expression(context, self._prepend):
+                parts.reverse()
+            value = perform_substitutions(context, self._separator).join(parts)
+        context.environment[name] = value

@@ -1,0 +1,365 @@
+"""Runs a process and looks after it."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.action import Action
+from launch.child_process import ChildProcess
+from launch.event_handler import EventHandler, entity_list
+from launch.event_handlers import OnProcessExit, OnShutdown
+from launch.events.process import (
+    ProcessExited,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdin,
+    ProcessStdout,
+    ProcessTargetedEvent,
+    ShutdownProcess,
+    SignalProcess,
+)
+from launch.substitutions import LaunchConfiguration
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from launch.descriptions import Executable
+    from launch.event import Event
+    from launch.events import Shutdown
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_actions_type import SomeActionsType
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+
+__all__ = ["ExecuteLocal"]
+
+
+class ExecuteLocal(Action):
+    """Runs a process on this machine.
+
+    When the launch ends, or the process is told to end, it gets SIGINT, then SIGTERM, then SIGKILL.
+
+    Args:
+        process_description: What is run.
+        shell: Whether a shell interprets the command line.
+        sigterm_timeout: Seconds between SIGINT and SIGTERM.
+        sigkill_timeout: Seconds between SIGTERM and SIGKILL.
+        emulate_tty: Whether the process finds a terminal at its output: many programs then show colours and write each line at once.
+        output: Where its output goes: ``log`` (stderr is shown on the screen too), ``screen``, ``both``, ``own_log``, ``full``, or a mapping.
+        output_format: How its lines are shown.
+        cached_output: Whether all output is kept for :meth:`get_stdout` and :meth:`get_stderr`.
+        log_cmd: Whether the command line is logged at the start.
+        on_exit: What happens at its end: actions, or a function of event and context that returns some.
+        respawn: Whether it is started again after its end.
+        respawn_delay: Seconds before that.
+        respawn_max_retries: How often at most; -1 for no limit.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType | float | None = None,
+        sigkill_timeout: SomeSubstitutionsType | float | None = None,
+        emulate_tty: bool = False,
+        output: SomeSubstitutionsType | Mapping[str, Any] = "log",
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Any = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._process_description = process_description
+        self._shell = shell
+        self._sigterm_timeout = _seconds(sigterm_timeout, "sigterm_timeout")
+        self._sigkill_timeout = _seconds(sigkill_timeout, "sigkill_timeout")
+        self._emulate_tty = emulate_tty
+        override = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
+        output = override or output
+        self._output = dict(output) if hasattr(output, "items") else normalize_to_list_of_substitutions(output)
+        self._output_format = output_format
+        self._cached_output = cached_output
+        self._log_cmd = log_cmd
+        self._on_exit = on_exit
+        self._respawn = respawn
+        self._respawn_delay = respawn_delay
+        self._respawn_max_retries = respawn_max_retries
+        self._process: ChildProcess | None = None
+        self._process_details: dict[str, Any] | None = None
+        self._return_code: int | None = None
+        self._completed: asyncio.Future[None] | None = None
+        self._shutting_down: asyncio.Event | None = None
+        self._pending = {1: b"", 2: b""}
+        self._cache = {1: bytearray(), 2: bytearray()}
+
+    @property
+    def process_description(self) -> Executable:
+        """What is run."""
+        return self._process_description
+
+    @property
+    def shell(self) -> bool:
+        """Whether a shell interprets the command line."""
+        return self._shell
+
+    @property
+    def emulate_tty(self) -> bool:
+        """Whether the process finds a terminal at its output."""
+        return self._emulate_tty
+
+    @property
+    def output(self) -> Any:
+        """Where its output goes."""
+        return self._output
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """Name, cmd, cwd, env and pid of the running process, or None before its start."""
+        return self._process_details
+
+    @property
+    def return_code(self) -> int | None:
+        """Exit status of its last run, negative for a signal; None when there is none yet."""
+        return self._return_code
+
+    def get_stdout(self) -> bytes:
+        """All that it wrote to stdout; kept only with ``cached_output``."""
+        return bytes(self._cache[1])
+
+    def get_stderr(self) -> bytes:
+        """All that it wrote to stderr; kept only with ``cached_output``."""
+        return bytes(self._cache[2])
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Done when the process has ended for good."""
+        return self._completed
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """What happens at the end of the process."""
+        if self._on_exit is None or callable(self._on_exit):
+            return []
+        return [(f"process '{self._process_description.cmd}' exits", entity_list(self._on_exit))]
+
+    # execution
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Start the process; its end completes the action."""
+        if self._completed is not None:
+            raise RuntimeError(f"ExecuteLocal action '{self._process_description.final_name}': executed more than once: {self.describe()}")
+        self.prepare(context)
+        if context.is_shutdown:
+            return None
+        assert context.asyncio_loop is not None
+        self._logger = logging.get_logger(self._name)
+        self._loggers = logging.get_output_loggers(self._name, self._output_choice(context))
+        self._completed = context.asyncio_loop.create_future()
+        self._shutting_down = asyncio.Event()
+        self._register_handlers(context)
+        context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
+        return None
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Perform the substitutions of the command line."""
+        self._process_description.prepare(context, self)
+
+    def command(self) -> list[str]:
+        """The program and arguments that are started; logs show the command line of the description."""
+        assert self._process_description.final_cmd is not None
+        return self._process_description.final_cmd
+
+    def clean_up(self) -> None:
+        """Remove what was made for the process; called once, after it has ended for good."""
+
+    @property
+    def _name(self) -> str:
+        assert self._process_description.final_name is not None
+        return self._process_description.final_name
+
+    async def _run(self, context: LaunchContext) -> None:
+        try:
+            respawn = self._performed_respawn(context)
+            runs = 0
+            while await self._run_once(context) and respawn and await self._respawns(runs):
+                runs += 1
+        finally:
+            self._end()
+
+    async def _run_once(self, context: LaunchContext) -> bool:
+        """Run the process; whether it could be started."""
+        description = self._process_description
+        assert description.final_cmd is not None
+        assert description.final_env is not None
+        command_line = " ".join(description.final_cmd)
+        if self._log_cmd:
+            self._logger.info("process details: cmd='%s', cwd='%s'", command_line, description.final_cwd)
+        try:
+            self._process = process = await ChildProcess.start(
+                self.command(),
+                cwd=description.final_cwd,
+                env=description.final_env,
+                shell=self._shell,
+                inherit_stdin=not context.noninteractive and _stdin_is_terminal(),
+                emulate_tty=self._emulate_tty,
+                on_start=self._on_start,
+                on_output=lambda fd, data: self._on_output(context, fd, data),
+            )
+        except OSError as error:
+            self._logger.error("exception occurred while executing process: %s", error)
+            return False
+        await context.emit_event(ProcessStarted(action=self, **self._event_details()))
+        if context.is_shutdown:  # it began while this process was starting, too late for its signal
+            context.add_completion_future(asyncio.ensure_future(self._stop(context, send_sigint=True)))
+        self._return_code = code = await process.wait()
+        await process.close()
+        self._flush(context)
+        if code == 0:
+            self._logger.info("process has finished cleanly [pid %s]", process.pid)
+        else:
+            self._logger.error("process has died [pid %s, exit code %s, cmd '%s'].", process.pid, code, command_line)
+        await context.emit_event(ProcessExited(action=self, returncode=code or 0, **self._event_details()))
+        return True
+
+    def _on_start(self, pid: int) -> None:
+        description = self._process_description
+        self._process_details = {"name": self._name, "cmd": description.final_cmd, "cwd": description.final_cwd}
+        self._process_details |= {"env": description.final_env, "pid": pid}
+        self._logger.info("process started with pid [%s]", pid)
+
+    async def _respawns(self, runs: int) -> bool:
+        """Wait for the time of the next start; False when there is to be none."""
+        assert self._shutting_down is not None
+        if 0 <= self._respawn_max_retries <= runs:
+            return False
+        try:
+            await asyncio.wait_for(self._shutting_down.wait(), self._respawn_delay or 0.0)
+        except asyncio.TimeoutError:
+            return not self._shutting_down.is_set()
+        return False
+
+    def _end(self) -> None:
+        # Handlers stay registered: events of this process may still be queued.
+        self.clean_up()
+        if self._completed is not None and not self._completed.done():
+            self._completed.set_result(None)
+
+    # output
+
+    def _on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
+        if self._cached_output:
+            self._cache[fd] += data
+        *lines, self._pending[fd] = (self._pending[fd] + data).split(b"\n")
+        for line in lines:
+            self._log_line(fd, line)
+        event_class = ProcessStdout if fd == 1 else ProcessStderr
+        event = event_class(text=data, action=self, **self._event_details())
+        if context.would_handle_event(event):
+            context.emit_event_sync(event)
+
+    def _flush(self, _context: LaunchContext) -> None:
+        """Show last lines that lack their line end."""
+        for fd, line in self._pending.items():
+            if line:
+                self._log_line(fd, line)
+            self._pending[fd] = b""
+
+    def _log_line(self, fd: int, line: bytes) -> None:
+        text = line.decode("utf-8", errors="replace").removesuffix("\r")
+        shown = self._output_format.format(line=text, this=self)
+        self._loggers[fd - 1].info("%s", shown, extra={"from_process": True})
+
+    def _event_details(self) -> dict[str, Any]:
+        assert self._process_details is not None
+        return dict(self._process_details)
+
+    def _output_choice(self, context: LaunchContext) -> Any:
+        if isinstance(self._output, dict):
+            return self._output
+        return perform_substitutions(context, self._output)
+
+    # the end
+
+    def _register_handlers(self, context: LaunchContext) -> None:
+        if self._on_exit is not None:
+            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self._on_exit))
+        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
+        context.register_event_handler(EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event))
+
+    def _is_for_me(self, event: Event) -> bool:
+        return isinstance(event, ProcessTargetedEvent) and event.process_matcher(self)
+
+    def _on_targeted_event(self, event: Event, context: LaunchContext) -> None:
+        if isinstance(event, SignalProcess):
+            self._send_signal(event.signal)
+        elif isinstance(event, ShutdownProcess):
+            self._begin_stop(context, send_sigint=True)
+        elif isinstance(event, ProcessStdin) and self._process is not None:
+            self._process.write(event.text)
+
+    def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
+        # At Ctrl-C a terminal has sent SIGINT to its whole process group already.
+        self._begin_stop(context, send_sigint=not event.due_to_sigint or context.noninteractive)
+
+    def _begin_stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
+        assert self._shutting_down is not None
+        assert context.asyncio_loop is not None
+        if not self._shutting_down.is_set():
+            self._shutting_down.set()
+            if send_sigint:
+                self._send_signal(signal.SIGINT)
+            context.add_completion_future(context.asyncio_loop.create_task(self._stop(context, send_sigint=False)))
+
+    async def _stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
+        """Escalate until the process has ended."""
+        if send_sigint:
+            self._send_signal(signal.SIGINT)
+        steps = ((signal.SIGINT, signal.SIGTERM, self._sigterm_timeout), (signal.SIGTERM, _SIGKILL, self._sigkill_timeout))
+        for before, after, timeout in steps:
+            process = self._process
+            text = perform_substitutions(context, timeout)
+            if process is None or not process.running or await process.wait(float(text)) is not None:
+                return
+            self._logger.error(
+                "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to '%s'",
+                *(self._name, text, before.name, after.name),
+            )
+            self._send_signal(after)
+
+    def _send_signal(self, number: signal.Signals) -> None:
+        process = self._process
+        if process is None or not process.running:
+            return
+        self._logger.info("sending signal '%s' to process[%s]", number.name, self._name)
+        process.send_signal(number)
+
+    def _performed_respawn(self, context: LaunchContext) -> bool:
+        if isinstance(self._respawn, bool):
+            return self._respawn
+        from launch.conditions import evaluate_condition_expression
+
+        return evaluate_condition_expression(context, normalize_to_list_of_substitutions(self._respawn))
+
+
+_SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
+
+
+def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:
+    if value is None:
+        return normalize_to_list_of_substitutions(LaunchConfiguration(configuration, default=5))
+    return normalize_to_list_of_substitutions(str(value) if isinstance(value, (int, float)) else value)
+
+
+def _stdin_is_terminal() -> bool:
+    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()

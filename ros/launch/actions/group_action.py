@@ -1,0 +1,88 @@
+"""Groups actions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.actions.pop_environment import PopEnvironment
+from launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from launch.actions.push_environment import PushEnvironment
+from launch.actions.push_launch_configurations import PushLaunchConfigurations
+from launch.actions.reset_environment import ResetEnvironment
+from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["GroupAction"]
+
+
+@expose_action("group")
+class GroupAction(Action):
+    """Visits actions; launch configurations and environment variables that they set end with the group.
+
+    Args:
+        actions: The actions.
+        scoped: Whether what they set ends with the group.
+        forwarding: Whether the configurations and variables of the outside are known inside.
+        launch_configurations: Configurations that are set inside.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(
+        self,
+        actions: Iterable[Action],
+        *,
+        scoped: bool = True,
+        forwarding: bool = True,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._actions = list(actions)
+        self._scoped = scoped
+        self._forwarding = forwarding
+        self._launch_configurations = dict(launch_configurations or {})
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, Any]]:
+        """Read a ``group`` element; ``keep`` children name configurations of the outside that are known inside."""
+        _, kwargs = super().parse(entity, parser)
+        for attribute in ("scoped", "forwarding"):
+            value = entity.get_attr(attribute, data_type=bool, optional=True)
+            if value is not None:
+                kwargs[attribute] = value
+        kept = [child for child in entity.children if child.type_name == "keep"]
+        if kept:
+            kwargs["launch_configurations"] = {
+                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value")) for child in kept
+            }
+        kwargs["actions"] = [parser.parse_action(child) for child in entity.children if child.type_name != "keep"]
+        return cls, kwargs
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The actions."""
+        return self._sub_entities()
+
+    def execute(self, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the actions, between what begins and ends the scope."""
+        return self._sub_entities()
+
+    def _sub_entities(self) -> list[LaunchDescriptionEntity]:
+        settings = [SetLaunchConfiguration(name, value) for name, value in self._launch_configurations.items()]
+        if not self._scoped:
+            return [*settings, *self._actions]
+        inside: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
+        if self._forwarding:
+            inside += settings
+        else:
+            inside += [ResetEnvironment(), ResetLaunchConfigurations(self._launch_configurations)]
+        return [*inside, *self._actions, PopEnvironment(), PopLaunchConfigurations()]

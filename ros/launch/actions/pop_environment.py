@@ -1,0 +1,22 @@
+"""Restores the environment variables that were remembered last."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["PopEnvironment"]
+
+
+@expose_action("pop_env")
+class PopEnvironment(Action):
+    """Restores the environment variables that were remembered last."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Restore them."""
+        context._pop_environment()

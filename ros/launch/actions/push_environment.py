@@ -1,0 +1,22 @@
+"""Remembers the environment variables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["PushEnvironment"]
+
+
+@expose_action("push_env")
+class PushEnvironment(Action):
+    """Remembers the environment variables."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remember them."""
+        context._push_environment()

@@ -1,0 +1,22 @@
+"""Remembers the launch configurations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["PushLaunchConfigurations"]
+
+
+@expose_action("push_launch_configurations")
+class PushLaunchConfigurations(Action):
+    """Remembers the launch configurations."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remember them."""
+        context._push_launch_configurations()

@@ -1,0 +1,22 @@
+"""Restores the environment variables that were there when the launch began."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["ResetEnvironment"]
+
+
+@expose_action("reset_env")
+class ResetEnvironment(Action):
+    """Restores the environment variables that were there when the launch began."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Restore them."""
+        context._reset_environment()

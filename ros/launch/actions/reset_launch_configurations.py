@@ -1,0 +1,56 @@
+"""Forgets launch configurations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.frontend.expose import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["ResetLaunchConfigurations"]
+
+
+@expose_action("reset")
+class ResetLaunchConfigurations(Action):
+    """Forgets all launch configurations but those given.
+
+    Args:
+        launch_configurations: Names and values that are set afterwards; their substitutions still see the forgotten ones.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(
+        self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        self._launch_configurations = dict(launch_configurations or {})
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
+        """Read a ``reset`` element with ``keep`` children."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["launch_configurations"] = {
+            tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value"))
+            for child in entity.children
+            if child.type_name == "keep"
+        }
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> None:
+        """Forget, and set the given ones."""
+        kept = {
+            perform_substitutions(context, normalize_to_list_of_substitutions(name)): perform_substitutions(
+                context, normalize_to_list_of_substitutions(value)
+            )
+            for name, value in self._launch_configurations.items()
+        }
+        context.launch_configurations.clear()
+        context.launch_configurations.update(kept)

@@ -1,0 +1,126 @@
+"""Delays actions."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.action import Action
+from launch.event_handler import EventHandler, entity_list
+from launch.event_handlers import OnShutdown
+from launch.events import TimerEvent
+from launch.frontend.expose import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.event import Event
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+
+__all__ = ["TimerAction"]
+
+
+@expose_action("timer")
+class TimerAction(Action):
+    """Visits actions after a time, unless it is cancelled before.
+
+    Args:
+        period: Seconds: a number, or a text that is one.
+        actions: The actions.
+        cancel_on_shutdown: Whether the end of the launch cancels it: true or false, or a text that says so.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._period = normalize_to_list_of_substitutions(str(period) if isinstance(period, (int, float)) else period)
+        self._actions = entity_list(actions)
+        text = str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
+        self._cancel_on_shutdown = normalize_to_list_of_substitutions(text)
+        self._completed: asyncio.Future[None] | None = None
+        self._timer: asyncio.TimerHandle | None = None
+        self._canceled = False
+        self._logger = logging.get_logger("launch.timer_action")
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
+        """Read a ``timer`` element."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
+        kwargs["actions"] = [parser.parse_action(child) for child in entity.children]
+        return cls, kwargs
+
+    @property
+    def period(self) -> list[Substitution]:
+        """Seconds, as text."""
+        return self._period
+
+    @property
+    def actions(self) -> list[LaunchDescriptionEntity]:
+        """The actions."""
+        return self._actions
+
+    def describe(self) -> str:
+        """Name the period."""
+        period = " + ".join(part.describe() for part in self._period)
+        return f"TimerAction(period={period}, actions=<actions>)"
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """The actions, after the time."""
+        period = " + ".join(part.describe() for part in self._period)
+        return [(f"after {period} sec", self._actions)]
+
+    def execute(self, context: LaunchContext) -> None:
+        """Start the time."""
+        assert context.asyncio_loop is not None
+        if self._canceled or context.is_shutdown:
+            return
+        loop = context.asyncio_loop
+        self._completed = loop.create_future()
+        context.register_event_handler(EventHandler(matcher=self._is_mine, entities=self._actions))
+        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
+        self._timer = loop.call_later(self.seconds(context), self._expire, context)
+
+    def seconds(self, context: LaunchContext) -> float:
+        """The period."""
+        return float(perform_substitutions(context, self._period))
+
+    def cancel(self) -> None:
+        """The actions will not be visited, if they were not yet."""
+        self._canceled = True
+        if self._timer is not None:
+            self._timer.cancel()
+        if self._completed is not None and not self._completed.done():
+            self._completed.set_result(None)
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Done when the time is over or the timer is cancelled."""
+        return self._completed
+
+    def _is_mine(self, event: Event) -> bool:
+        return isinstance(event, TimerEvent) and event.timer_action is self
+
+    def _expire(self, context: LaunchContext) -> None:
+        if self._completed is not None and not self._completed.done():
+            context.emit_event_sync(TimerEvent(timer_action=self))
+            self._completed.set_result(None)
+
+    def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
+        from launch.conditions import evaluate_condition_expression
+
+        if self._completed is not None and not self._completed.done() and evaluate_condition_expression(context, self._cancel_on_shutdown):
+            self._logger.debug("canceling %s because of shutdown", self)
+            self.cancel()

@@ -1,0 +1,35 @@
+"""Unregisters an event handler."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.event_handler import BaseEventHandler
+    from launch.launch_context import LaunchContext
+
+__all__ = ["UnregisterEventHandler"]
+
+
+class UnregisterEventHandler(Action):
+    """Unregisters an event handler.
+
+    Args:
+        event_handler: The handler.
+        **kwargs: See :class:`Action`.
+    """
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        """The handler."""
+        return self._event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        """Unregister it."""
+        context.unregister_event_handler(self._event_handler)

@@ -1,0 +1,191 @@
+"""A child process on the event loop: its streams, its end, its signals."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Any, cast
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+__all__ = ["ChildProcess"]
+
+# A grandchild may hold the pipes open; what the child itself wrote is there at once.
+_DRAIN_S = 0.5
+
+
+class ChildProcess:
+    """Runs one command. Made by :meth:`start`, for the loop's thread only.
+
+    On Linux the kernel sends the child SIGTERM when this process dies in whatever way, so that none stays behind.
+    """
+
+    def __init__(self, transport: asyncio.SubprocessTransport, protocol: _Protocol) -> None:
+        self._transport = transport
+        self._protocol = protocol
+
+    @classmethod
+    async def start(
+        cls,
+        command: list[str],
+        *,
+        cwd: str | None,
+        env: Mapping[str, str],
+        shell: bool,
+        inherit_stdin: bool,
+        emulate_tty: bool,
+        on_start: Callable[[int], None],
+        on_output: Callable[[int, bytes], None],
+    ) -> ChildProcess:
+        """Start a command.
+
+        Args:
+            command: Program and arguments; with ``shell`` they are joined to one line for it.
+            cwd: Working directory.
+            env: Environment.
+            shell: Whether a shell interprets the line.
+            inherit_stdin: Whether the child reads from this process's stdin; else from a pipe.
+            emulate_tty: Whether the child's output goes to a pseudo terminal instead of pipes.
+            on_start: Called with the process id, before any output is reported.
+            on_output: Called with 1 (stdout) or 2 (stderr) and the bytes that came.
+
+        Raises:
+            OSError: It cannot be started.
+        """
+        loop = asyncio.get_running_loop()
+        protocol = _Protocol(on_start, on_output)
+        terminals = {fd: os.openpty() for fd in (1, 2)} if emulate_tty and hasattr(os, "openpty") else {}
+        options: dict[str, Any] = {"cwd": cwd, "env": dict(env), "stdin": None if inherit_stdin else subprocess.PIPE}
+        options |= {name: terminals[fd][1] if terminals else subprocess.PIPE for fd, name in ((1, "stdout"), (2, "stderr"))}
+        options["preexec_fn"] = _end_with_parent()
+        try:
+            if shell:
+                transport, _ = await loop.subprocess_shell(lambda: protocol, " ".join(command), **options)
+            else:
+                transport, _ = await loop.subprocess_exec(lambda: protocol, *command, **options)
+        except BaseException:
+            for controller, _ in terminals.values():
+                os.close(controller)
+            raise
+        finally:
+            for _, terminal in terminals.values():
+                os.close(terminal)
+        for fd, (controller, _) in terminals.items():
+            await _read_terminal(loop, controller, protocol.stream(fd))
+        return cls(cast("asyncio.SubprocessTransport", transport), protocol)
+
+    @property
+    def pid(self) -> int:
+        """Its process id."""
+        return self._transport.get_pid()
+
+    @property
+    def running(self) -> bool:
+        """Whether it has not ended yet."""
+        return not self._protocol.exited.is_set()
+
+    async def wait(self, timeout: float | None = None) -> int | None:  # noqa: ASYNC109  asyncio.timeout is not in Python 3.10
+        """Its exit status (negative for a signal), or None when it has not ended within the time."""
+        try:
+            await asyncio.wait_for(self._protocol.exited.wait(), timeout)
+        except asyncio.TimeoutError:
+            return None
+        return self._transport.get_returncode()
+
+    async def close(self) -> None:
+        """After its end: take the rest of its output and close the streams."""
+        with contextlib.suppress(asyncio.TimeoutError):
+            await asyncio.wait_for(self._protocol.streams_closed.wait(), _DRAIN_S)
+        self._protocol.close_terminals()
+        self._transport.close()
+
+    def send_signal(self, number: signal.Signals) -> None:
+        """Send a signal; one that has ended gets none."""
+        with contextlib.suppress(ProcessLookupError):
+            self._transport.send_signal(number)
+
+    def write(self, data: bytes) -> None:
+        """Send input, when its stdin is a pipe that is open."""
+        pipe = self._transport.get_pipe_transport(0)
+        if pipe is not None and not pipe.is_closing():
+            cast("asyncio.WriteTransport", pipe).write(data)
+
+
+class _Protocol(asyncio.SubprocessProtocol):
+    """What the loop reports of a child."""
+
+    def __init__(self, on_start: Callable[[int], None], on_output: Callable[[int, bytes], None]) -> None:
+        self._on_start = on_start
+        self._on_output = on_output
+        self._open_streams = {1, 2}
+        self._terminals: list[asyncio.BaseTransport] = []
+        self.exited = asyncio.Event()
+        self.streams_closed = asyncio.Event()
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._on_start(cast("asyncio.SubprocessTransport", transport).get_pid())
+
+    def pipe_data_received(self, fd: int, data: bytes | str) -> None:
+        self._on_output(fd, cast("bytes", data))
+
+    def pipe_connection_lost(self, fd: int, _error: Exception | None) -> None:
+        self._open_streams.discard(fd)
+        if not self._open_streams:
+            self.streams_closed.set()
+
+    def process_exited(self) -> None:
+        self.exited.set()
+
+    def stream(self, fd: int) -> _TerminalStream:
+        return _TerminalStream(self, fd)
+
+    def terminal_connected(self, transport: asyncio.BaseTransport) -> None:
+        self._terminals.append(transport)
+
+    def close_terminals(self) -> None:
+        for transport in self._terminals:
+            transport.close()
+
+
+class _TerminalStream(asyncio.Protocol):
+    """One output stream that comes over a pseudo terminal."""
+
+    def __init__(self, child: _Protocol, fd: int) -> None:
+        self._child = child
+        self._fd = fd
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._child.terminal_connected(transport)
+
+    def data_received(self, data: bytes) -> None:
+        self._child.pipe_data_received(self._fd, data)
+
+    def connection_lost(self, error: Exception | None) -> None:
+        # Linux reports the end of a pseudo terminal as an input/output error; it is no error here.
+        self._child.pipe_connection_lost(self._fd, error)
+
+
+async def _read_terminal(loop: asyncio.AbstractEventLoop, controller: int, stream: _TerminalStream) -> None:
+    await loop.connect_read_pipe(lambda: stream, os.fdopen(controller, "rb", buffering=0))
+
+
+def _end_with_parent() -> Callable[[], None] | None:
+    """What the child runs before its program: ask the kernel for a SIGTERM at the parent's death."""
+    if sys.platform != "linux":
+        return None
+    import ctypes
+
+    prctl = ctypes.CDLL(None).prctl
+    parent = os.getpid()
+
+    def in_child() -> None:
+        prctl(1, int(signal.SIGTERM), 0, 0, 0)  # PR_SET_PDEATHSIG
+        if os.getppid() != parent:  # it died before the request
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    return in_child

@@ -1,0 +1,35 @@
+"""Reads a text as true or false."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.conditions.invalid_condition_expression_error import InvalidConditionExpressionError
+from launch.utilities import perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.launch_context import LaunchContext
+    from launch.substitution import Substitution
+
+__all__ = ["evaluate_condition_expression"]
+
+_TRUE = ("true", "1")
+_FALSE = ("false", "0")
+
+
+def evaluate_condition_expression(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
+    """Perform the substitutions and read the text as ``true``, ``1``, ``false`` or ``0``, in small or capital letters.
+
+    Raises:
+        InvalidConditionExpressionError: It is something else.
+    """
+    text = perform_substitutions(context, expression).strip().lower()
+    if text in _TRUE:
+        return True
+    if text in _FALSE:
+        return False
+    raise InvalidConditionExpressionError(
+        f"invalid condition expression, expected one of '{'|'.join(_TRUE)}' or '{'|'.join(_FALSE)}' but got '{text}'"
+    )

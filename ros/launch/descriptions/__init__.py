@@ -1,0 +1,7 @@
+"""Descriptions of what is executed."""
+
+from __future__ import annotations
+
+from launch.descriptions.executable import Executable
+
+__all__ = ["Executable"]

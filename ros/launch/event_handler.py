@@ -1,0 +1,109 @@
+"""What happens upon an event."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_entities_type import SomeEntitiesType
+
+__all__ = ["BaseEventHandler", "EventHandler"]
+
+
+class BaseEventHandler:
+    """Decides which events it handles, and returns what is to be visited then.
+
+    Args:
+        matcher: Tells whether an event is to be handled.
+        handle_once: Unregister after the first event.
+    """
+
+    def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
+        self._matcher = matcher
+        self._handle_once = handle_once
+
+    @property
+    def handle_once(self) -> bool:
+        """Whether it ends with its first event."""
+        return self._handle_once
+
+    @property
+    def handler_description(self) -> str:
+        """What it does, in a few words."""
+        return "{OMITTED}"
+
+    @property
+    def matcher_description(self) -> str:
+        """Which events it handles, in a few words."""
+        return "{OMITTED}"
+
+    def matches(self, event: Event) -> bool:
+        """Whether it handles the event."""
+        return self._matcher(event)
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """A text, and the entities that the handler returns as far as they are known."""
+        text = f"{type(self).__name__}(matcher='{self.matcher_description}', handler='{self.handler_description}'"
+        return f"{text}, handle_once={self._handle_once})", []
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        """React to the event; the returned entities are visited."""
+        context.extend_locals({"event": event})
+        if self._handle_once:
+            context.unregister_event_handler(self)
+        return None
+
+
+class EventHandler(BaseEventHandler):
+    """Returns fixed entities, or what a function of event and context returns.
+
+    Args:
+        matcher: Tells whether an event is to be handled.
+        entities: What is visited then, or a function that returns it.
+        handle_once: Unregister after the first event.
+    """
+
+    def __init__(
+        self,
+        *,
+        matcher: Callable[[Event], bool],
+        entities: SomeEntitiesType | Callable[[Event, LaunchContext], SomeEntitiesType | None] | None = None,
+        handle_once: bool = False,
+    ) -> None:
+        super().__init__(matcher=matcher, handle_once=handle_once)
+        self._function = entities if callable(entities) else None
+        self._entities = [] if entities is None or callable(entities) else entity_list(entities)
+
+    @property
+    def entities(self) -> list[LaunchDescriptionEntity]:
+        """The fixed entities."""
+        return self._entities
+
+    @property
+    def handler_description(self) -> str:
+        """The function's name, or that actions are returned."""
+        return "<actions>" if self._function is None else str(self._function)
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """A text, and the fixed entities."""
+        return super().describe()[0], list(self._entities)
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        """Return the entities to visit."""
+        super().handle(event, context)
+        return self._entities if self._function is None else self._function(event, context)
+
+
+def entity_list(entities: SomeEntitiesType) -> list[LaunchDescriptionEntity]:
+    """One entity or several, as a list."""
+    from launch.launch_description_entity import LaunchDescriptionEntity
+
+    if isinstance(entities, LaunchDescriptionEntity):
+        return [entities]
+    items: Iterable[LaunchDescriptionEntity] = entities
+    return list(items)

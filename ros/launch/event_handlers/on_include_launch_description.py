@@ -1,0 +1,36 @@
+"""Handles the inclusion of a launch description."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+from launch.event_handler import BaseEventHandler
+from launch.events import IncludeLaunchDescription
+
+if TYPE_CHECKING:
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
+    from launch.some_entities_type import SomeEntitiesType
+
+__all__ = ["OnIncludeLaunchDescription"]
+
+
+class OnIncludeLaunchDescription(BaseEventHandler):
+    """Has the included description visited.
+
+    Args:
+        **kwargs: See :class:`BaseEventHandler`.
+    """
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(matcher=lambda event: isinstance(event, IncludeLaunchDescription), **kwargs)
+
+    @property
+    def matcher_description(self) -> str:
+        """Which events."""
+        return "event is IncludeLaunchDescription"
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        """Return the description."""
+        super().handle(event, context)
+        return [cast("IncludeLaunchDescription", event).launch_description]

@@ -1,0 +1,11 @@
+"""Events of a launch."""
+
+from __future__ import annotations
+
+from launch.events import matchers, process
+from launch.events.execution_complete import ExecutionComplete
+from launch.events.include_launch_description import IncludeLaunchDescription
+from launch.events.shutdown import Shutdown
+from launch.events.timer_event import TimerEvent
+
+__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matchers", "process"]

@@ -1,0 +1,30 @@
+"""An action has run its course."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch.action import Action
+
+__all__ = ["ExecutionComplete"]
+
+
+class ExecutionComplete(Event):
+    """An action has run its course.
+
+    Args:
+        action: The action.
+    """
+
+    name = "launch.events.ExecutionComplete"
+
+    def __init__(self, *, action: Action) -> None:
+        self._action = action
+
+    @property
+    def action(self) -> Action:
+        """The action."""
+        return self._action

@@ -1,0 +1,19 @@
+"""Predicates over the processes of a launch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.events.process.process_targeted_event import matches_executable, matches_name, matches_pid
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from launch.action import Action
+
+__all__ = ["matches_action", "matches_executable", "matches_name", "matches_pid"]
+
+
+def matches_action(action: Action) -> Callable[[Action], bool]:
+    """Is run by this action."""
+    return lambda other: other is action

@@ -1,0 +1,46 @@
+"""A process has written something."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.events.process.running_process_event import RunningProcessEvent
+
+__all__ = ["ProcessIO"]
+
+
+class ProcessIO(RunningProcessEvent):
+    """Bytes from or for a process.
+
+    Args:
+        text: The bytes.
+        fd: 0, 1 or 2.
+        **kwargs: See :class:`RunningProcessEvent`.
+    """
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._text = text
+        self._from = {0: "stdin", 1: "stdout", 2: "stderr"}[fd]
+
+    @property
+    def text(self) -> bytes:
+        """The bytes."""
+        return self._text
+
+    @property
+    def from_stdin(self) -> bool:
+        """Whether they were read from the launch's input for the process."""
+        return self._from == "stdin"
+
+    @property
+    def from_stdout(self) -> bool:
+        """Whether the process wrote them to stdout."""
+        return self._from == "stdout"
+
+    @property
+    def from_stderr(self) -> bool:
+        """Whether the process wrote them to stderr."""
+        return self._from == "stderr"

@@ -1,0 +1,13 @@
+"""A process runs."""
+
+from __future__ import annotations
+
+from launch.events.process.running_process_event import RunningProcessEvent
+
+__all__ = ["ProcessStarted"]
+
+
+class ProcessStarted(RunningProcessEvent):
+    """A process runs."""
+
+    name = "launch.events.process.ProcessStarted"

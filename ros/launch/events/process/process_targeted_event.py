@@ -1,0 +1,49 @@
+"""Something that is to happen to processes of the launch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from launch.actions import ExecuteLocal
+
+__all__ = ["ProcessTargetedEvent", "matches_executable", "matches_name", "matches_pid"]
+
+
+class ProcessTargetedEvent(Event):
+    """Is for each process whose action fulfils the predicate.
+
+    Args:
+        process_matcher: The predicate, for example ``matches_action(node)``.
+    """
+
+    name = "launch.events.process.ProcessTargetedEvent"
+
+    def __init__(self, *, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+        self._process_matcher = process_matcher
+
+    @property
+    def process_matcher(self) -> Callable[[ExecuteLocal], bool]:
+        """The predicate."""
+        return self._process_matcher
+
+
+def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
+    """Is the process with this id."""
+    return lambda action: action.process_details is not None and action.process_details["pid"] == pid
+
+
+def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
+    """Is the process with this unique name."""
+    return lambda action: action.process_details is not None and action.process_details["name"] == name
+
+
+def matches_executable(exec_name: str) -> Callable[[ExecuteLocal], bool]:
+    """Runs the executable of this file name."""
+    import os
+
+    return lambda action: action.process_details is not None and os.path.basename(action.process_details["cmd"][0]) == exec_name

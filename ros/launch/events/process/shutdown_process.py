@@ -1,0 +1,13 @@
+"""A process is to end."""
+
+from __future__ import annotations
+
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
+
+__all__ = ["ShutdownProcess"]
+
+
+class ShutdownProcess(ProcessTargetedEvent):
+    """A process is to end: it gets SIGINT, then SIGTERM, then SIGKILL."""
+
+    name = "launch.events.process.ShutdownProcess"

@@ -1,0 +1,41 @@
+"""A process is to get a signal."""
+
+from __future__ import annotations
+
+import signal as signal_module
+from typing import TYPE_CHECKING
+
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from launch.actions import ExecuteLocal
+
+__all__ = ["SignalProcess"]
+
+
+class SignalProcess(ProcessTargetedEvent):
+    """A process is to get a signal.
+
+    Args:
+        signal_number: The signal, by number or name (``SIGINT``).
+        process_matcher: Which processes.
+    """
+
+    name = "launch.events.process.SignalProcess"
+
+    def __init__(self, *, signal_number: str | int, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+        super().__init__(process_matcher=process_matcher)
+        named = signal_module.Signals[signal_number] if isinstance(signal_number, str) else signal_module.Signals(signal_number)
+        self._signal = named
+
+    @property
+    def signal(self) -> signal_module.Signals:
+        """The signal."""
+        return self._signal
+
+    @property
+    def signal_name(self) -> str:
+        """Its name, for example ``SIGINT``."""
+        return self._signal.name

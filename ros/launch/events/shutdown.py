@@ -1,0 +1,32 @@
+"""The launch is to end."""
+
+from __future__ import annotations
+
+from launch.event import Event
+
+__all__ = ["Shutdown"]
+
+
+class Shutdown(Event):
+    """The launch is to end.
+
+    Args:
+        reason: Why.
+        due_to_sigint: Whether Ctrl-C is the cause.
+    """
+
+    name = "launch.events.Shutdown"
+
+    def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False) -> None:
+        self._reason = reason
+        self._due_to_sigint = due_to_sigint
+
+    @property
+    def reason(self) -> str:
+        """Why."""
+        return self._reason
+
+    @property
+    def due_to_sigint(self) -> bool:
+        """Whether Ctrl-C is the cause."""
+        return self._due_to_sigint

@@ -1,0 +1,30 @@
+"""A timer has run out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch.actions import TimerAction
+
+__all__ = ["TimerEvent"]
+
+
+class TimerEvent(Event):
+    """A timer has run out.
+
+    Args:
+        timer_action: The timer.
+    """
+
+    name = "launch.events.TimerEvent"
+
+    def __init__(self, *, timer_action: TimerAction) -> None:
+        self._timer_action = timer_action
+
+    @property
+    def timer_action(self) -> TimerAction:
+        """The timer."""
+        return self._timer_action

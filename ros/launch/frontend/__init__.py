@@ -1,0 +1,9 @@
+"""Launch files in other languages than Python: what their parsers share."""
+
+from __future__ import annotations
+
+from launch.frontend.entity import Entity
+from launch.frontend.expose import expose_action, expose_substitution
+from launch.frontend.parser import InvalidFrontendLaunchFileError, Parser
+
+__all__ = ["Entity", "InvalidFrontendLaunchFileError", "Parser", "expose_action", "expose_substitution"]

@@ -1,0 +1,49 @@
+"""One element of a launch file in XML or YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = ["Entity"]
+
+
+class Entity:
+    """One element of a launch file; each language has a class of its own."""
+
+    @property
+    def type_name(self) -> str:
+        """Name of the element, for example ``node``."""
+        raise NotImplementedError
+
+    @property
+    def parent(self) -> Entity | None:
+        """The element it is in."""
+        raise NotImplementedError
+
+    @property
+    def children(self) -> list[Entity]:
+        """The elements in it."""
+        raise NotImplementedError
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Refuse attributes and children that nobody asked for.
+
+        Raises:
+            ValueError: There are some.
+        """
+        raise NotImplementedError
+
+    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+        """The value of an attribute.
+
+        Args:
+            name: Its name.
+            data_type: ``str``, ``int``, ``float``, ``bool``, ``List[...]`` of these, or ``List[Entity]`` for child elements.
+            optional: Return None when it is not there.
+            can_be_str: Return text as it is when it is not of the type, since it may hold substitutions.
+
+        Raises:
+            AttributeError: It is not there.
+            TypeError: It has another type.
+        """
+        raise NotImplementedError

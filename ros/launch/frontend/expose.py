@@ -1,0 +1,40 @@
+"""The names under which launch files in XML and YAML know actions and substitutions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["action_parse_methods", "expose_action", "expose_substitution", "substitution_parse_methods"]
+
+_Exposed = TypeVar("_Exposed")
+
+#: Name of an action to the function that reads it: ``(entity, parser) -> (class, keyword arguments)``.
+action_parse_methods: dict[str, Callable[..., Any]] = {}
+#: Name of a substitution to the function that reads it: ``(arguments) -> (class, keyword arguments)``.
+substitution_parse_methods: dict[str, Callable[..., Any]] = {}
+
+
+def expose_action(name: str) -> Callable[[_Exposed], _Exposed]:
+    """Make a class with a ``parse`` class method, or such a function, known as the action ``name``."""
+    return _expose(name, action_parse_methods, "action")
+
+
+def expose_substitution(name: str) -> Callable[[_Exposed], _Exposed]:
+    """Make a class with a ``parse`` class method, or such a function, known as the substitution ``name``."""
+    return _expose(name, substitution_parse_methods, "substitution")
+
+
+def _expose(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Callable[[_Exposed], _Exposed]:
+    def decorate(exposed: _Exposed) -> _Exposed:
+        method = getattr(exposed, "parse", exposed)
+        if not callable(method):
+            raise RuntimeError(f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method")
+        if name in methods and methods[name] != method:
+            raise RuntimeError(f"Two {kind}s are exposed as '{name}'")
+        methods[name] = method
+        return exposed
+
+    return decorate

@@ -1,0 +1,110 @@
+"""Reads text with substitutions, ``hello $(var name)``, of launch files in XML and YAML.
+
+``$(name argument ...)``: arguments are separated by blanks, quoted by ``'`` or ``"`` when they contain some, and may hold further
+substitutions. ``\\$``, ``\\'``, ``\\"`` and ``\\\\`` stand for the character alone.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.frontend.expose import substitution_parse_methods
+from launch.substitutions.text_substitution import TextSubstitution
+
+if TYPE_CHECKING:
+    from launch.substitution import Substitution
+
+__all__ = ["parse_substitution"]
+
+_ESCAPABLE = "$'\"\\"
+
+
+def parse_substitution(text: str) -> list[Substitution]:
+    """The substitutions that a text consists of; plain stretches are text substitutions.
+
+    Raises:
+        SyntaxError: A substitution is not closed.
+        RuntimeError: There is no substitution of that name.
+    """
+    if not text:
+        return [TextSubstitution(text="")]
+    reader = _Reader(text)
+    parts = reader.read_until("")
+    reader.expect_end()
+    return parts
+
+
+class _Reader:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+
+    def read_until(self, stops: str) -> list[Substitution]:
+        """Read up to one of the characters, which is not consumed."""
+        parts: list[Substitution] = []
+        plain: list[str] = []
+        while self._at < len(self._text) and self._text[self._at] not in stops:
+            if self._text.startswith("$(", self._at):
+                if plain:
+                    parts.append(TextSubstitution(text="".join(plain)))
+                    plain = []
+                parts.append(self._substitution())
+            else:
+                plain.append(self._character())
+        if plain:
+            parts.append(TextSubstitution(text="".join(plain)))
+        return parts
+
+    def expect_end(self) -> None:
+        if self._at != len(self._text):
+            raise SyntaxError(f"unexpected '{self._text[self._at]}' at position {self._at} of '{self._text}'")
+
+    def _character(self) -> str:
+        character = self._text[self._at]
+        if character == "\\" and self._text[self._at + 1 : self._at + 2] in _ESCAPABLE and self._at + 1 < len(self._text):
+            self._at += 1
+            character = self._text[self._at]
+        self._at += 1
+        return character
+
+    def _substitution(self) -> Substitution:
+        start = self._at
+        self._at += 2
+        self._skip_blanks()
+        name_start = self._at
+        while self._at < len(self._text) and (self._text[self._at].isalnum() or self._text[self._at] in "-_"):
+            self._at += 1
+        name = self._text[name_start : self._at]
+        arguments = []
+        while True:
+            self._skip_blanks()
+            if self._at >= len(self._text):
+                raise SyntaxError(f"the substitution '{self._text[start:]}' is not closed by ')'")
+            if self._text[self._at] == ")":
+                self._at += 1
+                return _make(name, arguments)
+            arguments.append(self._argument())
+
+    def _argument(self) -> list[Substitution]:
+        quote = self._text[self._at]
+        if quote not in "'\"":
+            return self.read_until(" \t\r\n)")
+        self._at += 1
+        parts = self.read_until(quote)
+        if self._at >= len(self._text):
+            raise SyntaxError(f"the quote {quote} in '{self._text}' is not closed")
+        self._at += 1
+        return parts or [TextSubstitution(text="")]
+
+    def _skip_blanks(self) -> None:
+        while self._at < len(self._text) and self._text[self._at].isspace():
+            self._at += 1
+
+
+def _make(name: str, arguments: list[list[Substitution]]) -> Substitution:
+    if name not in substitution_parse_methods:
+        raise RuntimeError(f"Unknown substitution: {name}")
+    substitution_class, keywords = substitution_parse_methods[name](arguments)
+    positional = keywords.pop("args", ())
+    made: Substitution = substitution_class(*positional, **keywords)
+    return made

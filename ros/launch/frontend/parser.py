@@ -1,0 +1,143 @@
+"""Makes launch descriptions of the elements of a launch file."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.expose import action_parse_methods
+
+if TYPE_CHECKING:
+    import io
+
+    from launch.action import Action
+    from launch.frontend.entity import Entity
+    from launch.launch_description import LaunchDescription
+    from launch.substitution import Substitution
+
+__all__ = ["InvalidFrontendLaunchFileError", "Parser"]
+
+_UNREADABLE = "The launch file may have a syntax error, or its format is unknown"
+
+
+class InvalidFrontendLaunchFileError(Exception):
+    """No parser can read the file."""
+
+
+class Parser:
+    """Base of the parsers of the single languages, and what is common to them."""
+
+    @classmethod
+    def load(cls, file: str | io.TextIOBase) -> tuple[Entity, Parser]:
+        """Read a file, given by path or opened, into its root element and the parser of its language.
+
+        The language that belongs to the file's suffix is tried first, then the others.
+
+        Raises:
+            InvalidFrontendLaunchFileError: No language fits.
+        """
+        path = file if isinstance(file, str) else getattr(file, "name", "")
+        suffix = os.path.splitext(str(path))[1].removeprefix(".")
+        parsers = sorted(_parsers(), key=lambda parser: suffix not in parser.get_file_extensions())
+        reasons = []
+        for parser in parsers:
+            try:
+                return parser.load(file)
+            except OSError:
+                raise
+            except Exception as error:  # noqa: BLE001  each language says in its own way that a file is none of its kind
+                reasons.append((suffix in parser.get_file_extensions(), error))
+                if not isinstance(file, str):
+                    file.seek(0)
+        error = InvalidFrontendLaunchFileError(_UNREADABLE)
+        error.__cause__ = reasons[0][1]
+        raise error
+
+    @classmethod
+    def get_available_extensions(cls) -> list[str]:
+        """Suffixes of the languages there are, without dot."""
+        return [suffix for parser in _parsers() for suffix in sorted(parser.get_file_extensions())]
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        """Suffixes of this language, without dot."""
+        return set()
+
+    @classmethod
+    def is_extension_valid(cls, extension: str) -> bool:
+        """Whether there is a language of that suffix."""
+        return extension.removeprefix(".") in cls.get_available_extensions()
+
+    def parse_description(self, entity: Entity) -> LaunchDescription:
+        """The launch description of a root element.
+
+        Raises:
+            RuntimeError: It is no root element, or an element is unknown.
+        """
+        from launch.launch_description import LaunchDescription
+
+        if entity.type_name != "launch":
+            raise RuntimeError("Expected 'launch' as root tag")
+        actions = [self.parse_action(child) for child in entity.children]
+        entity.assert_entity_completely_parsed()
+        return LaunchDescription(actions)
+
+    def parse_action(self, entity: Entity) -> Action:
+        """The action of an element.
+
+        Raises:
+            RuntimeError: There is no such action.
+            ValueError: The element has attributes or children that the action does not know.
+        """
+        _load_extensions()
+        if entity.type_name not in action_parse_methods:
+            raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
+        action_class, keywords = action_parse_methods[entity.type_name](entity, self)
+        entity.assert_entity_completely_parsed()
+        action: Action = action_class(**keywords)
+        return action
+
+    def parse_substitution(self, value: str) -> list[Substitution]:
+        """The substitutions of a text."""
+        from launch.frontend.parse_substitution import parse_substitution
+
+        _load_extensions()
+        return parse_substitution(value)
+
+    def parse_if_substitutions(self, value: Any) -> Any:
+        """Text, and text in lists, as substitutions; other values as they are."""
+        if isinstance(value, str):
+            return self.parse_substitution(value)
+        if isinstance(value, list):
+            return [self.parse_if_substitutions(item) for item in value]
+        return value
+
+    def escape_characters(self, value: str) -> str:
+        """The text with characters escaped that would otherwise begin a substitution."""
+        return value.replace("\\", "\\\\").replace("$(", "\\$(").replace("'", "\\'").replace('"', '\\"')
+
+
+def _parsers() -> list[type[Parser]]:
+    from launch_xml import Parser as XmlParser
+    from launch_yaml import Parser as YamlParser
+
+    return [XmlParser, YamlParser]
+
+
+def _load_extensions() -> None:
+    """Import what exposes actions and substitutions: launch, launch_ros, and packages that say so by an entry point."""
+    import launch.actions
+    import launch.substitutions
+    import launch_ros.actions
+    import launch_ros.substitutions
+
+    global _extensions_loaded  # noqa: PLW0603
+    if not _extensions_loaded:
+        from importlib.metadata import entry_points
+
+        _extensions_loaded = True
+        for entry in entry_points(group="launch.frontend.launch_extension"):
+            entry.load()
+
+
+_extensions_loaded = False

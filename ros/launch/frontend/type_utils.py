@@ -1,0 +1,48 @@
+"""Texts of attributes as values of a type."""
+
+from __future__ import annotations
+
+import typing
+from typing import Any
+
+from launch.frontend.entity import Entity
+
+__all__ = ["coerce", "is_entity_list", "list_item_type"]
+
+_TRUE = ("yes", "true", "on")
+_FALSE = ("no", "false", "off")
+
+
+def list_item_type(data_type: Any) -> Any:
+    """What the items of a list type are, or None when the type is no list."""
+    return typing.get_args(data_type)[0] if typing.get_origin(data_type) is list and typing.get_args(data_type) else None
+
+
+def is_entity_list(data_type: Any) -> bool:
+    """Whether child elements are meant."""
+    item = list_item_type(data_type)
+    return isinstance(item, type) and issubclass(item, Entity)
+
+
+def coerce(text: str, data_type: Any) -> Any:
+    """The value that a text means.
+
+    Args:
+        text: The text.
+        data_type: ``int``, ``float``, ``bool``, ``str``, or None for whatever YAML makes of it.
+
+    Raises:
+        ValueError: It means none of that type.
+    """
+    if data_type is str:
+        return text
+    if data_type is bool:
+        lowered = text.strip().lower()
+        if lowered in _TRUE or lowered in _FALSE:
+            return lowered in _TRUE
+        raise ValueError(f"Expected one of '{'|'.join(_TRUE + _FALSE)}', got '{text}'")
+    if data_type in (int, float):
+        return data_type(text)
+    import yaml
+
+    return yaml.safe_load(text)

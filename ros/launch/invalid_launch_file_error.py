@@ -1,0 +1,33 @@
+"""The error of launch files that no loader understands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["InvalidLaunchFileError"]
+
+
+class InvalidLaunchFileError(Exception):
+    """No loader could read a launch file; the text names what each of them found.
+
+    Args:
+        extension: The file's format, for example ``.py``.
+        likely_errors: What the loaders raised, the most likely one first.
+    """
+
+    def __init__(self, extension: str = "", *, likely_errors: Sequence[BaseException] = ()) -> None:
+        self.extension = extension.removeprefix(".")
+        self.likely_errors = list(likely_errors)
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        """One line for one error, a list for several."""
+        if not self.likely_errors:
+            return f"The launch file may have a syntax error, or its format is unknown: [{self.extension}]"
+        if len(self.likely_errors) == 1:
+            return f"Caught exception when trying to load file of format [{self.extension}]: {self.likely_errors[0]}"
+        lines = [f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"]
+        return "\n".join(lines + [f" - {type(error).__name__}: {error}" for error in self.likely_errors])

@@ -1,0 +1,33 @@
+"""What a launch description consists of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Iterable
+
+    from launch.launch_context import LaunchContext
+
+__all__ = ["LaunchDescriptionEntity"]
+
+
+class LaunchDescriptionEntity:
+    """Something that can be visited while a launch runs; a visit may bring forth further entities."""
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Take effect; the returned entities are visited next."""
+        raise NotImplementedError(f"{type(self).__name__} does not define visit()")
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Entities that a visit always returns, for inspection without running."""
+        return []
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Entities that a visit returns under a condition, each group with a text that names the condition."""
+        return []
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """What is done when the entity has run its course; None for one whose visit is all."""
+        return None

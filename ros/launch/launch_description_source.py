@@ -1,0 +1,82 @@
+"""Where launch descriptions come from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.launch_description import LaunchDescription
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+
+__all__ = ["LaunchDescriptionSource"]
+
+
+class LaunchDescriptionSource:
+    """A launch description, or a file that is read when it is first needed.
+
+    Args:
+        launch_description: The description, when it is there already.
+        location: Path of the file (or what stands for it).
+        method: How the description comes about, for messages.
+    """
+
+    def __init__(
+        self,
+        launch_description: LaunchDescription | None = None,
+        location: SomeSubstitutionsType | None = None,
+        method: str = "unspecified mechanism from a script",
+    ) -> None:
+        self._launch_description = launch_description
+        self._location: list[Substitution] = normalize_to_list_of_substitutions("" if location is None else location)
+        self._expanded_location: str | None = None
+        self._method = method
+
+    def try_get_launch_description_without_context(self) -> LaunchDescription | None:
+        """The description when its place is plain text; None when a running launch is needed to find it.
+
+        Raises:
+            Exception: Whatever the loader raises.
+        """
+        if self._launch_description is None:
+            from launch.substitutions import TextSubstitution
+
+            texts = [part.text for part in self._location if isinstance(part, TextSubstitution)]
+            if len(texts) != len(self._location):
+                return None
+            self._load("".join(texts))
+        return self._launch_description
+
+    def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
+        """The description, read now if it was not before.
+
+        Raises:
+            Exception: Whatever the loader raises.
+        """
+        if self._launch_description is None:
+            self._load(perform_substitutions(context, self._location))
+        assert self._launch_description is not None
+        return self._launch_description
+
+    @property
+    def location(self) -> str:
+        """Path of the file; before it was read, a description of how it will be found."""
+        if self._expanded_location is not None:
+            return self._expanded_location
+        return " + ".join(part.describe() for part in self._location)
+
+    @property
+    def method(self) -> str:
+        """How the description comes about."""
+        return self._method
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        """Read the description from ``location``."""
+        raise NotImplementedError(f"{type(self).__name__} was made without a launch description")
+
+    def _load(self, location: str) -> None:
+        self._expanded_location = location
+        self._launch_description = self._get_launch_description(location)

@@ -1,0 +1,38 @@
+"""Reading launch files of any language."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from launch.frontend.parser import Parser
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description_sources.frontend_launch_file_utilities import get_launch_description_from_frontend_launch_file
+from launch.launch_description_sources.python_launch_file_utilities import get_launch_description_from_python_launch_file
+
+if TYPE_CHECKING:
+    from launch.launch_description import LaunchDescription
+
+__all__ = ["get_launch_description_from_any_launch_file"]
+
+
+def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+    """Read a launch file; the language that belongs to its suffix is tried first.
+
+    Raises:
+        InvalidLaunchFileError: No language fits; the text says what each of them found.
+        ValueError: There is no such file.
+    """
+    if not os.path.isfile(launch_file_path):
+        raise ValueError(f"file not found: [Errno 2] No such file or directory: '{launch_file_path}'")
+    extension = os.path.splitext(launch_file_path)[1]
+    loaders = [get_launch_description_from_frontend_launch_file, get_launch_description_from_python_launch_file]
+    if not Parser.is_extension_valid(extension):
+        loaders.reverse()
+    errors: list[BaseException] = []
+    for loader in loaders:
+        try:
+            return loader(launch_file_path)
+        except Exception as error:  # noqa: BLE001  a launch file may raise anything
+            errors.append(error)
+    raise InvalidLaunchFileError(extension, likely_errors=errors)

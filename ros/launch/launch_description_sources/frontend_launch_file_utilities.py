@@ -1,0 +1,25 @@
+"""Reading launch files in XML and YAML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.frontend.parser import InvalidFrontendLaunchFileError, Parser
+
+if TYPE_CHECKING:
+    from launch.launch_description import LaunchDescription
+
+__all__ = ["InvalidFrontendLaunchFileError", "get_launch_description_from_frontend_launch_file"]
+
+
+def get_launch_description_from_frontend_launch_file(
+    frontend_launch_file_path: str, *, parser: type[Parser] | None = None
+) -> LaunchDescription:
+    """Read a launch file in XML or YAML.
+
+    Raises:
+        InvalidFrontendLaunchFileError: No language fits.
+        Exception: What is wrong with an element.
+    """
+    root, file_parser = (parser or Parser).load(frontend_launch_file_path)
+    return file_parser.parse_description(root)

@@ -1,0 +1,57 @@
+"""Reading launch files in Python."""
+
+from __future__ import annotations
+
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from typing import TYPE_CHECKING, cast
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from launch.launch_description import LaunchDescription
+
+__all__ = ["InvalidPythonLaunchFileError", "get_launch_description_from_python_launch_file", "load_python_launch_file_as_module"]
+
+
+class InvalidPythonLaunchFileError(Exception):
+    """A Python file that defines no launch description."""
+
+
+def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
+    """Run the file as a module, without leaving bytecode beside it.
+
+    Raises:
+        Exception: Whatever the file raises.
+    """
+    loader = _UncachedLoader("python_launch_file", python_launch_file_path)
+    spec = spec_from_loader(loader.name, loader)
+    assert spec is not None
+    module = module_from_spec(spec)
+    loader.exec_module(module)
+    return module
+
+
+def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
+    """What the file's ``generate_launch_description()`` returns.
+
+    Raises:
+        InvalidPythonLaunchFileError: It does not define that function.
+        Exception: Whatever the file raises.
+    """
+    module = load_python_launch_file_as_module(python_launch_file_path)
+    if not hasattr(module, "generate_launch_description"):
+        raise InvalidPythonLaunchFileError(
+            f"launch file at '{python_launch_file_path}' does not contain the required function 'generate_launch_description()'"
+        )
+    return cast("LaunchDescription", module.generate_launch_description())
+
+
+class _UncachedLoader(SourceFileLoader):
+    def get_data(self, path: str) -> bytes:
+        if path.endswith(".pyc"):
+            raise OSError("launch files are always read from their source")
+        return super().get_data(path)
+
+    def _cache_bytecode(self, *_args: object) -> None:
+        """Leave no file behind."""

@@ -1,0 +1,91 @@
+"""Shows a launch description as a tree, for ``ros2 launch --print``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.utilities import is_a
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.event_handler import BaseEventHandler
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.substitution import Substitution
+
+__all__ = ["LaunchIntrospector", "format_action", "format_entities", "format_event_handler", "format_substitutions"]
+
+
+class LaunchIntrospector:
+    """Shows launch descriptions without running them."""
+
+    def format_launch_description(self, launch_description: LaunchDescriptionEntity) -> str:
+        """The tree of a description."""
+        return "\n".join([str(launch_description), *_indented(format_entities(launch_description.describe_sub_entities()))])
+
+
+def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
+    """Joined descriptions."""
+    return "None" if substitutions is None else " + ".join(part.describe() for part in substitutions)
+
+
+def format_action(action: Action) -> list[str]:
+    """An action, with its sub entities below it."""
+    if is_a(action, LogInfo):
+        return [f"LogInfo({format_substitutions(action.msg)})"]
+    if is_a(action, EmitEvent):
+        return [f"EmitEvent(event='{action.event.name}')"]
+    if is_a(action, ExecuteProcess):
+        cmd = ", ".join(format_substitutions(part) for part in action.cmd)
+        return [
+            f"ExecuteProcess(cmd=[{cmd}], cwd={format_substitutions(action.cwd)}, env={_variables(action.env)}, shell={action.shell})",
+            *_indented(_conditional(action)),
+        ]
+    if is_a(action, RegisterEventHandler):
+        return ["RegisterEventHandler('" + str(action.event_handler) + "'):", *_indented(format_event_handler(action.event_handler))]
+    return [f"Action('{action.describe()}')", *_indented(format_entities(action.describe_sub_entities())), *_indented(_conditional(action))]
+
+
+def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
+    """Entities, each with its sub entities below it; the first line of each begins without blank."""
+    lines = []
+    for entity in entities:
+        if is_a(entity, Action):
+            lines += format_action(entity)  # type: ignore[arg-type]
+        else:
+            lines += [str(entity), *_indented(format_entities(entity.describe_sub_entities()))]
+    return lines
+
+
+def format_event_handler(event_handler: BaseEventHandler) -> list[str]:
+    """A handler, with the entities that it returns."""
+    text, entities = event_handler.describe()
+    return [text, *_indented(format_entities(entities))]
+
+
+def _conditional(action: Action) -> list[str]:
+    lines = []
+    for condition, entities in action.describe_conditional_sub_entities():
+        lines += [condition, *_indented(format_entities(entities))]
+    return lines
+
+
+def _variables(env: Any) -> str:
+    if env is None:
+        return "None"
+    return "{" + ", ".join(f"{format_substitutions(name)}: {format_substitutions(value)}" for name, value in env) + "}"
+
+
+def _indented(lines: list[str]) -> list[str]:
+    """Draw the branches to lines of one level; lines of deeper levels begin with a branch or a blank already."""
+    starts = [index for index, line in enumerate(lines) if line[:1] not in ("├", "└", "│", " ")]
+    result = []
+    for index, line in enumerate(lines):
+        last = bool(starts) and index >= starts[-1]
+        if index in starts:
+            result.append(("└── " if last else "├── ") + line)
+        else:
+            result.append(("    " if last else "│   ") + line)
+    return result

@@ -1,0 +1,227 @@
+"""Runs launch descriptions: the event loop, the order of things, Ctrl-C."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import signal
+import threading
+import traceback
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.event_handler import entity_list
+from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
+from launch.events import IncludeLaunchDescription, Shutdown
+from launch.launch_context import LaunchContext
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from launch.event import Event
+    from launch.launch_description import LaunchDescription
+    from launch.launch_description_entity import LaunchDescriptionEntity
+
+__all__ = ["LaunchService"]
+
+
+class LaunchService:
+    """Runs until everything that was launched has ended, or until it is told to shut down.
+
+    Events are handled one after the other. An exception out of an entity shuts the launch down; :meth:`run` then returns 1.
+
+    Args:
+        argv: Arguments of the launch.
+        noninteractive: Whether nobody at a terminal watches it: children then get no SIGINT from a terminal, and are sent one at Ctrl-C.
+        debug: Log at DEBUG level.
+    """
+
+    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
+        logging.launch_config.level = logging.DEBUG if debug else logging.INFO
+        self._context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self._logger = logging.get_logger("launch")
+        self._context._on_event = self._wake_loop
+        self._context._on_completion_future = self._add_future
+        self._context.register_event_handler(OnIncludeLaunchDescription())
+        self._context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
+        self._futures: set[asyncio.Future[Any]] = set()
+        self._wake: asyncio.Event | None = None
+        self._running = threading.Lock()
+        self._interrupted = False
+        self._return_code = 0
+
+    @property
+    def context(self) -> LaunchContext:
+        """What the parts of this launch share."""
+        return self._context
+
+    @property
+    def event_loop(self) -> asyncio.AbstractEventLoop | None:
+        """The loop it runs on, or None when it does not run."""
+        return self._context.asyncio_loop
+
+    def include_launch_description(self, launch_description: LaunchDescription) -> None:
+        """Visit a description as soon as the launch runs. Safe from any thread."""
+        self.emit_event(IncludeLaunchDescription(launch_description))
+
+    def emit_event(self, event: Event) -> None:
+        """Queue an event. Safe from any thread."""
+        self._context.emit_event_sync(event)
+
+    def shutdown(self, force_sync: bool = False) -> None:
+        """End the launch: all processes are stopped, then :meth:`run` returns. Safe from any thread.
+
+        Args:
+            force_sync: As in ROS 2; the event is queued in either case.
+        """
+        del force_sync
+        self._shut_down("LaunchService.shutdown() called", due_to_sigint=False)
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run to the end.
+
+        Args:
+            shutdown_when_idle: End when nothing is left to do.
+
+        Returns:
+            0, or 1 when the launch itself failed. Failures of launched processes do not count.
+        """
+        loop = asyncio.new_event_loop()
+        try:
+            return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
+        finally:
+            loop.run_until_complete(loop.shutdown_asyncgens())
+            loop.close()
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """The same as :meth:`run`, on the running loop."""
+        if not self._running.acquire(blocking=False):
+            raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
+        try:
+            self._logger.info("All log files can be found below %s", logging.launch_config.log_dir)
+            self._logger.info("Default logging verbosity is set to %s", logging.getLevelName(logging.launch_config.level))
+            self._context._asyncio_loop = asyncio.get_running_loop()
+            self._context._is_shutdown = False
+            self._return_code = 0
+            self._wake = asyncio.Event()
+            with self._signals_handled():
+                await self._serve(shutdown_when_idle)
+            return self._return_code
+        finally:
+            self._context._asyncio_loop = None
+            self._running.release()
+
+    async def _serve(self, shutdown_when_idle: bool) -> None:
+        assert self._wake is not None
+        while True:
+            self._wake.clear()
+            self._reap_futures()
+            if self._context._events:
+                await self._process_event(self._context._events.popleft())
+            elif self._futures or not (self._context.is_shutdown or shutdown_when_idle):
+                await self._wake.wait()
+            elif self._context.is_shutdown:
+                return
+            else:
+                self._shut_down("idle", due_to_sigint=False)
+
+    async def _process_event(self, event: Event) -> None:
+        self._logger.debug("processing event: '%s'", event)
+        for handler in tuple(self._context._event_handlers):
+            if not handler.matches(event):
+                continue
+            self._logger.debug("processing event: '%s' ✓ '%s'", event, handler)
+            self._context._push_locals()
+            try:
+                for entity in entity_list(handler.handle(event, self._context) or ()):
+                    self._visit(entity)
+            except Exception as error:
+                self._fail(error)
+            finally:
+                self._context._pop_locals()
+            await asyncio.sleep(0)  # lets processes that were just started report before the next handler
+
+    def _visit(self, entity: LaunchDescriptionEntity) -> None:
+        sub_entities = entity.visit(self._context)
+        future = entity.get_asyncio_future()
+        if future is not None:
+            self._add_future(future)
+        for sub_entity in sub_entities or ():
+            self._visit(sub_entity)
+
+    def _add_future(self, future: asyncio.Future[Any]) -> None:
+        if future not in self._futures:
+            self._futures.add(future)
+            future.add_done_callback(lambda _: self._wake_loop())
+
+    def _reap_futures(self) -> None:
+        for future in [future for future in self._futures if future.done()]:
+            self._futures.discard(future)
+            error = None if future.cancelled() else future.exception()
+            if error is not None:
+                self._fail(error)
+
+    def _fail(self, error: BaseException) -> None:
+        self._logger.debug("%s", "".join(traceback.format_exception(type(error), error, error.__traceback__)))
+        self._logger.error("Caught exception in launch (see debug for traceback): %s", error)
+        self._return_code = 1
+        self._shut_down(f"Caught exception in launch (see debug for traceback): {error}", due_to_sigint=False)
+
+    def _shut_down(self, reason: str, *, due_to_sigint: bool) -> None:
+        if not self._context.is_shutdown:
+            self.emit_event(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
+
+    def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
+        context._is_shutdown = True
+
+    def _wake_loop(self) -> None:
+        loop, wake = self._context.asyncio_loop, self._wake
+        if loop is None or wake is None:
+            return  # not running: the queue is looked at when it starts
+        with contextlib.suppress(RuntimeError):  # the loop was closed meanwhile
+            loop.call_soon_threadsafe(wake.set)
+
+    # signals
+
+    @contextlib.contextmanager
+    def _signals_handled(self) -> Iterator[None]:
+        """Handle Ctrl-C, Ctrl-\\ and SIGTERM meanwhile; only the main thread can."""
+        handlers = {"SIGINT": self._on_sigint, "SIGTERM": self._on_sigterm, "SIGQUIT": self._on_sigquit}
+        numbers = [getattr(signal, name) for name in handlers if hasattr(signal, name)]
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        loop = asyncio.get_running_loop()
+        before = {number: signal.getsignal(number) for number in numbers}
+        for number in numbers:
+            handler = handlers[signal.Signals(number).name]
+            try:
+                loop.add_signal_handler(number, handler)
+            except NotImplementedError:  # Windows
+                signal.signal(number, lambda *_, handler=handler: loop.call_soon_threadsafe(handler))
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                with contextlib.suppress(NotImplementedError):
+                    loop.remove_signal_handler(number)
+                signal.signal(number, handler)
+
+    def _on_sigint(self) -> None:
+        if self._interrupted:
+            self._logger.warning("user interrupted with ctrl-c (SIGINT) again, ignoring...")
+            return
+        self._interrupted = True
+        self._logger.warning("user interrupted with ctrl-c (SIGINT)")
+        self._shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
+
+    def _on_sigterm(self) -> None:
+        self._terminate("SIGTERM")
+
+    def _on_sigquit(self) -> None:
+        self._terminate("SIGQUIT")
+
+    def _terminate(self, name: str) -> None:
+        self._logger.error("user interrupted with ctrl-\\ (%s), terminating...", name)
+        self._return_code = 1
+        self._shut_down(f"ctrl-\\ ({name})", due_to_sigint=False)

@@ -1,0 +1,30 @@
+"""Log lines of a launch: what goes to the screen, to ``launch.log`` and to files of the single processes.
+
+Built on the standard library's ``logging``; its level names and constants are available from here.
+"""
+
+from __future__ import annotations
+
+from launch.logging.config import LaunchConfig, get_logger, get_output_loggers, launch_config, log_launch_config, reset
+from launch.logging.directory import default_log_dir
+from logging import CRITICAL, DEBUG, ERROR, INFO, NOTSET, WARNING, Logger, getLevelName
+from logging import getLogger as getLogger
+
+__all__ = [
+    "CRITICAL",
+    "DEBUG",
+    "ERROR",
+    "INFO",
+    "NOTSET",
+    "WARNING",
+    "LaunchConfig",
+    "Logger",
+    "default_log_dir",
+    "getLevelName",
+    "getLogger",
+    "get_logger",
+    "get_output_loggers",
+    "launch_config",
+    "log_launch_config",
+    "reset",
+]

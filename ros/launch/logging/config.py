@@ -1,0 +1,218 @@
+"""How the log lines of a launch look and where they go."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+from launch.logging.directory import default_log_dir, make_launch_log_dir
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["LaunchConfig", "get_logger", "get_output_loggers", "launch_config", "log_launch_config", "reset"]
+
+_SCREEN_FORMAT = "[{levelname}] [{name}]: {message}"
+_LOG_FORMAT = "{created:.7f} [{levelname}] [{name}]: {message}"
+_NAMED_FORMATS = {"default": _SCREEN_FORMAT, "default_with_timestamp": "{created:.7f} [{levelname}] [{name}]: {message}"}
+_COLORS = {logging.DEBUG: "\033[32m", logging.WARNING: "\033[33m", logging.ERROR: "\033[31m", logging.CRITICAL: "\033[31m"}
+
+#: Where the two streams of a process go for each short form; ``both`` are the two in one.
+_OUTPUTS: dict[str, dict[str, set[str]]] = {
+    "screen": {"both": {"screen"}},
+    "log": {"both": {"log"}, "stderr": {"screen"}},
+    "both": {"both": {"log", "screen"}},
+    "own_log": {"both": {"own_log"}, "stdout": {"own_log"}, "stderr": {"own_log"}},
+    "full": {"both": {"log", "screen", "own_log"}, "stdout": {"own_log"}, "stderr": {"own_log"}},
+}
+
+
+class _Formatter(logging.Formatter):
+    """Lines of processes are shown as they are; own lines get level and name, in colour on a terminal."""
+
+    def __init__(self, style: str, *, colored: bool = False) -> None:
+        super().__init__(style, style="{")
+        self._colored = colored
+
+    def format(self, record: logging.LogRecord) -> str:
+        if getattr(record, "from_process", False):
+            return f"{record.created:.7f} {record.getMessage()}" if self._has_time() else record.getMessage()
+        color = _COLORS.get(record.levelno) if self._colored else None
+        if color is None:
+            return super().format(record)
+        level = record.levelname
+        record.levelname = f"{color}{level}\033[0m"
+        try:
+            return super().format(record)
+        finally:
+            record.levelname = level
+
+    def _has_time(self) -> bool:
+        return self._fmt is not None and "created" in self._fmt
+
+
+class LaunchConfig:
+    """Level, folder and formats of the logging of launches in this process."""
+
+    def __init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to the defaults; the next line that is written to a file makes a new folder."""
+        self._log_dir: str | None = None
+        self._screen_handler: logging.Handler | None = None
+        self._log_handlers: dict[str, logging.Handler] = {}
+        self._screen_format = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT") or _SCREEN_FORMAT
+        self._log_format = os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT") or _LOG_FORMAT
+
+    @property
+    def level(self) -> int:
+        """Lines below it are dropped."""
+        return logging.getLogger("launch").getEffectiveLevel()
+
+    @level.setter
+    def level(self, level: int | str) -> None:
+        logging.getLogger("launch").setLevel(level)
+
+    @property
+    def log_dir(self) -> str:
+        """Folder of the log files of this launch; made at the first use."""
+        if self._log_dir is None:
+            self._log_dir = make_launch_log_dir(default_log_dir())
+        return self._log_dir
+
+    @log_dir.setter
+    def log_dir(self, path: str) -> None:
+        if self._log_handlers:
+            raise RuntimeError("Cannot change launch log directory. Directory is already in use.")
+        path = os.path.abspath(os.path.expanduser(path))
+        os.makedirs(path, exist_ok=True)
+        self._log_dir = path
+
+    def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
+        """Format of lines on the screen: ``default``, ``default_with_timestamp`` or fields in braces."""
+        _refuse_other_style(screen_style)
+        self._screen_format = screen_format
+        self._screen_handler = None
+
+    def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
+        """Format of lines in files, as for the screen."""
+        _refuse_other_style(log_style)
+        self._log_format = log_format
+        self._log_handlers.clear()
+
+    def get_screen_handler(self) -> logging.Handler:
+        """The handler that writes to stdout."""
+        if self._screen_handler is None:
+            self._screen_handler = logging.StreamHandler(sys.stdout)
+            layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
+            self._screen_handler.setFormatter(_Formatter(layout, colored=sys.stdout.isatty()))
+        return self._screen_handler
+
+    def get_log_file_path(self, file_name: str = "launch.log") -> str:
+        """Path of a log file of this launch."""
+        return os.path.join(self.log_dir, file_name)
+
+    def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
+        """The handler that writes to a log file of this launch; files are made at their first line."""
+        if file_name not in self._log_handlers:
+            handler = logging.FileHandler(self.get_log_file_path(file_name), encoding="utf-8", delay=True)
+            handler.setFormatter(_Formatter(_NAMED_FORMATS.get(self._log_format, self._log_format)))
+            self._log_handlers[file_name] = handler
+        return self._log_handlers[file_name]
+
+
+class _MainHandler(logging.Handler):
+    """Hands the lines of the launch itself to screen and main log file as they are configured at the time."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        launch_config.get_screen_handler().handle(record)
+        try:
+            launch_config.get_log_file_handler().handle(record)
+        except OSError as error:
+            raise RuntimeError(f"cannot write log files: {error}") from error
+
+
+launch_config = LaunchConfig()
+
+
+def get_logger(name: str | None = None) -> logging.Logger:
+    """A logger whose lines go to the screen and to ``launch.log``."""
+    logger = logging.getLogger(name if name is not None else "launch")
+    owner = logging.getLogger("launch")
+    if not owner.handlers:
+        owner.addHandler(_MainHandler())
+        owner.propagate = False
+        if owner.level == logging.NOTSET:
+            owner.setLevel(logging.INFO)
+    if logger is not owner and not logger.name.startswith("launch.") and not logger.handlers:
+        logger.addHandler(_MainHandler())
+        logger.propagate = False
+        logger.setLevel(logging.INFO)
+    return logger
+
+
+def get_output_loggers(process_name: str, output_config: str | Mapping[str, Any]) -> tuple[logging.Logger, logging.Logger]:
+    """The loggers of the two output streams of a process.
+
+    Args:
+        process_name: Names the process, and its own log files.
+        output_config: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a mapping of ``stdout``, ``stderr``, ``both`` to a
+            choice or a set of choices among ``screen``, ``log``, ``own_log``.
+
+    Raises:
+        ValueError: It is none of these.
+    """
+    destinations = _normalized(output_config)
+    loggers = []
+    for stream in ("stdout", "stderr"):
+        logger = logging.getLogger(f"launch_process.{process_name}-{stream}")
+        logger.propagate = False
+        logger.setLevel(logging.INFO)
+        logger.handlers.clear()
+        chosen = destinations.get("both", set()) | destinations.get(stream, set())
+        if "screen" in chosen:
+            logger.addHandler(launch_config.get_screen_handler())
+        if "log" in chosen:
+            logger.addHandler(launch_config.get_log_file_handler())
+        for which in (stream, "both"):
+            if "own_log" in destinations.get(which, ()):
+                suffix = "" if which == "both" else f"-{stream}"
+                logger.addHandler(launch_config.get_log_file_handler(f"{process_name}{suffix}.log"))
+        loggers.append(logger)
+    return loggers[0], loggers[1]
+
+
+def log_launch_config(*, logger: logging.Logger | None = None) -> None:
+    """Say where the log files are and which lines are shown."""
+    logger = logger or logging.getLogger("launch")
+    logger.info("All log files can be found below %s", launch_config.log_dir)
+    logger.info("Default logging verbosity is set to %s", logging.getLevelName(launch_config.level))
+
+
+def reset() -> None:
+    """Forget folder, handlers and formats."""
+    launch_config.reset()
+
+
+def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
+    if isinstance(output_config, str):
+        if output_config not in _OUTPUTS:
+            raise ValueError(f"'{output_config}' is not a valid standard output config i.e. one of: {', '.join(_OUTPUTS)}")
+        return _OUTPUTS[output_config]
+    normalized = {}
+    for stream, choice in output_config.items():
+        choices = {choice} if isinstance(choice, str) else set(choice)
+        if stream not in ("stdout", "stderr", "both"):
+            raise ValueError(f"'{stream}' is not a valid output source: one of stdout, stderr, both")
+        if not choices <= {"screen", "log", "own_log"}:
+            raise ValueError(f"'{choice}' is not a valid output destination: some of screen, log, own_log")
+        normalized[stream] = choices
+    return normalized
+
+
+def _refuse_other_style(style: str | None) -> None:
+    if style not in (None, "{"):
+        raise ValueError(f"only the style '{{' of log formats is supported, not '{style}'")

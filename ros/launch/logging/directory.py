@@ -1,0 +1,36 @@
+"""The folder of one launch's log files."""
+
+from __future__ import annotations
+
+import contextlib
+import datetime
+import os
+import socket
+from pathlib import Path
+
+__all__ = ["default_log_dir", "make_launch_log_dir"]
+
+
+def default_log_dir() -> str:
+    """Below which each launch has its folder: ``ROS_LOG_DIR``, else ``$ROS_HOME/log``, else ``~/.ros/log``."""
+    explicit = os.environ.get("ROS_LOG_DIR")
+    if explicit:
+        return str(Path(explicit).expanduser())
+    return str(Path(os.environ.get("ROS_HOME") or Path("~") / ".ros").expanduser() / "log")
+
+
+def make_launch_log_dir(parent: str) -> str:
+    """Make a folder that is named after time, host and process; the link ``latest`` beside it points there.
+
+    Raises:
+        OSError: It cannot be made.
+    """
+    moment = datetime.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
+    base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"
+    base.mkdir(parents=True, exist_ok=True)
+    # Not every file system has links, and another launch may make it at the same time: logging works without.
+    with contextlib.suppress(OSError):
+        link = Path(parent) / f".latest-{os.getpid()}"
+        link.symlink_to(base.name, target_is_directory=True)
+        link.replace(Path(parent) / "latest")
+    return str(base)

@@ -1,0 +1,10 @@
+"""What may stand where actions are wanted."""
+
+from __future__ import annotations
+
+from launch.some_entities_type import SomeEntitiesType
+
+__all__ = ["SomeActionsType"]
+
+#: One action (or other entity) or several.
+SomeActionsType = SomeEntitiesType

@@ -1,0 +1,26 @@
+"""Text that is known only when the launch runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["Substitution"]
+
+
+class Substitution:
+    """Base of all substitutions."""
+
+    def describe(self) -> str:
+        """How ``ros2 launch --print`` shows it."""
+        return self.__repr__()
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text, in the given context.
+
+        Raises:
+            SubstitutionFailure: There is none.
+        """
+        raise NotImplementedError(f"{type(self).__name__} does not define perform()")

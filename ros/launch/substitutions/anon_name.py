@@ -1,0 +1,57 @@
+"""A name that no other launch has."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import socket
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["AnonName"]
+
+
+@expose_substitution("anon")
+class AnonName(Substitution):
+    """A name made unique by host, process and chance; the same within one launch for the same base.
+
+    Args:
+        name: The base.
+    """
+
+    def __init__(self, name: SomeSubstitutionsType) -> None:
+        self._name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[AnonName], dict[str, Any]]:
+        """Read ``$(anon name)``."""
+        if len(data) != 1:
+            raise TypeError("anon substitution expects 1 argument")
+        return cls, {"name": data[0]}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The base."""
+        return self._name
+
+    def describe(self) -> str:
+        """Name the base."""
+        return f"AnonName({' + '.join(part.describe() for part in self._name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The unique name."""
+        base = perform_substitutions(context, self._name)
+        key = f"anon{base}"
+        if key not in context.launch_configurations:
+            unique = f"{base}_{socket.gethostname()}_{os.getpid()}_{secrets.randbits(63)}"
+            context.launch_configurations[key] = "".join(character if character.isalnum() else "_" for character in unique)
+        return context.launch_configurations[key]

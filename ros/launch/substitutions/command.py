@@ -1,0 +1,86 @@
+"""What a command prints."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["Command"]
+
+
+@expose_substitution("command")
+class Command(Substitution):
+    """What a command prints to stdout.
+
+    Args:
+        command: The command line.
+        on_stderr: What output to stderr means: ``fail``, ``ignore``, ``warn`` or ``capture`` (it belongs to the text).
+    """
+
+    def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
+        self._command = normalize_to_list_of_substitutions(command)
+        self._on_stderr = normalize_to_list_of_substitutions(on_stderr)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Command], dict[str, Any]]:
+        """Read ``$(command 'line' [on_stderr])``."""
+        if not 1 <= len(data) <= 2:
+            raise ValueError("command substitution expects 1 or 2 arguments")
+        return cls, {"command": data[0]} | ({"on_stderr": data[1]} if len(data) == 2 else {})
+
+    @property
+    def command(self) -> list[Substitution]:
+        """The command line."""
+        return self._command
+
+    @property
+    def on_stderr(self) -> list[Substitution]:
+        """What output to stderr means."""
+        return self._on_stderr
+
+    def describe(self) -> str:
+        """Show the command."""
+        return f"Command({' + '.join(part.describe() for part in self._command)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Run the command; its output.
+
+        Raises:
+            SubstitutionFailure: It cannot be run, fails, or writes to stderr where that counts as a failure.
+        """
+        import subprocess
+
+        line = perform_substitutions(context, self._command)
+        on_stderr = perform_substitutions(context, self._on_stderr)
+        if on_stderr not in ("fail", "ignore", "warn", "capture"):
+            raise SubstitutionFailure("expected one of: 'fail', 'ignore', 'warn' or 'capture'")
+        stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
+        command: str | list[str] = line if os.name == "nt" else shlex.split(line)
+        try:
+            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False)  # noqa: S603
+        except FileNotFoundError as error:
+            raise SubstitutionFailure(f"file not found: {error}") from error
+        if result.returncode != 0:
+            message = f"executed command failed. Command: {line}\nCaptured stderr output: {result.stderr}"
+            raise SubstitutionFailure(message)
+        if result.stderr:
+            message = f"executed command showed stderr output. Command: {line}\nCaptured stderr output:\n{result.stderr}"
+            if on_stderr == "fail":
+                raise SubstitutionFailure(message)
+            if on_stderr == "warn":
+                from launch import logging
+
+                logging.get_logger("launch.substitutions.command").warning("%s", message)
+        return result.stdout

@@ -1,0 +1,57 @@
+"""Paths from parts."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["PathJoinSubstitution", "PathSubstitution"]
+
+
+class PathJoinSubstitution(Substitution):
+    """Joins parts to a path.
+
+    Args:
+        substitutions: The parts; one that is a list is joined to a text first.
+    """
+
+    def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
+        parts = [substitutions] if isinstance(substitutions, (str, Substitution)) else substitutions
+        self._substitutions = [normalize_to_list_of_substitutions(part) for part in parts]
+
+    @property
+    def substitutions(self) -> list[list[Substitution]]:
+        """The parts."""
+        return self._substitutions
+
+    def describe(self) -> str:
+        """Name the parts."""
+        return f"PathJoin({', '.join(' + '.join(sub.describe() for sub in part) for part in self._substitutions)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return os.path.join(*(perform_substitutions(context, part) for part in self._substitutions))
+
+    def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
+        """The path with another part."""
+        return PathJoinSubstitution([*self._substitutions, part])
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """A path that grows by ``/``: ``PathSubstitution(FindPackageShare("turtlesim")) / "launch" / "x.launch.py"``.
+
+    Args:
+        path: The first part.
+    """
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        super().__init__([path])

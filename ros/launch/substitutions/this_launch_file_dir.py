@@ -1,0 +1,43 @@
+"""The folder of the launch file that is being read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+
+__all__ = ["ThisLaunchFileDir"]
+
+
+@expose_substitution("dirname")
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file that is being read."""
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[ThisLaunchFileDir], dict[str, Any]]:
+        """Read ``$(dirname)``."""
+        if data:
+            raise TypeError("dirname substitution expects no arguments")
+        return cls, {}
+
+    def describe(self) -> str:
+        """Name it."""
+        return "ThisLaunchFileDir()"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path.
+
+        Raises:
+            SubstitutionFailure: No launch file is being read, only a script.
+        """
+        path: str | None = context.get_locals_as_dict().get("current_launch_file_directory")
+        if path is None:
+            raise SubstitutionFailure("ThisLaunchFileDir used outside of a launch file (in a script)")
+        return path

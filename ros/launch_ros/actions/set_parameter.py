@@ -1,0 +1,44 @@
+"""Sets a parameter of all nodes that follow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch_ros.parameter_descriptions import Parameter
+from launch_ros.utilities.scope import add_global_parameter
+
+if TYPE_CHECKING:
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["SetParameter"]
+
+
+@expose_action("set_parameter")
+class SetParameter(Action):
+    """Sets a parameter of all nodes that follow; a ``GroupAction`` confines it.
+
+    Args:
+        name: Its name.
+        value: Its value.
+        **kwargs: See :class:`launch.Action`.
+    """
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._parameter = Parameter(name, value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, Any]]:
+        """Read a ``set_parameter`` element."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_if_substitutions(entity.get_attr("value", data_type=None))
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> None:
+        """Set it."""
+        add_global_parameter(context, self._parameter.evaluate(context))

@@ -1,0 +1,129 @@
+"""Parameters with a type, and files of parameters."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities.parameter_values import evaluate_value, typed
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+
+__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+
+
+class ParameterValue:
+    """A value whose type is not left to YAML.
+
+    Args:
+        value: The value, possibly with substitutions.
+        value_type: ``str``, ``int``, ``float``, ``bool`` or ``List[...]`` of one; None leaves it to YAML.
+    """
+
+    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        self._value = value
+        self._value_type = value_type
+
+    @property
+    def value(self) -> Any:
+        """The value."""
+        return self._value
+
+    @property
+    def value_type(self) -> Any:
+        """The type, or None."""
+        return self._value_type
+
+    def evaluate(self, context: LaunchContext) -> Any:
+        """The value, performed and of the type.
+
+        Raises:
+            ValueError: It does not mean a value of the type.
+        """
+        if self._value_type is None:
+            return evaluate_value(context, self._value)
+        if isinstance(self._value, (bool, int, float)):
+            return typed(str(self._value), self._value_type)
+        if isinstance(self._value, (list, tuple)) and all(isinstance(item, (bool, int, float)) for item in self._value):
+            return typed(str(list(self._value)), self._value_type)
+        return typed(perform_substitutions(context, normalize_to_list_of_substitutions(self._value)), self._value_type)
+
+
+class Parameter:
+    """One parameter; becomes ``-p name:=value`` of the node.
+
+    Args:
+        name: Its name.
+        value: Its value.
+        value_type: Its type; None leaves it to YAML.
+    """
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
+        self._name = normalize_to_list_of_substitutions(name)
+        self._value = ParameterValue(value, value_type=value_type)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self._name
+
+    @property
+    def value(self) -> ParameterValue:
+        """Its value."""
+        return self._value
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
+        """Name and value, performed."""
+        return perform_substitutions(context, self._name), self._value.evaluate(context)
+
+
+class ParameterFile:
+    """A YAML file of parameters.
+
+    Args:
+        param_file: Its path.
+        allow_substs: Whether its text holds substitutions such as ``$(var x)``; the node then gets a copy with them performed.
+    """
+
+    def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: bool | SomeSubstitutionsType = False) -> None:
+        self._param_file = normalize_to_list_of_substitutions(param_file)
+        self._allow_substs = normalize_to_list_of_substitutions(str(allow_substs) if isinstance(allow_substs, bool) else allow_substs)
+        self._copy: str | None = None
+
+    @property
+    def param_file(self) -> list[Substitution]:
+        """Its path."""
+        return self._param_file
+
+    def evaluate(self, context: LaunchContext) -> Path:
+        """The path of the file, or of its copy.
+
+        Raises:
+            OSError: It cannot be read.
+            SubstitutionFailure: A substitution has no text.
+        """
+        from launch.conditions import evaluate_condition_expression
+        from launch.frontend import Parser
+
+        path = Path(perform_substitutions(context, self._param_file))
+        if not evaluate_condition_expression(context, self._allow_substs):
+            return path
+        text = perform_substitutions(context, Parser().parse_substitution(path.read_text(encoding="utf-8")))
+        with tempfile.NamedTemporaryFile("w", prefix="launch_params_", delete=False, encoding="utf-8") as file:
+            file.write(text)
+        self._copy = file.name
+        return Path(file.name)
+
+    def cleanup(self) -> None:
+        """Remove the copy."""
+        if self._copy is not None:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(self._copy)
+            self._copy = None

@@ -1,0 +1,18 @@
+"""What may stand where remapping rules are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Union
+
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+
+__all__ = ["RemapRule", "SomeRemapRule", "SomeRemapRules"]
+
+#: From and to, each performed by joining.
+RemapRule = tuple[Sequence[Substitution], Sequence[Substitution]]
+#: From and to.
+SomeRemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+#: Several rules.
+SomeRemapRules = Iterable[Union[SomeRemapRule, RemapRule]]

@@ -1,0 +1,75 @@
+"""The path of an executable of a package."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from ament_index_python.packages import get_package_prefix
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from turtlewire_ros.executables import executable_paths, libexec_directory
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["ExecutableInPackage"]
+
+
+@expose_substitution("exec-in-pkg")
+class ExecutableInPackage(Substitution):
+    """The path of an executable of a package.
+
+    Args:
+        executable: Its name.
+        package: The package.
+    """
+
+    def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
+        self._executable = normalize_to_list_of_substitutions(executable)
+        self._package = normalize_to_list_of_substitutions(package)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ExecutableInPackage], dict[str, Any]]:
+        """Read ``$(exec-in-pkg executable package)``."""
+        if len(data) != 2:
+            raise AttributeError("exec-in-pkg substitution expects 2 arguments")
+        return cls, {"executable": data[0], "package": data[1]}
+
+    @property
+    def executable(self) -> list[Substitution]:
+        """Its name."""
+        return self._executable
+
+    @property
+    def package(self) -> list[Substitution]:
+        """The package."""
+        return self._package
+
+    def describe(self) -> str:
+        """Name both."""
+        package, executable = (" + ".join(part.describe() for part in name) for name in (self._package, self._executable))
+        return f"ExecInPkg(pkg={package}, exec={executable})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path.
+
+        Raises:
+            PackageNotFoundError: The package is not installed.
+            SubstitutionFailure: It has no such executable, or several.
+        """
+        executable = perform_substitutions(context, self._executable)
+        package = perform_substitutions(context, self._package)
+        prefix = get_package_prefix(package)
+        names = (executable, f"{executable}.exe")
+        found = [path for path in executable_paths(package) or () if os.path.basename(path) in names]
+        if not found:
+            raise SubstitutionFailure(f"executable '{executable}' not found on the libexec directory '{libexec_directory(prefix, package)}' ")
+        if len(found) > 1:
+            raise SubstitutionFailure(f"multiple executables named '{executable}' found in the package '{package}': {found}")
+        return found[0]

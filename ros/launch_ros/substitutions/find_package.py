@@ -1,0 +1,83 @@
+"""Folders of packages."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["FindPackage", "FindPackagePrefix", "FindPackageShare"]
+
+
+class FindPackage(Substitution):
+    """A folder of a package.
+
+    Args:
+        package: The package.
+    """
+
+    def __init__(self, package: SomeSubstitutionsType) -> None:
+        self._package = normalize_to_list_of_substitutions(package)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindPackage], dict[str, Any]]:
+        """Read the name of the package."""
+        if len(data) != 1:
+            raise AttributeError("find package substitution expects 1 argument")
+        return cls, {"package": data[0]}
+
+    @property
+    def package(self) -> list[Substitution]:
+        """The package."""
+        return self._package
+
+    def find(self, package_name: str) -> str:
+        """The folder."""
+        raise NotImplementedError(f"{type(self).__name__} does not define find()")
+
+    def describe(self) -> str:
+        """Name the package."""
+        return f"{type(self).__name__}(pkg={' + '.join(part.describe() for part in self._package)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The folder.
+
+        Raises:
+            PackageNotFoundError: The package is not installed.
+        """
+        return self.find(perform_substitutions(context, self._package))
+
+
+@expose_substitution("find-pkg-prefix")
+class FindPackagePrefix(FindPackage):
+    """The prefix that a package is installed in.
+
+    Args:
+        package: The package.
+    """
+
+    def find(self, package_name: str) -> str:
+        """The prefix."""
+        return get_package_prefix(package_name)
+
+
+@expose_substitution("find-pkg-share")
+class FindPackageShare(FindPackage):
+    """The folder with a package's data.
+
+    Args:
+        package: The package.
+    """
+
+    def find(self, package_name: str) -> str:
+        """The folder."""
+        return get_package_share_directory(package_name)

@@ -1,0 +1,64 @@
+"""The value of a parameter that the launch sets for all nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.expose import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["Parameter"]
+
+
+@expose_substitution("param")
+class Parameter(Substitution):
+    """The value of a parameter that ``SetParameter`` has set.
+
+    Args:
+        name: Its name.
+        default: What stands in when it is not set; None makes that an error.
+    """
+
+    def __init__(self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None) -> None:
+        self._name = normalize_to_list_of_substitutions(name)
+        self._default = None if default is None else normalize_to_list_of_substitutions(default)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Parameter], dict[str, Any]]:
+        """Read ``$(param name [default])``."""
+        if not 1 <= len(data) <= 2:
+            raise TypeError("param substitution expects 1 or 2 arguments")
+        return cls, {"name": data[0], "default": data[1] if len(data) == 2 else None}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self._name
+
+    def describe(self) -> str:
+        """Name it."""
+        return f"Parameter({' + '.join(part.describe() for part in self._name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value as text.
+
+        Raises:
+            SubstitutionFailure: It is not set, and there is no default.
+        """
+        from launch_ros.utilities.scope import global_parameters
+
+        name = perform_substitutions(context, self._name)
+        for entry in reversed(global_parameters(context)):
+            if isinstance(entry, tuple) and entry[0] == name:
+                return str(entry[1])
+        if self._default is None:
+            raise SubstitutionFailure(f"parameter '{name}' not found")
+        return perform_substitutions(context, self._default)

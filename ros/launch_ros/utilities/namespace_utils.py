@@ -1,0 +1,29 @@
+"""Joining namespaces."""
+
+from __future__ import annotations
+
+__all__ = ["is_namespace_absolute", "is_root_namespace", "make_namespace_absolute", "prefix_namespace"]
+
+
+def is_root_namespace(ns: str) -> bool:
+    """Whether it is ``/``."""
+    return ns == "/"
+
+
+def is_namespace_absolute(ns: str) -> bool:
+    """Whether it begins with a slash."""
+    return ns.startswith("/")
+
+
+def make_namespace_absolute(ns: str) -> str:
+    """The namespace below the root; empty for the root of nothing."""
+    return ns if not ns or is_namespace_absolute(ns) else f"/{ns}"
+
+
+def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
+    """``ns`` inside of ``base_ns``; an absolute one stands for itself."""
+    if ns is None or ns == "":
+        return base_ns
+    if base_ns is None or base_ns == "" or is_namespace_absolute(ns):
+        return ns if is_root_namespace(ns) else ns.rstrip("/")
+    return f"{base_ns.rstrip('/')}/{ns.rstrip('/')}"

@@ -1,0 +1,95 @@
+"""Values of parameters: performed, of one type, and flat."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend.type_utils import coerce, list_item_type
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from launch.launch_context import LaunchContext
+
+__all__ = ["evaluate_parameter_dict", "evaluate_value", "typed"]
+
+_SCALARS = (str, bool, int, float, bytes)
+
+
+def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
+    """Flat names, joined by dots, with performed values.
+
+    Raises:
+        TypeError: A value has a type that parameters do not have.
+    """
+    flat: dict[str, Any] = {}
+    for key, value in parameters.items():
+        name = perform_substitutions(context, normalize_to_list_of_substitutions(key))
+        if hasattr(value, "items"):
+            flat |= {f"{name}.{inner}": item for inner, item in evaluate_parameter_dict(context, value).items()}
+        else:
+            flat[name] = evaluate_value(context, value, name)
+    return flat
+
+
+def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
+    """The value of a parameter.
+
+    Text stays text. Substitutions, and lists of text and substitutions, are joined and mean what YAML makes of them. Other sequences must
+    hold values of one type.
+
+    Args:
+        context: The launch.
+        value: What the user wrote.
+        name: Names the parameter in errors.
+
+    Raises:
+        TypeError: It has a type that parameters do not have.
+    """
+    if hasattr(value, "evaluate"):
+        return value.evaluate(context)
+    if isinstance(value, _SCALARS):
+        return value
+    if isinstance(value, Substitution):
+        return typed(perform_substitutions(context, [value]), None)
+    if not hasattr(value, "__iter__") or hasattr(value, "items"):
+        raise TypeError(f"the parameter '{name}' has a value of type {type(value).__name__}; allowed are text, numbers, truth values, "
+                        "substitutions, and sequences of one of these")
+    items = list(value)
+    if items and any(isinstance(item, Substitution) for item in items) and all(isinstance(item, (str, Substitution)) for item in items):
+        return typed(perform_substitutions(context, normalize_to_list_of_substitutions(items)), None)
+    return _uniform([evaluate_value(context, item, name) for item in items], name)
+
+
+def typed(text: str, value_type: Any) -> Any:
+    """What a text means as a value of a type.
+
+    Args:
+        text: The text.
+        value_type: The type; None takes what YAML makes of it.
+
+    Raises:
+        ValueError: It means none of that type.
+        TypeError: A list is wanted, and it is none.
+    """
+    item_type = list_item_type(value_type)
+    if item_type is None:
+        return coerce(text, value_type)
+    import yaml
+
+    items = yaml.safe_load(text)
+    if not isinstance(items, list):
+        raise TypeError(f"'{text}' is no list of {item_type.__name__}")
+    return [coerce(str(item), item_type) for item in items]
+
+
+def _uniform(items: list[Any], name: str) -> list[Any]:
+    kinds = {type(item) for item in items}
+    if kinds == {int, float}:
+        return [float(item) for item in items]
+    if len(kinds) > 1 or not kinds <= set(_SCALARS):
+        found = ", ".join(sorted(kind.__name__ for kind in kinds))
+        raise TypeError(f"the sequence of the parameter '{name}' must hold values of one type, but has {found}: {items}")
+    return items

@@ -1,0 +1,85 @@
+"""An XML element of a launch file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend import Entity as BaseEntity
+from launch.frontend.type_utils import coerce, is_entity_list, list_item_type
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+__all__ = ["Entity"]
+
+
+class Entity(BaseEntity):
+    """An XML element of a launch file.
+
+    Args:
+        xml_element: The element.
+        parent: The element it is in.
+    """
+
+    def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
+        self._element = xml_element
+        self._parent = parent
+        self._children = [Entity(child, parent=self) for child in xml_element]
+        self._read_attributes: set[str] = set()
+        self._read_children: set[str] = set()
+
+    @property
+    def type_name(self) -> str:
+        """The tag."""
+        return self._element.tag
+
+    @property
+    def parent(self) -> Entity | None:
+        """The element it is in."""
+        return self._parent
+
+    @property
+    def children(self) -> list[BaseEntity]:
+        """The elements in it."""
+        self._read_children |= {child.type_name for child in self._children}
+        return list(self._children)
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Refuse attributes and children that nobody asked for."""
+        attributes = set(self._element.attrib) - self._read_attributes
+        if attributes:
+            raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
+        children = {child.type_name for child in self._children} - self._read_children
+        if children:
+            raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {children}")
+
+    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+        """The value of an attribute; lists of elements are the children of that tag. See the base class."""
+        if is_entity_list(data_type):
+            return self._children_named(name, optional)
+        if name not in self._element.attrib:
+            if optional:
+                return None
+            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+        self._read_attributes.add(name)
+        return self._value(name, self._element.attrib[name], data_type, can_be_str)
+
+    def _children_named(self, name: str, optional: bool) -> list[Entity] | None:
+        found = [child for child in self._children if child.type_name == name]
+        if not found and not optional:
+            raise AttributeError(f"Attribute '{name}' of type 'List[Entity]' not found in Entity '{self.type_name}'")
+        self._read_children.add(name)
+        return found or None
+
+    def _value(self, name: str, text: str, data_type: Any, can_be_str: bool) -> Any:
+        item_type = list_item_type(data_type)
+        try:
+            if item_type is None:
+                return coerce(text, data_type)
+            separator = self._element.attrib.get(f"{name}-sep", ",")
+            self._read_attributes.add(f"{name}-sep")
+            return [coerce(item.strip(), item_type) for item in text.split(separator)]
+        except ValueError as error:
+            if can_be_str:
+                return text
+            raise TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}' but got '{text}'") from error

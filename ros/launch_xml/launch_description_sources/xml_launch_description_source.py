@@ -1,0 +1,24 @@
+"""A launch file in XML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.launch_description_sources import FrontendLaunchDescriptionSource
+from launch_xml.parser import Parser
+
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["XMLLaunchDescriptionSource"]
+
+
+class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
+    """A launch file in XML.
+
+    Args:
+        launch_file_path: Path of the file.
+    """
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(launch_file_path, method="interpreted XML launch file", parser=Parser)

@@ -1,0 +1,95 @@
+"""A YAML mapping of a launch file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import Entity as BaseEntity
+from launch.frontend.type_utils import is_entity_list, list_item_type
+
+__all__ = ["Entity"]
+
+
+class Entity(BaseEntity):
+    """An element of a YAML launch file: a name with a mapping of attributes, or with a list of elements.
+
+    Args:
+        element: The mapping or list.
+        type_name: The name.
+        parent: The element it is in.
+    """
+
+    def __init__(self, element: Any, type_name: str, *, parent: Entity | None = None) -> None:
+        self._type_name = type_name
+        self._element = element
+        self._parent = parent
+        self._read_keys: set[str] = set()
+
+    @property
+    def type_name(self) -> str:
+        """The name."""
+        return self._type_name
+
+    @property
+    def parent(self) -> Entity | None:
+        """The element it is in."""
+        return self._parent
+
+    @property
+    def children(self) -> list[BaseEntity]:
+        """The elements in it: those of the list, or of the key ``children``."""
+        elements = self._element
+        if isinstance(elements, dict):
+            if "children" not in elements:
+                raise ValueError(f"Expected entity `{self._type_name}` to have children entities. That can be a list of subentities or a "
+                                 "dictionary with a `children` list element")
+            self._read_keys.add("children")
+            elements = elements["children"]
+        if not isinstance(elements, list):
+            raise TypeError(f"Expected a list of entities in `{self._type_name}`, got '{elements}'")
+        children: list[BaseEntity] = []
+        for item in elements:
+            if not isinstance(item, dict) or len(item) != 1:
+                raise RuntimeError(f"Subentities must be a dictionary with only one key, as the entity type: '{item}'")
+            ((name, value),) = item.items()
+            children.append(Entity(value, str(name), parent=self))
+        return children
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Refuse attributes that nobody asked for."""
+        if isinstance(self._element, dict):
+            unread = set(self._element) - self._read_keys
+            if unread:
+                raise ValueError(f"Unexpected key(s) found in `{self._type_name}`: {unread}")
+
+    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+        """The value of an attribute. See the base class."""
+        if not isinstance(self._element, dict) or name not in self._element:
+            if optional:
+                return None
+            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self._type_name}'")
+        self._read_keys.add(name)
+        value = self._element[name]
+        if is_entity_list(data_type):
+            return self._entities(name, value)
+        if _is_of_type(value, data_type) or (can_be_str and isinstance(value, str)):
+            return value
+        raise TypeError(f"Attribute '{name}' of Entity '{self._type_name}' expected to be of type '{data_type}' but got '{type(value)}'")
+
+    def _entities(self, name: str, value: Any) -> list[Entity]:
+        if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
+            raise TypeError(f"Attribute '{name}' of Entity '{self._type_name}' expected to be a list of dictionaries.")
+        return [Entity(item, name, parent=self) for item in value]
+
+
+def _is_of_type(value: Any, data_type: Any) -> bool:
+    item_type = list_item_type(data_type)
+    if item_type is not None:
+        return isinstance(value, list) and all(_is_of_type(item, item_type) for item in value)
+    if data_type is None:
+        return True
+    if data_type is float:
+        return isinstance(value, (int, float)) and not isinstance(value, bool)
+    if data_type is int:
+        return isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, data_type)

@@ -1,0 +1,24 @@
+"""A launch file in YAML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.launch_description_sources import FrontendLaunchDescriptionSource
+from launch_yaml.parser import Parser
+
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["YAMLLaunchDescriptionSource"]
+
+
+class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
+    """A launch file in YAML.
+
+    Args:
+        launch_file_path: Path of the file.
+    """
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(launch_file_path, method="interpreted YAML launch file", parser=Parser)
