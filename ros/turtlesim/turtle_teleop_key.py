@@ -1,0 +1,155 @@
+"""Drives turtle1 with the arrow keys of a terminal: one velocity command for each key press."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import sys
+import threading
+from typing import TYPE_CHECKING, NamedTuple
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from turtlesim.turtle_endpoints import QUEUE_DEPTH
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+__all__ = ["TeleopTurtle", "main"]
+
+BANNER = """\
+Reading from keyboard
+---------------------------
+Use arrow keys to move the turtle.
+Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rotation.
+'Q' to quit."""
+NO_TERMINAL = "Failed to get old console mode"
+NO_TERMINAL_HINT = "turtle_teleop_key reads keys from a terminal: run it in one of its own. The arrow keys also work in turtlesim's page."
+
+
+class _Drive(NamedTuple):
+    linear: float
+    angular: float
+
+
+#: An arrow key arrives as ESC, [ and one of these letters; as in the original only the letter counts.
+_DRIVES = {b"A": _Drive(1.0, 0.0), b"B": _Drive(-1.0, 0.0), b"C": _Drive(0.0, -1.0), b"D": _Drive(0.0, 1.0)}
+_QUIT = b"q"
+
+
+class TeleopTurtle(Node):
+    """Turns keys into commands for turtle1. Not for several threads."""
+
+    def __init__(self) -> None:
+        super().__init__("teleop_turtle")
+        self.declare_parameter("scale_angular", 2.0)
+        self.declare_parameter("scale_linear", 2.0)
+        self._cmd_vel = self.create_publisher(Twist, "turtle1/cmd_vel", QUEUE_DEPTH)
+
+    def press(self, key: bytes) -> None:
+        """Act on one byte from the keyboard; most mean nothing."""
+        drive = _DRIVES.get(key)
+        if drive is not None:
+            message = Twist()
+            message.linear.x = self.get_parameter("scale_linear").value * drive.linear
+            message.angular.z = self.get_parameter("scale_angular").value * drive.angular
+            self._cmd_vel.publish(message)
+
+
+class _Keyboard:
+    """The terminal on standard input, giving each byte as it is typed while in its ``with`` block, and put back after it.
+
+    Raises (on construction):
+        OSError: Standard input is no terminal.
+    """
+
+    def __init__(self) -> None:
+        import termios
+
+        self._fd = sys.stdin.fileno()
+        try:
+            self._cooked = termios.tcgetattr(self._fd)
+        except termios.error as error:
+            raise OSError(*error.args) from error
+        self._wake_read, self._wake_write = os.pipe()
+
+    def __enter__(self) -> Self:
+        import termios
+
+        raw = termios.tcgetattr(self._fd)
+        raw[3] &= ~(termios.ICANON | termios.ECHO)
+        raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
+        termios.tcsetattr(self._fd, termios.TCSANOW, raw)
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
+        import termios
+
+        with contextlib.suppress(termios.error):  # the terminal is gone: nothing to put back
+            termios.tcsetattr(self._fd, termios.TCSANOW, self._cooked)
+
+    def read(self) -> bytes:
+        """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
+        ready, _, _ = select.select([self._fd, self._wake_read], [], [])
+        if self._wake_read in ready:
+            return b""
+        try:
+            return os.read(self._fd, 1)
+        except OSError:  # what a terminal that was closed says
+            return b""
+
+    def stop(self) -> None:
+        """End the present and all later reads. Safe from any thread."""
+        os.write(self._wake_write, b"\0")
+
+
+def main(args: list[str] | None = None) -> int:
+    """Read keys until ``q``, Ctrl-C or the end of the terminal.
+
+    Returns:
+        The exit status: 1 when standard input is no terminal.
+    """
+    if sys.platform == "win32":
+        _complain("turtle_teleop_key cannot read a Windows console yet: the arrow keys work in turtlesim's page.")
+        return 1
+    try:
+        keyboard = _Keyboard()
+    except OSError:
+        _complain(NO_TERMINAL, NO_TERMINAL_HINT)
+        return 1
+    rclpy.init(args=args)
+    rclpy.get_default_context().on_shutdown(keyboard.stop)
+    node = TeleopTurtle()
+    spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
+    spinner.start()
+    try:
+        with keyboard:
+            print(BANNER, flush=True)  # noqa: T201 - the terminal is this program's face
+            while (key := keyboard.read()) not in (b"", _QUIT):
+                node.press(key)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        rclpy.try_shutdown()
+        spinner.join()
+        node.destroy_node()
+    return 0
+
+
+def _spin(node: Node) -> None:
+    """Serve the node's parameters, beside the keyboard."""
+    with contextlib.suppress(ExternalShutdownException):
+        rclpy.spin(node)
+
+
+def _complain(*lines: str) -> None:
+    print(*lines, sep="\n", file=sys.stderr)  # noqa: T201 - there is no node yet that could log it
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,50 @@
+"""What pages may send, and what they are told when they send something else."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from turtlesim.page_commands import Clear, CommandError, Drive, Kill, Reset, Spawn, Teleport, parse_command
+
+
+@pytest.mark.parametrize(
+    ("message", "command"),
+    [
+        ({"type": "drive", "turtle": "turtle1", "linear": 2, "angular": -0.5}, Drive("turtle1", 2.0, -0.5)),
+        ({"type": "spawn", "x": 1.5, "y": 2, "theta": 0, "name": ""}, Spawn(1.5, 2.0, 0.0, "")),
+        ({"type": "teleport", "turtle": "t", "x": 1, "y": 2, "theta": 3}, Teleport("t", 1.0, 2.0, 3.0)),
+        ({"type": "kill", "turtle": "t"}, Kill("t")),
+        ({"type": "clear"}, Clear()),
+        ({"type": "reset"}, Reset()),
+    ],
+)
+def test_commands(message, command):
+    parsed = parse_command(json.dumps(message))
+    assert parsed == command
+    assert type(parsed) is type(command)
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("", "not JSON"),
+        ("{", "not JSON"),
+        (b"\xff\xfe\x00", "not JSON"),
+        ("[1]", "type is one of drive, spawn, teleport, kill, clear, reset"),
+        ('{"type": "explode"}', "type is one of"),
+        ('{"type": ["drive"]}', "type is one of"),
+        ('{"type": "kill"}', "kill has turtle; got no fields"),
+        ('{"type": "clear", "x": 1}', "clear has no fields; got x"),
+        ('{"type": "kill", "turtle": 3}', "turtle is a text"),
+        ('{"type": "kill", "turtle": "' + 300 * "x" + '"}', "at most 255"),
+        ('{"type": "drive", "turtle": "t", "linear": NaN, "angular": 0}', "linear is a number"),
+        ('{"type": "drive", "turtle": "t", "linear": 1e400, "angular": 0}', "linear is a number"),
+        ('{"type": "drive", "turtle": "t", "linear": true, "angular": 0}', "linear is a number"),
+        ('{"type": "drive", "turtle": "t", "linear": 0, "angular": "1"}', "angular is a number"),
+    ],
+)
+def test_what_is_no_command(text, part):
+    with pytest.raises(CommandError, match="(?s)" + part.replace("(", r"\(")):
+        parse_command(text)
