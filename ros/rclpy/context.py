@@ -61,7 +61,7 @@ class Context:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
             if self._wire is not None:
                 raise RuntimeError("Context.init() must only be called once")
-            self._arguments = Arguments.parse(sys.argv if args is None else args)
+            self._arguments = Arguments.parse_global(sys.argv if args is None else args)
             self._wire = open_context(domain_id)
             self._valid = True
             _open_contexts.add(self)
@@ -118,45 +118,43 @@ class Context:
                 raise RuntimeError("Context must be initialized before it can be shutdown")
             if not self._valid and not self.ended_by_signal:
                 raise RCLError(_ALREADY_SHUT_DOWN)
-            self.ended_by_signal = False
-        self._end()
-        self._close()
+        self.try_shutdown()
 
     def try_shutdown(self) -> None:
         """:meth:`shutdown` unless it is not initialized or was shut down before."""
         with self._lock:
             if not self._valid and not self.ended_by_signal:
                 return
-            self.ended_by_signal = False
-        self._end()
-        self._close()
+            end = self._invalidate(by_signal=False)
+        end()
+        _open_contexts.discard(self)
+        if self._wire is not None:
+            self._wire.close()
 
     def on_signal(self, signum: int) -> None:  # noqa: ARG002 - all handled signals mean the same here
         """Shut down because of a signal; the middleware stays open for the program's last words."""
         with self._lock:
             if not self._valid:
                 return
-            self.ended_by_signal = True
-        self._end()
+            end = self._invalidate(by_signal=True)
+        end()
 
-    def _end(self) -> None:
-        with self._lock:
-            if not self._valid:
-                return
-            self._valid = False
-            callbacks, self._callbacks = self._callbacks, []
-            graph_waits = list(self._graph_waits)
-        for changed in graph_waits:
-            changed.set()
-        for reference in callbacks:
-            callback = reference()
-            if callback is not None:
-                callback()
+    def _invalidate(self, *, by_signal: bool) -> Callable[[], None]:
+        """Mark it as shut down; what comes back tells all who wait for that, and is to be called without the lock."""
+        self._valid = False
+        self.ended_by_signal = by_signal
+        callbacks, self._callbacks = self._callbacks, []
+        graph_waits = list(self._graph_waits)
 
-    def _close(self) -> None:
-        _open_contexts.discard(self)
-        if self._wire is not None:
-            self._wire.close()
+        def tell() -> None:
+            for changed in graph_waits:
+                changed.set()
+            for reference in callbacks:
+                callback = reference()
+                if callback is not None:
+                    callback()
+
+        return tell
 
     def _wait_for_graph(self, predicate: Callable[[], bool], timeout_ns: int | None) -> bool:
         """Block until ``predicate()`` is true, looking again after each change of the graph; a shutdown ends the wait.
@@ -219,7 +217,6 @@ def _close_open_contexts() -> None:
     """Leave the domain at the end of the process, so that peers need not wait until our lease is over."""
     for context in list(_open_contexts):
         context.try_shutdown()
-        context._close()
 
 
 atexit.register(_close_open_contexts)

@@ -18,9 +18,10 @@ from .guard_condition import GuardCondition
 from .logging import get_logger
 from .node_endpoints import NodeEndpoints
 from .node_graph import NodeGraph
+from .parameter_service import ParameterService
 from .parameters import NodeParameters
 from .publisher import Publisher
-from .qos import qos_profile_services_default
+from .qos import qos_profile_parameter_events, qos_profile_services_default
 from .rosout import RosoutPublisher
 from .service import Service
 from .subscription import Subscription
@@ -90,27 +91,35 @@ class Node:
         self._context = _usable_context(context)
         self._arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
         self._name, self._namespace = _names(node_name, namespace or "/", self._arguments)
-        self._wire = self._context.wire.create_node(self._name, self._namespace)
+        self._wire = self._context.wire.create_node(self._name, self._namespace, self._arguments.enclave)
         self._logger = get_logger(self.get_fully_qualified_name()[1:].replace("/", "."))
         self._clock = ROSClock()
         self._endpoints = NodeEndpoints(self)
         self._graph = NodeGraph(self)
         self._rosout = RosoutPublisher(self._wire, self._logger.name) if enable_rosout else None
         self._parameters = NodeParameters(
-            self,
-            parameter_overrides or [],
-            self._arguments,
+            node_fqn=self.get_fully_qualified_name(),
+            overrides=self._arguments.parameter_overrides(self.get_fully_qualified_name()),
+            constructor_overrides=parameter_overrides,
             allow_undeclared=allow_undeclared_parameters,
-            automatically_declare=automatically_declare_parameters_from_overrides,
+            now=self._clock.now,
+            publish_event=self._parameter_event_publisher().publish,
         )
+        if automatically_declare_parameters_from_overrides:
+            self._parameters.declare_overrides()
         self._time_source = TimeSource(node=self)
         self._time_source.attach_clock(self._clock)
         if start_parameter_services:
-            self._parameters.start_services()
+            self._parameter_service = ParameterService(self)
         if enable_logger_service:
             from .logging_service import LoggingService
 
             self._logging_service = LoggingService(self)
+
+    def _parameter_event_publisher(self) -> Publisher:
+        from rcl_interfaces.msg import ParameterEvent
+
+        return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
 
     # What it is
 
@@ -630,7 +639,7 @@ def _arguments(context: Context, cli_args: list[str] | None, *, use_global_argum
     """The node's own command line before the context's."""
     from .arguments import Arguments
 
-    own = Arguments.parse(cli_args or [])
+    own = Arguments.parse_local(cli_args or [])
     return own.followed_by(context.arguments) if use_global_arguments else own
 
 
