@@ -156,4 +156,4 @@ def test_names_survive_the_way_to_dds_and_back(name: str, package: str, base: st
 def test_a_fault_points_into_the_name(name: str):
     for check in (names.validate_topic_name, names.validate_full_topic_name, names.validate_namespace, names.validate_node_name):
         fault = check(name)
-        assert fault is None or 0 <= fault.index <= max(len(name) - 1, 0)
+        assert fault is None or 0 <= fault.invalid_index <= max(len(name) - 1, 0)

@@ -9,6 +9,7 @@ import os
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
+
 from . import environment
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
 
         return CycloneContext(domain_id)
     if name == "local":
-        from .local import LocalContext
+        from .local.context import LocalContext
 
         return LocalContext(domain_id)
     error = WireError(f"middleware {name!r} is not available")

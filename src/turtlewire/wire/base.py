@@ -12,6 +12,7 @@ all other entities are polled by their owner after a :class:`WaitSet` reports th
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -24,6 +25,9 @@ __all__ = [
     "Context",
     "EndpointInfo",
     "Entity",
+    "Event",
+    "EventKind",
+    "EventStatus",
     "Graph",
     "MessageInfo",
     "Node",
@@ -34,6 +38,7 @@ __all__ = [
     "Subscription",
     "TypeId",
     "WaitSet",
+    "Waitable",
 ]
 
 
@@ -100,12 +105,52 @@ class EndpointInfo(NamedTuple):
     qos: QoS
 
 
+class EventKind(Enum):
+    """A change of circumstances that an endpoint can report."""
+
+    MATCHED = "matched"
+    INCOMPATIBLE_QOS = "incompatible QoS"
+    DEADLINE_MISSED = "deadline missed"
+    LIVELINESS_LOST = "liveliness lost"  # publishers only
+    LIVELINESS_CHANGED = "liveliness changed"  # subscriptions only
+    MESSAGE_LOST = "message lost"  # subscriptions only
+
+
+class EventStatus(NamedTuple):
+    """Counters of an event; changes are counted since the last :meth:`Event.take`.
+
+    Attributes:
+        total_count: How often it happened. ``LIVELINESS_CHANGED``: how many matching publishers are not alive.
+        total_count_change: Change of it.
+        current_count: ``MATCHED``: how many match at the moment. ``LIVELINESS_CHANGED``: how many of them are alive.
+        current_count_change: Change of it.
+        last_policy_kind: ``INCOMPATIBLE_QOS``: the policy that did not fit last, as a number of rmw's ``rmw_qos_policy_kind_t``
+            (DURABILITY 2, DEADLINE 4, LIVELINESS 8, RELIABILITY 16, HISTORY 32, LIFESPAN 64; INVALID 1).
+    """
+
+    total_count: int = 0
+    total_count_change: int = 0
+    current_count: int = 0
+    current_count_change: int = 0
+    last_policy_kind: int = 1
+
+
 class Entity(ABC):
     """Something with a lifetime on the wire; waitable ones can be attached to a :class:`WaitSet`."""
 
     @abstractmethod
     def close(self) -> None:
         """Leave the wire. Idempotent; returns without waiting for other parties."""
+
+
+class Event(Entity):
+    """Reports one kind of event of one publisher or subscription. Waitable (ready: it happened since the last :meth:`take`)."""
+
+    kind: EventKind
+
+    @abstractmethod
+    def take(self) -> EventStatus | None:
+        """The counters, or None when nothing happened since the last call (or since the endpoint was created)."""
 
 
 class Publisher(Entity):
@@ -126,6 +171,18 @@ class Publisher(Entity):
     def subscription_count(self) -> int:
         """How many matching subscriptions are known at the moment."""
 
+    @abstractmethod
+    def create_event(self, kind: EventKind) -> Event:
+        """The event of this kind (one per kind and endpoint); it closes with the endpoint.
+
+        Raises:
+            WireError: The middleware cannot report it.
+        """
+
+    @abstractmethod
+    def assert_liveliness(self) -> None:
+        """Say that this publisher is alive (for ``MANUAL_BY_TOPIC``; publishing says it too)."""
+
 
 class Subscription(Entity):
     """Receives messages of one topic. Waitable (ready: messages can be taken)."""
@@ -139,6 +196,14 @@ class Subscription(Entity):
     @abstractmethod
     def publisher_count(self) -> int:
         """How many matching publishers are known at the moment."""
+
+    @abstractmethod
+    def create_event(self, kind: EventKind) -> Event:
+        """The event of this kind (one per kind and endpoint); it closes with the endpoint.
+
+        Raises:
+            WireError: The middleware cannot report it.
+        """
 
 
 class Client(Entity):
@@ -173,15 +238,19 @@ class Service(Entity):
         """Answer a request. A client that has gone away is no error."""
 
 
+Waitable = Subscription | Client | Service | Event
+"""What can be attached to a :class:`WaitSet`."""
+
+
 class WaitSet(Entity):
     """Waits for several entities at once. One thread waits at a time; any thread may attach, detach and wake."""
 
     @abstractmethod
-    def attach(self, entity: Subscription | Client | Service) -> None:
+    def attach(self, entity: Waitable) -> None:
         """Include an entity in this and later waits."""
 
     @abstractmethod
-    def detach(self, entity: Subscription | Client | Service) -> None:
+    def detach(self, entity: Waitable) -> None:
         """Exclude an entity. Closing it detaches it as well."""
 
     @abstractmethod

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from turtlewire.errors import WireError
+
 from .report import warn_once
 
 __all__ = ["MAX_DOMAIN_ID", "Discovery", "Range", "discovery", "domain_id"]

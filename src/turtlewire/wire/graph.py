@@ -12,11 +12,16 @@ from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import CdrError
+
 from . import names
 from .base import EndpointInfo, Graph, TypeId
+from .qos import fit_publisher, fit_subscription
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+
+    from .base import Context
+    from .qos import QoS
 
 __all__ = [
     "DISCOVERY_TOPIC",
@@ -27,6 +32,7 @@ __all__ = [
     "pack_discovery_info",
     "parse_user_data",
     "unpack_discovery_info",
+    "with_best_available",
 ]
 
 #: DDS name of the topic; it has no ``rt/`` in front.
@@ -217,3 +223,11 @@ def _grouped(pairs: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
     for name, type_name in pairs:
         types.setdefault(name, set()).add(type_name)
     return {name: sorted(types[name]) for name in sorted(types)}
+
+
+def with_best_available(qos: QoS, topic: str, kind: str, context: Context) -> QoS:
+    """Choose the best-available policies of a new ``"publisher"`` or ``"subscription"`` after the endpoints that the graph knows now."""
+    if not qos.has_best_available:
+        return qos
+    others = [endpoint.qos for endpoint in context.graph.endpoints() if endpoint.topic == topic and endpoint.kind != kind]
+    return fit_publisher(qos, others) if kind == "publisher" else fit_subscription(qos, others)

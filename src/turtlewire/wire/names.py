@@ -37,6 +37,7 @@ _TOPIC_MAX = 247
 _NAMESPACE_MAX = 245
 _NODE_MAX = 255
 
+_UNMATCHED_BRACE = "topic name must not have unmatched (unbalanced) curly braces '{}'"
 _NOT_IN_NODE = re.compile(r"[^A-Za-z0-9_]")
 _NOT_IN_FULL_TOPIC = re.compile(r"[^A-Za-z0-9_/]")
 _BAD_TOKEN_START = re.compile(r"/[/0-9]")
@@ -50,11 +51,11 @@ class Fault(NamedTuple):
 
     Attributes:
         message: ROS 2's text, for example ``topic name must not be empty string``.
-        index: Position in the name where it goes wrong.
+        invalid_index: Position in the name where it goes wrong.
     """
 
     message: str
-    index: int
+    invalid_index: int
 
 
 def validate_topic_name(name: str) -> Fault | None:
@@ -65,42 +66,42 @@ def validate_topic_name(name: str) -> Fault | None:
         return Fault("topic name token must not start with a number", 0)
     if name.endswith("/"):
         return Fault("topic name must not end with a forward slash", len(name) - 1)
-    fault = _check_characters(name)
-    if fault is not None:
-        return fault
+    return _check_braces_and_characters(name) or _check_tokens(name)
+
+
+def _check_braces_and_characters(name: str) -> Fault | None:
+    opened = None  # index of the brace that is open
+    for index, char in enumerate(name):
+        message = _fault_in_braces(char, index - opened) if opened is not None else _fault_outside_braces(char, index)
+        if message:
+            return Fault(message, index)
+        if char == "{":
+            opened = index
+        elif char == "}":
+            opened = None
+    return None if opened is None else Fault(_UNMATCHED_BRACE, opened)
+
+
+def _fault_outside_braces(char: str, index: int) -> str:
+    if char == "~":
+        return "topic name must not have tilde '~' unless it is the first character" if index else ""
+    if char == "}":
+        return _UNMATCHED_BRACE
+    allowed = _is_word(char) or char in "/{"
+    return "" if allowed else "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+
+
+def _fault_in_braces(char: str, distance: int) -> str:
+    if distance == 1 and _is_digit(char):
+        return "substitution name must not start with a number"
+    return "" if _is_word(char) or char == "}" else "substitution name must not contain characters other than alphanumerics or '_'"
+
+
+def _check_tokens(name: str) -> Fault | None:
     if name[0] == "~" and len(name) > 1 and name[1] != "/":
         return Fault("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)
     digit = _DIGIT_AFTER_SLASH.search(name)
-    if digit is not None:
-        return Fault("topic name token must not start with a number", digit.start() + 1)
-    return None
-
-
-def _check_characters(name: str) -> Fault | None:
-    """The part of the topic rules that goes character by character: braces, tildes, what is allowed where."""
-    opened = -1  # index of the brace that is open
-    for index, char in enumerate(name):
-        inside = opened >= 0
-        if inside and _is_digit(char) and index == opened + 1:
-            return Fault("substitution name must not start with a number", index)
-        if _is_word(char):
-            continue
-        if char == "~":
-            if index != 0:
-                return Fault("topic name must not have tilde '~' unless it is the first character", index)
-        elif char == "}":
-            if not inside:
-                return Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", index)
-            opened = -1
-        elif inside:
-            return Fault("substitution name must not contain characters other than alphanumerics or '_'", index)
-        elif char == "{":
-            opened = index
-        elif char != "/":
-            return Fault("topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'", index)
-    if opened >= 0:
-        return Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", opened)
-    return None
+    return Fault("topic name token must not start with a number", digit.start() + 1) if digit else None
 
 
 def validate_full_topic_name(name: str) -> Fault | None:
@@ -136,14 +137,13 @@ def _check_absolute(name: str, what: str, ends_with_slash: str) -> Fault | None:
     if name.endswith("/"):
         return Fault(ends_with_slash, len(name) - 1)
     bad = _NOT_IN_FULL_TOPIC.search(name)
-    if bad is not None:
+    if bad:
         return Fault(f"{what} must not contain characters other than alphanumerics, '_', or '/'", bad.start())
     bad = _BAD_TOKEN_START.search(name)
-    if bad is None:
-        return None
-    if name[bad.end() - 1] == "/":
-        return Fault(f"{what} must not contain repeated '/'", bad.end() - 1)
-    return Fault(f"{what} must not have a token that starts with a number", bad.end() - 1)
+    if bad:
+        rest = "contain repeated '/'" if bad.group() == "//" else "have a token that starts with a number"
+        return Fault(f"{what} must not {rest}", bad.end() - 1)
+    return None
 
 
 def _check_length(name: str, what: str, limit: int) -> Fault | None:
@@ -195,9 +195,9 @@ def is_hidden(name: str) -> bool:
     return any(token.startswith("_") for token in name.split("/"))
 
 
-def topic_to_dds(topic: str) -> str:
-    """``/turtle1/pose`` becomes ``rt/turtle1/pose``."""
-    return "rt" + topic
+def topic_to_dds(topic: str, *, bare: bool = False) -> str:
+    """``/turtle1/pose`` becomes ``rt/turtle1/pose``; it stays when ``bare`` (QoS ``avoid_ros_namespace_conventions``)."""
+    return topic if bare else "rt" + topic
 
 
 def topic_from_dds(dds_topic: str) -> str | None:

@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-__all__ = ["INFINITE_NS", "Durability", "History", "Liveliness", "QoS", "Reliability"]
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = [
+    "BEST_AVAILABLE_NS",
+    "INFINITE_NS",
+    "Durability",
+    "History",
+    "Liveliness",
+    "QoS",
+    "Reliability",
+    "fit_publisher",
+    "fit_subscription",
+]
 
 #: A duration that never ends, in nanoseconds.
 INFINITE_NS = 0x7FFF_FFFF_FFFF_FFFF
+
+#: A deadline or lease that is to fit those of the endpoints that are there.
+BEST_AVAILABLE_NS = INFINITE_NS - 1
 
 
 class History(IntEnum):
@@ -62,3 +78,56 @@ class QoS(NamedTuple):
     liveliness: Liveliness = Liveliness.SYSTEM_DEFAULT
     liveliness_lease_ns: int = 0
     avoid_ros_namespace_conventions: bool = False
+
+    @property
+    def has_best_available(self) -> bool:
+        """Whether a policy is to be chosen after the endpoints that are there."""
+        return (
+            self.reliability == Reliability.BEST_AVAILABLE
+            or self.durability == Durability.BEST_AVAILABLE
+            or self.liveliness == Liveliness.BEST_AVAILABLE
+            or BEST_AVAILABLE_NS in {self.deadline_ns, self.liveliness_lease_ns}
+        )
+
+
+def fit_subscription(qos: QoS, offered: Iterable[QoS]) -> QoS:
+    """Choose the best-available policies of a subscription so that it matches all publishers: the highest that all of them offer."""
+    offered = list(offered)
+    reliable = all(other.reliability == Reliability.RELIABLE for other in offered)
+    transient_local = all(other.durability == Durability.TRANSIENT_LOCAL for other in offered)
+    manual = bool(offered) and all(other.liveliness == Liveliness.MANUAL_BY_TOPIC for other in offered)
+    return _filled(
+        qos,
+        reliability=Reliability.RELIABLE if reliable else Reliability.BEST_EFFORT,
+        durability=Durability.TRANSIENT_LOCAL if transient_local else Durability.VOLATILE,
+        liveliness=Liveliness.MANUAL_BY_TOPIC if manual else Liveliness.AUTOMATIC,
+        deadline_ns=max((other.deadline_ns or INFINITE_NS for other in offered), default=INFINITE_NS),
+        liveliness_lease_ns=max((other.liveliness_lease_ns or INFINITE_NS for other in offered), default=INFINITE_NS),
+    )
+
+
+def fit_publisher(qos: QoS, requested: Iterable[QoS]) -> QoS:
+    """Choose the best-available policies of a publisher so that it matches all subscriptions: the highest level of service."""
+    requested = list(requested)
+    manual = any(other.liveliness == Liveliness.MANUAL_BY_TOPIC for other in requested)
+    return _filled(
+        qos,
+        reliability=Reliability.RELIABLE,
+        durability=Durability.TRANSIENT_LOCAL,
+        liveliness=Liveliness.MANUAL_BY_TOPIC if manual else Liveliness.AUTOMATIC,
+        deadline_ns=min((other.deadline_ns or INFINITE_NS for other in requested), default=INFINITE_NS),
+        liveliness_lease_ns=min((other.liveliness_lease_ns or INFINITE_NS for other in requested), default=INFINITE_NS),
+    )
+
+
+def _filled(
+    qos: QoS, *, reliability: Reliability, durability: Durability, liveliness: Liveliness, deadline_ns: int, liveliness_lease_ns: int
+) -> QoS:
+    """``qos`` with the given values where it asks for the best available ones."""
+    return qos._replace(
+        reliability=reliability if qos.reliability == Reliability.BEST_AVAILABLE else qos.reliability,
+        durability=durability if qos.durability == Durability.BEST_AVAILABLE else qos.durability,
+        liveliness=liveliness if qos.liveliness == Liveliness.BEST_AVAILABLE else qos.liveliness,
+        deadline_ns=deadline_ns if qos.deadline_ns == BEST_AVAILABLE_NS else qos.deadline_ns,
+        liveliness_lease_ns=liveliness_lease_ns if qos.liveliness_lease_ns == BEST_AVAILABLE_NS else qos.liveliness_lease_ns,
+    )

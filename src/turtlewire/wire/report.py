@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import sys
 import time
+from typing import TYPE_CHECKING
 
-__all__ = ["warn_once"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .base import MessageInfo
+
+__all__ = ["call_guarded", "warn_once"]
 
 _said: set[str] = set()
 
@@ -18,3 +24,11 @@ def warn_once(key: str, text: str) -> None:
     seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
     sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {text}\n")
     sys.stderr.flush()
+
+
+def call_guarded(on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str) -> None:
+    """Hand over a message on a thread that serves others too: an exception is said once, and goes no further."""
+    try:
+        on_message(*message)
+    except Exception as error:  # noqa: BLE001 - whatever it is
+        warn_once(f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}")

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, NodeEndpoints, pack_discovery_info
 from turtlewire.wire.qos import Durability, QoS
 
-from .endpoints import CyclonePublisher
+from .endpoint import EndpointSpec
+from .publisher import CyclonePublisher
 
 if TYPE_CHECKING:
     from .participant import Participant
@@ -36,7 +37,7 @@ class Announcer:
 
     def __init__(self, participant: Participant, reader: ReaderThread) -> None:
         qos = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
-        self._publisher = CyclonePublisher(participant, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos, topic=DISCOVERY_TOPIC)
+        self._publisher = CyclonePublisher(participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos))
         self._participant = participant
         self._reader = reader
         self._lock = threading.Lock()

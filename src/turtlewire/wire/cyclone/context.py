@@ -39,7 +39,7 @@ class CycloneContext(Context):
         self._closed = False
         self._graph: CycloneGraph | None = None
         self._nodes: dict[CycloneNode, None] = {}
-        self._wait_sets: list[CycloneWaitSet] = []
+        self._wait_sets: set[CycloneWaitSet] = set()
         self._service_numbers = itertools.count(1)
         atexit.register(self.close)
 
@@ -86,8 +86,8 @@ class CycloneContext(Context):
         """See :meth:`Context.create_wait_set`."""
         with self._lock:
             self._require_open("create a wait set")
-            wait_set = CycloneWaitSet(self.participant.handle)
-            self._wait_sets.append(wait_set)
+            wait_set = CycloneWaitSet(self.participant.handle, self._wait_sets.discard)
+            self._wait_sets.add(wait_set)
         return wait_set
 
     def _require_open(self, what: str) -> None:
@@ -108,7 +108,7 @@ class CycloneContext(Context):
         self.reader.close()
         for node in nodes:
             node.close()
-        for wait_set in self._wait_sets:
+        for wait_set in list(self._wait_sets):
             wait_set.close()
         if self._graph is not None:
             self._graph.end_waits()

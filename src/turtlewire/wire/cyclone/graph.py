@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import threading
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from turtlewire.errors import CdrError
 from turtlewire.wire import names
@@ -14,8 +14,9 @@ from turtlewire.wire.qos import Durability, History, QoS
 from turtlewire.wire.report import warn_once
 
 from . import library as dds
-from .endpoints import CycloneSubscription
+from .endpoint import EndpointSpec
 from .qos import read_qos, read_user_data
+from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from .reader import ReaderThread
 
 __all__ = ["CycloneGraph"]
+
+S = TypeVar("S", bound=ctypes.Structure)
 
 _BATCH = 64
 _EVERYTHING = 1_000_000
@@ -45,7 +48,7 @@ class _BuiltinReader:
         self._reader = dds.check(dds.create_reader(participant, topic, None, None), "watch the graph")
         self.condition = dds.check(dds.create_read_condition(self._reader, dds.ANY_STATE), "watch the graph")
 
-    def take(self, sample: type[ctypes.Structure]) -> Iterator[tuple[bool, ctypes.Structure]]:
+    def take(self, sample: type[S]) -> Iterator[tuple[bool, S]]:
         """What is new: whether it is alive, and the sample (only its key is valid when not)."""
         pointers, infos = (ctypes.c_void_p * _BATCH)(), (dds.SampleInfo * _BATCH)()
         count = _BATCH
@@ -57,7 +60,7 @@ class _BuiltinReader:
             try:
                 for index in range(count):
                     alive = infos[index].valid_data and infos[index].instance_state == dds.INSTANCE_ALIVE
-                    yield alive, ctypes.cast(pointers[index], ctypes.POINTER(sample)).contents
+                    yield alive, ctypes.cast(pointers[index] or 0, ctypes.POINTER(sample)).contents
             finally:
                 dds.return_loan(self._reader, pointers, count)
 
@@ -74,7 +77,9 @@ class CycloneGraph(GraphView):
         self._endpoints: dict[bytes, _Endpoint] = {}
         self._announced: dict[bytes, list[NodeEndpoints]] = {}
         qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
-        self._infos = CycloneSubscription(participant, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos, topic=DISCOVERY_TOPIC, ignore_local=True)
+        self._infos = CycloneSubscription(
+            participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos), ignore_local=True
+        )
         self._participants = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PARTICIPANT)
         self._publications = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PUBLICATION)
         self._subscriptions = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_SUBSCRIPTION)

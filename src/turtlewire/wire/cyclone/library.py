@@ -29,9 +29,6 @@ BUILTIN_TOPIC_SUBSCRIPTION = 0x7FFF_0004
 INSTANCE_ALIVE = 16
 SERDATA_KIND_DATA = 2
 
-PUBLICATION_MATCHED = 1 << 11
-SUBSCRIPTION_MATCHED = 1 << 12
-
 RETCODE_PRECONDITION_NOT_MET = -4
 RETCODE_TIMEOUT = -10
 
@@ -160,6 +157,30 @@ class BuiltinEndpoint(ctypes.Structure):
     ]
 
 
+class CountStatus(ctypes.Structure):
+    """The beginning of all statuses that count; deadline missed has an instance handle behind."""
+
+    _fields_ = [("total_count", c_uint32), ("total_count_change", c_int32), ("last_handle", c_uint64)]
+
+
+class IncompatibleStatus(ctypes.Structure):
+    """dds_offered_incompatible_qos_status_t and dds_requested_incompatible_qos_status_t."""
+
+    _fields_ = [("total_count", c_uint32), ("total_count_change", c_int32), ("last_policy_id", c_uint32)]
+
+
+class LivelinessChangedStatus(ctypes.Structure):
+    """dds_liveliness_changed_status_t."""
+
+    _fields_ = [
+        ("alive_count", c_uint32),
+        ("not_alive_count", c_uint32),
+        ("alive_count_change", c_int32),
+        ("not_alive_count_change", c_int32),
+        ("last_handle", c_uint64),
+    ]
+
+
 class MatchedStatus(ctypes.Structure):
     """dds_publication_matched_status_t and dds_subscription_matched_status_t."""
 
@@ -196,6 +217,14 @@ set_status_mask = _short("dds_set_status_mask", _retcode, _entity, c_uint32)
 get_status_changes = _short("dds_get_status_changes", _retcode, _entity, POINTER(c_uint32))
 publication_matched_status = _short("dds_get_publication_matched_status", _retcode, _entity, POINTER(MatchedStatus))
 subscription_matched_status = _short("dds_get_subscription_matched_status", _retcode, _entity, POINTER(MatchedStatus))
+offered_incompatible_status = _short("dds_get_offered_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus))
+requested_incompatible_status = _short("dds_get_requested_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus))
+offered_deadline_status = _short("dds_get_offered_deadline_missed_status", _retcode, _entity, POINTER(CountStatus))
+requested_deadline_status = _short("dds_get_requested_deadline_missed_status", _retcode, _entity, POINTER(CountStatus))
+liveliness_lost_status = _short("dds_get_liveliness_lost_status", _retcode, _entity, POINTER(CountStatus))
+liveliness_changed_status = _short("dds_get_liveliness_changed_status", _retcode, _entity, POINTER(LivelinessChangedStatus))
+sample_lost_status = _short("dds_get_sample_lost_status", _retcode, _entity, POINTER(CountStatus))
+assert_liveliness = _waits("dds_assert_liveliness", _retcode, _entity)
 
 get_guid = _short("dds_get_guid", _retcode, _entity, POINTER(Guid))
 get_instance_handle = _short("dds_get_instance_handle", _retcode, _entity, POINTER(c_uint64))

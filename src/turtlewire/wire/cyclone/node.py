@@ -6,11 +6,14 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, Entity, MessageInfo, Node, Publisher, Service, Subscription
+from turtlewire.wire.base import Client, MessageInfo, Node, Publisher, Service, Subscription
+from turtlewire.wire.graph import with_best_available
 
 from .announcer import NodeRecord
-from .endpoints import CyclonePublisher, CycloneSubscription, dds_topic_name, deliver_to
+from .endpoint import Endpoint, EndpointSpec
+from .publisher import CyclonePublisher
 from .services import CycloneClient, CycloneService, format_service_id
+from .subscription import CycloneSubscription, deliver_to
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,78 +33,81 @@ class CycloneNode(Node):
         self.context = context
         self.name = name
         self.namespace = namespace
-        self._participant = context.participant
-        self._reader = context.reader
         self._lock = threading.Lock()
-        self._entities: dict[Entity, None] = {}
+        self._endpoints: dict[Endpoint, None] = {}
         self._record = NodeRecord(namespace, name)
         context.announcer.add(self._record)
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         """See :meth:`Node.create_publisher`."""
-        return self._publisher(dds_topic_name(topic, qos), type_id, qos, topic=topic)
+        qos = with_best_available(qos, topic, "publisher", self.context)
+        dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
+        return self._publisher(EndpointSpec(topic, dds_topic, type_id, qos))
 
     def create_subscription(
         self, topic: str, type_id: TypeId, qos: QoS, on_message: Callable[[bytes, MessageInfo], None] | None = None
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
-        subscription = self._subscription(dds_topic_name(topic, qos), type_id, qos, topic=topic)
+        qos = with_best_available(qos, topic, "subscription", self.context)
+        dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
+        subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos))
         if on_message is not None:
-            self._reader.watch(subscription.condition(), deliver_to(subscription, on_message))
+            condition = subscription.condition()
+            subscription.on_closing.append(lambda: self.context.reader.unwatch(condition))
+            self.context.reader.watch(condition, deliver_to(subscription, on_message))
         return subscription
 
     def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
-        client_id = format_service_id(self._participant.gid, self.context.next_service_number())
-        requests = self._publisher(names.request_topic(service), request, qos, topic=service, clientid=client_id)
-        replies = self._subscription(names.reply_topic(service), response, qos, topic=service, clientid=client_id)
+        identity = {"clientid": self._service_id()}
+        requests = self._publisher(EndpointSpec(service, names.request_topic(service), request, qos, identity))
+        replies = self._subscription(EndpointSpec(service, names.reply_topic(service), response, qos, identity))
         return CycloneClient(service, requests, replies)
 
     def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
         """See :meth:`Node.create_service`."""
-        service_id = format_service_id(self._participant.gid, self.context.next_service_number())
-        replies = self._publisher(names.reply_topic(service), response, qos, topic=service, serviceid=service_id)
-        requests = self._subscription(names.request_topic(service), request, qos, topic=service, serviceid=service_id)
-        server = CycloneService(service, requests, replies, self._reader)
-        replies.on_matched = server.matched
+        identity = {"serviceid": self._service_id()}
+        replies = self._publisher(EndpointSpec(service, names.reply_topic(service), response, qos, identity))
+        requests = self._subscription(EndpointSpec(service, names.request_topic(service), request, qos, identity))
+        server = CycloneService(service, requests, replies, self.context.reader)
+        replies.on_matched.append(server.matched)
         return server
 
-    def _publisher(self, dds_topic: str, type_id: TypeId, qos: QoS, *, topic: str, **user_data: str) -> CyclonePublisher:
-        publisher = CyclonePublisher(self._participant, dds_topic, type_id, qos, topic=topic, **user_data)
+    def _service_id(self) -> str:
+        return format_service_id(self.context.gid, self.context.next_service_number())
+
+    def _publisher(self, spec: EndpointSpec) -> CyclonePublisher:
+        publisher = CyclonePublisher(self.context.participant, spec)
         self._adopt(publisher, self._record.writers)
         return publisher
 
-    def _subscription(self, dds_topic: str, type_id: TypeId, qos: QoS, *, topic: str, **user_data: str) -> CycloneSubscription:
-        subscription = CycloneSubscription(self._participant, dds_topic, type_id, qos, topic=topic, **user_data)
+    def _subscription(self, spec: EndpointSpec) -> CycloneSubscription:
+        subscription = CycloneSubscription(self.context.participant, spec)
         self._adopt(subscription, self._record.readers)
         return subscription
 
-    def _adopt(self, endpoint: CyclonePublisher | CycloneSubscription, gids: list[bytes]) -> None:
-        """Announce an endpoint until it closes, and watch whom it matches."""
-
-        def matched() -> None:
-            endpoint.clear_matched()
-            endpoint.on_matched()
-            self.context.graph_changed()
+    def _adopt(self, endpoint: Endpoint, gids: list[bytes]) -> None:
+        """Announce an endpoint until it closes, and watch its statuses."""
 
         def closing() -> None:
-            self._reader.unwatch(endpoint.handle)
+            self.context.reader.unwatch(endpoint.handle)
             with self._lock:
-                self._entities.pop(endpoint, None)
+                self._endpoints.pop(endpoint, None)
                 gids.remove(endpoint.gid)
             self.context.announcer.changed()
 
-        endpoint.on_closing = closing
+        endpoint.on_closing.append(closing)
+        endpoint.on_matched.append(self.context.graph_changed)
         with self._lock:
-            self._entities[endpoint] = None
+            self._endpoints[endpoint] = None
             gids.append(endpoint.gid)
-        self._reader.watch(endpoint.handle, matched)
+        self.context.reader.watch(endpoint.handle, endpoint.statuses_changed)
         self.context.announcer.changed()
 
     def close(self) -> None:
         """See :meth:`Entity.close`."""
         with self._lock:
-            entities = list(self._entities)
-        for entity in entities:
-            entity.close()
+            endpoints = list(self._endpoints)
+        for endpoint in endpoints:
+            endpoint.close()
         self.context.remove_node(self, self._record)

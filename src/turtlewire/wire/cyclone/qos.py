@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from ctypes import c_int, c_int32, c_int64, c_size_t, c_void_p, string_at
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
 
@@ -13,7 +13,7 @@ from . import library as dds
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["MAX_BLOCKING_NS", "dds_qos", "read_qos", "read_user_data"]
+__all__ = ["MAX_BLOCKING_NS", "dds_qos", "policy_kind", "read_qos", "read_user_data"]
 
 #: How long a write may wait for reliable subscriptions that do not keep up.
 MAX_BLOCKING_NS = 1_000_000_000
@@ -25,6 +25,9 @@ _AUTOMATIC, _MANUAL_BY_TOPIC = 0, 2
 _IGNORE_LOCAL_PARTICIPANT = 1
 _UNLIMITED = -1
 
+# dds_qos_policy_id_t to rmw_qos_policy_kind_t: durability, deadline, liveliness, reliability, history, lifespan
+_POLICY_KINDS = {2: 2, 4: 4, 8: 8, 11: 16, 13: 32, 21: 64}
+_POLICY_KIND_INVALID = 1
 _LIVELINESS = {_AUTOMATIC: Liveliness.AUTOMATIC, _MANUAL_BY_TOPIC: Liveliness.MANUAL_BY_TOPIC}
 
 
@@ -68,7 +71,7 @@ def _set_history_and_durability(pointer: int, qos: QoS) -> None:
 def read_qos(pointer: int) -> QoS:
     """What a ``dds_qos_t`` of a discovered endpoint says; what it does not say stays at our defaults."""
     kind, number, duration = c_int(), c_int32(), c_int64()
-    values: dict[str, object] = {}
+    values: dict[str, Any] = {}
     if dds.qget_history(pointer, kind, number):
         values["history"] = History.KEEP_ALL if kind.value == _KEEP_ALL else History.KEEP_LAST
         values["depth"] = max(number.value, 0)
@@ -95,3 +98,8 @@ def read_user_data(pointer: int) -> bytes:
         return string_at(data.value, size.value)
     finally:
         dds.free(data)
+
+
+def policy_kind(policy_id: int) -> int:
+    """The number that ROS 2 has for a policy of DDS."""
+    return _POLICY_KINDS.get(policy_id, _POLICY_KIND_INVALID)

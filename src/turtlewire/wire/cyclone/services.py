@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import RequestId
 
-    from .endpoints import CyclonePublisher, CycloneSubscription
+    from .publisher import CyclonePublisher
     from .reader import ReaderThread
+    from .subscription import CycloneSubscription
 
 __all__ = ["CycloneClient", "CycloneService", "format_service_id"]
 

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import ctypes
 import threading
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
-from turtlewire.wire.base import Client, Entity, Service, Subscription, WaitSet
+from turtlewire.wire.base import Entity, WaitSet
+from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
 
 from . import library as dds
-from .endpoints import CycloneSubscription
+from .subscription import CycloneSubscription
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import Waitable
 
 __all__ = ["ConditionSet", "CycloneWaitSet"]
 
@@ -80,29 +86,37 @@ class ConditionSet(Generic[T]):
         dds.delete(self._guard)
 
 
-class CycloneWaitSet(WaitSet):
+class CycloneWaitSet(EventWatcher, WaitSet):
     """The wait set of an executor."""
 
-    def __init__(self, participant: int) -> None:
+    def __init__(self, participant: int, on_closing: Callable[[CycloneWaitSet], None]) -> None:
+        super().__init__()
+        self._on_closing = on_closing
         self._conditions: ConditionSet[Entity] = ConditionSet(participant)
 
-    def attach(self, entity: Subscription | Client | Service) -> None:
+    def attach(self, entity: Waitable) -> None:
         """See :meth:`WaitSet.attach`."""
-        subscription = _readable_part(entity)
-        self._conditions.attach(subscription.condition(), entity)
-        subscription.attached_to(self)
+        if isinstance(entity, StatusEvent):
+            entity.attach(self)
+        else:
+            subscription = _readable_part(entity)
+            self._conditions.attach(subscription.condition(), entity)
+            subscription.wait_sets.add(self)
 
-    def detach(self, entity: Subscription | Client | Service) -> None:
+    def detach(self, entity: Waitable) -> None:
         """See :meth:`WaitSet.detach`."""
-        self.forget(_readable_part(entity))
-
-    def forget(self, subscription: CycloneSubscription) -> None:
-        """Exclude a subscription that is about to close."""
-        self._conditions.detach(subscription.condition())
+        if isinstance(entity, StatusEvent):
+            entity.detach(self)
+        else:
+            subscription = _readable_part(entity)
+            subscription.wait_sets.discard(self)
+            self._conditions.detach(subscription.condition())
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
         """See :meth:`WaitSet.wait`."""
-        return self._conditions.wait(timeout_ns)
+        ready = self._conditions.wait(0 if self.ready_events() else timeout_ns)
+        ready += self.ready_events()
+        return ready
 
     def wake(self) -> None:
         """See :meth:`WaitSet.wake`."""
@@ -110,10 +124,11 @@ class CycloneWaitSet(WaitSet):
 
     def close(self) -> None:
         """See :meth:`Entity.close`."""
+        self._on_closing(self)
         self._conditions.close()
 
 
-def _readable_part(entity: Subscription | Client | Service) -> CycloneSubscription:
+def _readable_part(entity: Waitable) -> CycloneSubscription:
     if isinstance(entity, TopicClient):
         entity = entity.replies
     elif isinstance(entity, TopicService):

@@ -1,0 +1,145 @@
+"""What publishers and subscriptions have in common: a place in the graph, and statuses that change."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from turtlewire.errors import WireError
+from turtlewire.wire.base import Entity, EventKind, EventStatus
+from turtlewire.wire.events import StatusEvent
+from turtlewire.wire.graph import format_user_data
+
+from . import library as dds
+from .qos import policy_kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from turtlewire.wire.base import Event, TypeId
+    from turtlewire.wire.qos import QoS
+
+__all__ = ["Endpoint", "EndpointSpec", "StatusSource", "read_count", "read_incompatible", "read_liveliness_changed", "read_matched"]
+
+
+class EndpointSpec(NamedTuple):
+    """What to create.
+
+    Attributes:
+        name: ROS name of the topic or service, for messages to people.
+        dds_topic: Name on the wire.
+        type_id: Type on the wire.
+        qos: What is offered or requested.
+        identity: ``clientid`` or ``serviceid`` of one half of a service; empty for topics.
+    """
+
+    name: str
+    dds_topic: str
+    type_id: TypeId
+    qos: QoS
+    identity: dict[str, str] = {}  # noqa: RUF012 - never changed
+
+    @property
+    def user_data(self) -> bytes:
+        """What is announced beside the QoS."""
+        return format_user_data(**self.identity, typehash=self.type_id.type_hash)
+
+
+class StatusSource(NamedTuple):
+    """Where the counters of an event come from: the status bit, the function that reads and resets them, and their translation."""
+
+    bit: int
+    read: Callable[..., int]
+    structure: type[ctypes.Structure]
+    translate: Callable[..., EventStatus]
+
+
+class Endpoint(Entity):
+    """A DDS reader or writer.
+
+    Attributes:
+        handle: Cyclone's handle of it.
+        gid: Its 16 bytes.
+        on_matched: Each is called on the reader thread after the matching endpoints changed.
+        on_closing: Each is called once, before it is deleted.
+    """
+
+    handle: int
+    gid: bytes
+    _sources: ClassVar[Mapping[EventKind, StatusSource]]
+
+    def __init__(self, spec: EndpointSpec) -> None:
+        self.spec = spec
+        self.on_matched: list[Callable[[], None]] = []
+        self.on_closing: list[Callable[[], None]] = []
+        self._lock = threading.Lock()
+        self._closed = False
+        self._events: dict[EventKind, StatusEvent] = {}
+
+    def _created(self, handle: int) -> None:
+        """To be called with the new reader or writer, or the error that came instead."""
+        self.handle = dds.check(handle, f"create an endpoint of {self.spec.name}")
+        self.gid = dds.guid_of(self.handle)
+        dds.set_status_mask(self.handle, sum(source.bit for source in self._sources.values()))
+
+    @property
+    def closed(self) -> bool:
+        """Whether :meth:`close` was called."""
+        return self._closed
+
+    def create_event(self, kind: EventKind) -> Event:
+        """See :meth:`Publisher.create_event`."""
+        if kind not in self._sources:
+            raise WireError(f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'")
+        return self._event(kind)
+
+    def _event(self, kind: EventKind) -> StatusEvent:
+        with self._lock:
+            return self._events.setdefault(kind, StatusEvent(kind))
+
+    def statuses_changed(self) -> None:
+        """On the reader thread: read and reset all statuses that changed, and pass them on."""
+        changed = ctypes.c_uint32()
+        if dds.get_status_changes(self.handle, changed) < 0:
+            return  # it has been deleted
+        for kind, source in self._sources.items():
+            if changed.value & source.bit:
+                status = source.structure()
+                source.read(self.handle, status)
+                self._event(kind).add(source.translate(status))
+        if changed.value & self._sources[EventKind.MATCHED].bit:
+            for call in self.on_matched:
+                call()
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        for call in self.on_closing:
+            call()
+        for event in list(self._events.values()):
+            event.close()
+        dds.delete(self.handle)
+
+
+def read_count(status: dds.CountStatus) -> EventStatus:
+    """Deadline missed, liveliness lost, message lost."""
+    return EventStatus(status.total_count, status.total_count_change)
+
+
+def read_incompatible(status: dds.IncompatibleStatus) -> EventStatus:
+    """Incompatible QoS."""
+    return EventStatus(status.total_count, status.total_count_change, last_policy_kind=policy_kind(status.last_policy_id))
+
+
+def read_matched(status: dds.MatchedStatus) -> EventStatus:
+    """Matched."""
+    return EventStatus(status.total_count, status.total_count_change, status.current_count, status.current_count_change)
+
+
+def read_liveliness_changed(status: dds.LivelinessChangedStatus) -> EventStatus:
+    """Liveliness changed."""
+    return EventStatus(status.not_alive_count, status.not_alive_count_change, status.alive_count, status.alive_count_change)

@@ -1,0 +1,74 @@
+"""Bytes to a DDS writer."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, ClassVar
+
+from turtlewire.errors import WireError
+from turtlewire.wire.base import EventKind, Publisher
+
+from . import library as dds
+from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_matched
+from .qos import MAX_BLOCKING_NS, dds_qos
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .participant import Participant
+
+__all__ = ["CyclonePublisher"]
+
+
+class CyclonePublisher(Endpoint, Publisher):
+    """A DDS writer of serialized messages."""
+
+    _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
+        EventKind.MATCHED: StatusSource(1 << 11, dds.publication_matched_status, dds.MatchedStatus, read_matched),
+        EventKind.INCOMPATIBLE_QOS: StatusSource(1 << 3, dds.offered_incompatible_status, dds.IncompatibleStatus, read_incompatible),
+        EventKind.DEADLINE_MISSED: StatusSource(1 << 1, dds.offered_deadline_status, dds.CountStatus, read_count),
+        EventKind.LIVELINESS_LOST: StatusSource(1 << 9, dds.liveliness_lost_status, dds.CountStatus, read_count),
+    }
+
+    def __init__(self, participant: Participant, spec: EndpointSpec) -> None:
+        super().__init__(spec)
+        self.topic = spec.name
+        topic = participant.topic(spec.dds_topic, spec.type_id.name)
+        with dds_qos(spec.qos, spec.user_data, writer=True) as qos:
+            self._created(dds.create_writer(participant.handle, topic, qos, None))
+        sertype = ctypes.c_void_p()
+        dds.check(dds.get_sertype(self.handle, sertype), f"create a publisher of {self.topic}")
+        self._sertype = sertype.value
+
+    def publish(self, cdr: bytes) -> None:
+        """See :meth:`Publisher.publish`."""
+        size = len(cdr)
+        if size & 3:  # Cyclone sends multiples of four bytes
+            cdr += b"\x00" * (-size & 3)
+            size = len(cdr)
+        with self._lock:  # the sertype must not go away between the test and its use
+            if self._closed:
+                raise WireError(f"publish on {self.topic}: the publisher is closed")
+            serdata = dds.serdata_from_bytes(self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size)
+        if not serdata:
+            raise WireError(f"publish on {self.topic}: not a serialized message (header {cdr[:4].hex(' ')}, expected 00 01 00 00)")
+        code = dds.write_serdata(self.handle, serdata)
+        if code < 0:
+            self._refused(code)
+
+    def _refused(self, code: int) -> None:
+        if code == dds.RETCODE_TIMEOUT:
+            seconds = MAX_BLOCKING_NS / 1e9
+            error = WireError(f"publish on {self.topic}: not sent, a reliable subscription did not keep up for {seconds:g} s")
+            raise error.with_hint("Publish less often, use a smaller depth with KEEP_LAST, or best effort reliability.")
+        if self._closed:
+            raise WireError(f"publish on {self.topic}: the publisher is closed")
+        dds.check(code, f"publish on {self.topic}")
+
+    def subscription_count(self) -> int:
+        """See :meth:`Publisher.subscription_count`."""
+        return max(0, int(dds.matched_subscriptions(self.handle, None, 0)))
+
+    def assert_liveliness(self) -> None:
+        """See :meth:`Publisher.assert_liveliness`."""
+        dds.check(dds.assert_liveliness(self.handle), f"assert liveliness on {self.topic}")

@@ -1,0 +1,142 @@
+"""Bytes from a DDS reader."""
+
+from __future__ import annotations
+
+import ctypes
+import time
+from typing import TYPE_CHECKING, ClassVar
+
+from turtlewire.wire.base import EventKind, MessageInfo, Subscription
+from turtlewire.wire.report import call_guarded, warn_once
+
+from . import library as dds
+from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_liveliness_changed, read_matched
+from .qos import dds_qos, read_user_data
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from .participant import Participant
+    from .waiting import CycloneWaitSet
+
+__all__ = ["CycloneSubscription", "deliver_to"]
+
+_LITTLE_ENDIAN = b"\x00\x01"
+_BATCH = 32
+_KNOWN_PUBLISHERS = 1000
+
+
+class CycloneSubscription(Endpoint, Subscription):
+    """A DDS reader of serialized messages.
+
+    Attributes:
+        wait_sets: Those that it is attached to.
+    """
+
+    _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
+        EventKind.MATCHED: StatusSource(1 << 12, dds.subscription_matched_status, dds.MatchedStatus, read_matched),
+        EventKind.INCOMPATIBLE_QOS: StatusSource(1 << 4, dds.requested_incompatible_status, dds.IncompatibleStatus, read_incompatible),
+        EventKind.DEADLINE_MISSED: StatusSource(1 << 2, dds.requested_deadline_status, dds.CountStatus, read_count),
+        EventKind.LIVELINESS_CHANGED: StatusSource(
+            1 << 10, dds.liveliness_changed_status, dds.LivelinessChangedStatus, read_liveliness_changed
+        ),
+        EventKind.MESSAGE_LOST: StatusSource(1 << 5, dds.sample_lost_status, dds.CountStatus, read_count),
+    }
+
+    def __init__(self, participant: Participant, spec: EndpointSpec, *, ignore_local: bool = False) -> None:
+        super().__init__(spec)
+        self.topic = spec.name
+        self.wait_sets: set[CycloneWaitSet] = set()
+        self._condition = 0
+        self._gids: dict[int, bytes] = {}
+        self._user_data: dict[bytes, bytes] = {}
+        self._serdata = (ctypes.c_void_p * _BATCH)()
+        self._infos = (dds.SampleInfo * _BATCH)()
+        topic = participant.topic(spec.dds_topic, spec.type_id.name)
+        with dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos:
+            self._created(dds.create_reader(participant.handle, topic, qos, None))
+
+    def condition(self) -> int:
+        """The read condition that is true while messages are waiting."""
+        with self._lock:
+            if not self._condition:
+                condition = dds.create_read_condition(self.handle, dds.ANY_STATE)
+                self._condition = dds.check(condition, f"wait for messages on {self.topic}")
+            return self._condition
+
+    def take(self, limit: int = _BATCH) -> list[tuple[bytes, MessageInfo]]:
+        """See :meth:`Subscription.take`."""
+        taken: list[tuple[bytes, MessageInfo]] = []
+        with self._lock:
+            while limit > 0 and not self._closed:
+                wanted = min(limit, _BATCH)
+                count = dds.take_serdata(self.handle, self._serdata, wanted, self._infos, dds.ANY_STATE)
+                taken += self._messages(count)
+                limit -= wanted
+                if count < wanted:
+                    break
+        return taken
+
+    def _messages(self, count: int) -> list[tuple[bytes, MessageInfo]]:
+        """Copy the first ``count`` samples out of the buffers."""
+        messages = []
+        now = time.time_ns()
+        for index in range(count):
+            serdata, info = self._serdata[index], self._infos[index]
+            if info.valid_data:
+                size = dds.serdata_size(serdata)
+                data = bytes(size)  # new, and nobody else's yet: filled in place
+                dds.serdata_to_bytes(serdata, 0, size, data)
+                if data[:2] == _LITTLE_ENDIAN:
+                    publisher = info.publication_handle
+                    gid = self._gids.get(publisher) or self._gid_of(publisher)
+                    messages.append((data, MessageInfo(info.source_timestamp, now, gid)))
+                else:
+                    self._refuse(data)
+            dds.serdata_unref(serdata)
+        return messages
+
+    def _gid_of(self, publisher: int) -> bytes:
+        endpoint = dds.matched_publication_data(self.handle, publisher)
+        if not endpoint:  # it has gone already
+            return publisher.to_bytes(16, "big")
+        try:
+            gid = bytes(endpoint.contents.key)
+            user_data = read_user_data(endpoint.contents.qos)
+        finally:
+            dds.free_endpoint(endpoint)
+        if len(self._gids) >= _KNOWN_PUBLISHERS:
+            self._gids.clear()
+            self._user_data.clear()
+        self._gids[publisher] = gid
+        self._user_data[gid] = user_data
+        return gid
+
+    def user_data_of(self, publisher_gid: bytes) -> bytes:
+        """What the publisher of a taken message announced of itself; empty when that is not known."""
+        return self._user_data.get(publisher_gid, b"")
+
+    def _refuse(self, data: bytes) -> None:
+        warn_once(f"header {self.topic}", f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)")
+
+    def publisher_count(self) -> int:
+        """See :meth:`Subscription.publisher_count`."""
+        return max(0, int(dds.matched_publications(self.handle, None, 0)))
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        for wait_set in list(self.wait_sets):
+            wait_set.detach(self)
+        super().close()
+
+
+def deliver_to(subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]) -> Callable[[], None]:
+    """What the reader thread calls when messages are waiting on a subscription."""
+
+    def deliver() -> None:
+        for message in subscription.take():
+            if subscription.closed:
+                return
+            call_guarded(on_message, message, subscription.topic)
+
+    return deliver

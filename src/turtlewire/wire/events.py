@@ -1,0 +1,95 @@
+"""Events of endpoints: counters that the middleware feeds and their owner takes."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+from .base import Event, EventStatus
+
+if TYPE_CHECKING:
+    from .base import EventKind
+
+__all__ = ["EventWatcher", "StatusEvent"]
+
+
+class EventWatcher:
+    """Collects the events that a wait set is attached to, and says which have something to take."""
+
+    def __init__(self) -> None:
+        self._happened: dict[StatusEvent, None] = {}
+
+    def wake(self) -> None:
+        """End the wait; the wait set does it."""
+        raise NotImplementedError
+
+    def happened(self, event: StatusEvent) -> None:
+        """Report ``event`` at this and later waits, until it is taken."""
+        self._happened[event] = None
+        self.wake()
+
+    def ready_events(self) -> list[StatusEvent]:
+        """The events that have something to take."""
+        if not self._happened:
+            return []
+        for event in [event for event in self._happened if not event.pending]:
+            self._happened.pop(event, None)
+        return list(self._happened)
+
+    def forget(self, event: StatusEvent) -> None:
+        """Report it no more."""
+        self._happened.pop(event, None)
+
+
+class StatusEvent(Event):
+    """The counters of one kind of event of one endpoint. Thread-safe."""
+
+    def __init__(self, kind: EventKind) -> None:
+        self.kind = kind
+        self._lock = threading.Lock()
+        self._status = EventStatus()
+        self._watchers: set[EventWatcher] = set()
+        self.pending = False
+
+    def add(self, news: EventStatus) -> None:
+        """Take over new counters; their changes are added to those that nobody took yet."""
+        with self._lock:
+            self._status = news._replace(
+                total_count_change=self._status.total_count_change + news.total_count_change,
+                current_count_change=self._status.current_count_change + news.current_count_change,
+            )
+            self.pending = True
+            watchers = list(self._watchers)
+        for watcher in watchers:
+            watcher.happened(self)
+
+    def take(self) -> EventStatus | None:
+        """See :meth:`Event.take`."""
+        with self._lock:
+            if not self.pending:
+                return None
+            status = self._status
+            self._status = status._replace(total_count_change=0, current_count_change=0)
+            self.pending = False
+            return status
+
+    def attach(self, watcher: EventWatcher) -> None:
+        """Tell ``watcher`` when it happens, and at once when it has."""
+        with self._lock:
+            self._watchers.add(watcher)
+            pending = self.pending
+        if pending:
+            watcher.happened(self)
+
+    def detach(self, watcher: EventWatcher) -> None:
+        """Tell it no more."""
+        with self._lock:
+            self._watchers.discard(watcher)
+        watcher.forget(self)
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        with self._lock:
+            watchers = list(self._watchers)
+        for watcher in watchers:
+            self.detach(watcher)
