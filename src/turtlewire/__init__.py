@@ -1,1 +1,22 @@
 """ROS 2's transform system for Python, without a ROS installation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from turtlewire.tf.buffer import Buffer as Buffer
+    from turtlewire.tf.buffer import Transform as Transform
+
+__all__ = ["Buffer", "Transform"]
+
+
+def __getattr__(name: str) -> object:
+    # The core is loaded when it is first used: `import turtlewire.msg` and its like stay light.
+    if name not in __all__:
+        raise AttributeError(f"module 'turtlewire' has no attribute {name!r}")
+    from turtlewire.tf import buffer
+
+    value: object = getattr(buffer, name)
+    globals()[name] = value
+    return value

@@ -1,0 +1,381 @@
+// The Python class turtlewire.Buffer: arguments in, results out.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+
+#include "../core/tf_message.hpp"
+#include "buffer.hpp"
+#include "errors.hpp"
+#include "transform.hpp"
+
+namespace turtlewire::python {
+namespace {
+
+using namespace nb::literals;
+
+template <std::size_t N>
+using Values = std::array<PyObject*, N>;
+
+// ---------------------------------------------------------------- lookups
+
+PyObject* lookup_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<4> signature("lookup_transform", 2,
+                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
+  Values<4> v;
+  Stamp t = 0, timeout = 0;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
+      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+    return nullptr;
+  }
+  Found found;
+  return buffer->lookup(v[0], v[1], t, timeout, found) ? make_transform(v[0], v[1], found) : nullptr;
+}
+
+struct FullArguments {
+  Values<6> v;
+  Stamp target_time = 0, source_time = 0, timeout = 0;
+
+  bool read(const Signature<6>& signature, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+    return signature.read(arguments, count, keywords, v) && nanoseconds_of(v[1], target_time, "target_stamp_ns") &&
+           nanoseconds_of(v[3], source_time, "source_stamp_ns") && nanoseconds_of(v[5], timeout, "timeout_ns");
+  }
+};
+
+constexpr std::array<const char*, 6> kFullNames{"target_frame",    "target_stamp_ns", "source_frame",
+                                                "source_stamp_ns", "fixed_frame",     "timeout_ns"};
+
+PyObject* lookup_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<6> signature("lookup_transform_full", 5, kFullNames);
+  FullArguments a;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
+  Found found;
+  if (!buffer->lookup(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, found)) return nullptr;
+  return make_transform(a.v[0], a.v[2], found);
+}
+
+PyObject* to_python(const std::string& text) {
+  return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+}
+
+// "" if it can, else tf2's reason; null with a Python error set.
+PyObject* reason(const BufferObject&, bool answered, const Failure& failure) {
+  return answered ? to_python(explain(failure, Question::can_transform)) : nullptr;
+}
+
+PyObject* yes_or_no(bool answered, const Failure& failure) {
+  return answered ? PyBool_FromLong(failure.status == Status::ok) : nullptr;
+}
+
+PyObject* can_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<4> signature("can_transform", 2, {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
+  Values<4> v;
+  Stamp t = 0, timeout = 0;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
+      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+    return nullptr;
+  }
+  if (buffer->certainly_can_transform(v[0], v[1], t)) Py_RETURN_TRUE;
+  Failure failure;
+  return yes_or_no(buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
+}
+
+PyObject* can_transform_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<4> signature("can_transform_reason", 2,
+                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
+  Values<4> v;
+  Stamp t = 0, timeout = 0;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
+      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+    return nullptr;
+  }
+  Failure failure;
+  return reason(*buffer, buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
+}
+
+PyObject* can_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<6> signature("can_transform_full", 5, kFullNames);
+  FullArguments a;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
+  Failure failure;
+  return yes_or_no(buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, failure),
+                   failure);
+}
+
+PyObject* can_transform_full_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<6> signature("can_transform_full_reason", 5, kFullNames);
+  FullArguments a;
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
+  Failure failure;
+  return reason(*buffer,
+                buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, failure),
+                failure);
+}
+
+// ---------------------------------------------------------------- data in
+
+bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what) {
+  PyObject* items = PySequence_Fast(sequence, "translation and rotation must be sequences of numbers");
+  if (items == nullptr) return false;
+  bool fits = PySequence_Fast_GET_SIZE(items) == count;
+  if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
+  for (Py_ssize_t i = 0; fits && i < count; ++i) {
+    values[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items, i));
+    fits = values[i] != -1.0 || PyErr_Occurred() == nullptr;
+  }
+  Py_DECREF(items);
+  return fits;
+}
+
+bool flag_of(PyObject* object, bool& flag) {
+  const int truth = object == nullptr ? 0 : PyObject_IsTrue(object);
+  flag = truth == 1;
+  return truth >= 0;
+}
+
+PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<7> signature(
+      "set_transform", 5,
+      {"parent_frame", "child_frame", "stamp_ns", "translation", "rotation", "static", "authority"});
+  Values<7> v;
+  Stamp stamp = 0;
+  bool is_static = false;
+  double t[3], q[4];
+  std::string_view parent, child, authority = "default_authority";
+  BufferObject* buffer = buffer_of(self);
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !text_of(v[0], parent, "parent_frame") ||
+      !text_of(v[1], child, "child_frame") || !nanoseconds_of(v[2], stamp, "stamp_ns") ||
+      !numbers_of(v[3], t, 3, "translation") || !numbers_of(v[4], q, 4, "rotation") || !flag_of(v[5], is_static) ||
+      (v[6] != nullptr && !text_of(v[6], authority, "authority"))) {
+    return nullptr;
+  }
+  const Pose pose{{t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}};
+  const std::string refusal = buffer->set(parent, child, stamp, pose, authority, is_static);
+  if (refusal.empty()) buffer->call_listeners();
+  return to_python(refusal);
+}
+
+// The bytes of any object with the buffer protocol, for as long as this lives.
+class Bytes {
+ public:
+  Bytes() = default;
+  Bytes(const Bytes&) = delete;
+  Bytes& operator=(const Bytes&) = delete;
+  ~Bytes() {
+    if (view_.obj != nullptr) PyBuffer_Release(&view_);
+  }
+  bool read(PyObject* object) { return PyObject_GetBuffer(object, &view_, PyBUF_SIMPLE) == 0; }
+  const unsigned char* data() const { return static_cast<const unsigned char*>(view_.buf); }
+  std::size_t size() const { return static_cast<std::size_t>(view_.len); }
+
+ private:
+  Py_buffer view_{};
+};
+
+PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<3> signature("ingest", 1, {"cdr", "static", "authority"});
+  thread_local std::vector<ReceivedTransform> transforms;
+  Values<3> v;
+  bool is_static = false;
+  std::string_view authority = "default_authority";
+  BufferObject* buffer = buffer_of(self);
+  Bytes bytes;
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !bytes.read(v[0]) ||
+      !flag_of(v[1], is_static) || (v[2] != nullptr && !text_of(v[2], authority, "authority"))) {
+    return nullptr;
+  }
+  const std::string fault = decode_tf_message(bytes.data(), bytes.size(), transforms);
+  if (!fault.empty()) return raise_cdr_error(fault);
+  const long accepted = buffer->add(transforms, authority, is_static);
+  if (accepted > 0) buffer->call_listeners();
+  return PyLong_FromLong(accepted);
+}
+
+// ---------------------------------------------------------------- the rest, through nanobind
+
+Stamp latest_common_time(BufferObject& self, std::string_view target, std::string_view source) {
+  Stamp t = 0;
+  Failure failure;
+  if (self.shared.latest_common_time(target, source, t, failure) != Status::ok) {
+    raise(failure, Question::latest_common_time);
+    throw nb::python_error();
+  }
+  return t;
+}
+
+nb::list frame_strings(BufferObject& self) {
+  std::vector<std::string> names;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    const Names& frames = self.shared.buffer.frames();
+    for (FrameId id = 1; id < frames.size(); ++id) names.push_back(frames[id]);
+  }
+  nb::list list;
+  for (const std::string& name : names) list.append(name);
+  return list;
+}
+
+template <typename Make>
+std::string locked(BufferObject& self, Make make) {
+  const std::scoped_lock lock(self.shared.mutex);
+  return make(self.shared.buffer);
+}
+
+nb::object add_change_listener(nb::handle self, nb::callable listener) {
+  nb::inst_ptr<BufferObject>(self)->listeners.append(listener);
+  return nb::module_::import_("functools").attr("partial")(self.attr("_remove_change_listener"), listener);
+}
+
+void remove_change_listener(BufferObject& self, nb::handle listener) {
+  for (std::size_t i = 0; i < self.listeners.size(); ++i) {
+    if (self.listeners[i].ptr() == listener.ptr()) {
+      nb::del(self.listeners[i]);
+      return;
+    }
+  }
+}
+
+int traverse(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<BufferObject>(self)->listeners.ptr());
+  return 0;
+}
+
+int clear_references(PyObject* self) {
+  if (nb::inst_ready(self)) nb::inst_ptr<BufferObject>(self)->listeners.clear();
+  return 0;
+}
+
+PyMethodDef hot_methods[] = {
+    fast_method("lookup_transform", lookup_transform,
+                "lookup_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+                "The pose of source_frame in target_frame at one time: `target_from_source`.\n\n"
+                "Args:\n"
+                "    target_frame: The frame in which the answer is expressed.\n"
+                "    source_frame: The frame whose pose is asked for.\n"
+                "    stamp_ns: Time in nanoseconds; 0 asks for the latest time known to the whole chain.\n"
+                "    timeout_ns: How long to wait for data, with the GIL released; 0 does not wait.\n\n"
+                "Returns:\n"
+                "    A Transform.\n\n"
+                "Raises:\n"
+                "    InvalidArgumentException: A frame id is empty or starts with a slash.\n"
+                "    LookupException: A frame does not exist.\n"
+                "    ConnectivityException: The frames are not in one tree.\n"
+                "    ExtrapolationException: The data does not reach the time."),
+    fast_method(
+        "lookup_transform_full", lookup_transform_full,
+        "lookup_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
+        "timeout_ns=0)\n--\n\n"
+        "The pose of source_frame at one time in target_frame at another, by way of a frame that did not move.\n\n"
+        "Returns and raises as lookup_transform; the stamp is that of the target."),
+    fast_method("can_transform", can_transform,
+                "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+                "Whether lookup_transform with the same arguments gives an answer."),
+    fast_method("can_transform_full", can_transform_full,
+                "can_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
+                "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the same arguments gives an answer."),
+    fast_method("can_transform_reason", can_transform_reason,
+                "can_transform_reason($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+                "An empty string if can_transform is true, else tf2's text of why it is not."),
+    fast_method("can_transform_full_reason", can_transform_full_reason,
+                "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, "
+                "fixed_frame, timeout_ns=0)\n--\n\n"
+                "An empty string if can_transform_full is true, else tf2's text of why it is not."),
+    fast_method("set_transform", set_transform,
+                "set_transform($self, parent_frame, child_frame, stamp_ns, translation, rotation, static=False, "
+                "authority='default_authority')\n--\n\n"
+                "Adds one sample: the pose of child_frame in parent_frame at a time.\n\n"
+                "Args:\n"
+                "    parent_frame: header.frame_id of a TransformStamped.\n"
+                "    child_frame: Its child_frame_id.\n"
+                "    stamp_ns: Its time, in nanoseconds.\n"
+                "    translation: (x, y, z) in metres.\n"
+                "    rotation: Quaternion (x, y, z, w); it is normalised.\n"
+                "    static: Whether the pose holds for all times.\n"
+                "    authority: Who says so.\n\n"
+                "Returns:\n"
+                "    An empty string if the sample was accepted, else tf2's reason for refusing it."),
+    fast_method("ingest", ingest,
+                "ingest($self, cdr, static=False, authority='default_authority')\n--\n\n"
+                "Adds the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.\n\n"
+                "Returns:\n"
+                "    How many were accepted.\n\n"
+                "Raises:\n"
+                "    CdrError: The bytes are malformed; nothing of them was added."),
+    {nullptr, nullptr, 0, nullptr},
+};
+
+PyType_Slot buffer_slots[] = {
+    {Py_tp_methods, hot_methods},
+    {Py_tp_traverse, reinterpret_cast<void*>(traverse)},
+    {Py_tp_clear, reinterpret_cast<void*>(clear_references)},
+    {0, nullptr},
+};
+
+}  // namespace
+
+BufferObject* buffer_of(PyObject* self) {
+  if (!nb::inst_ready(self)) [[unlikely]] {
+    PyErr_SetString(PyExc_RuntimeError, "Buffer.__init__() was not called");
+    return nullptr;
+  }
+  return nb::inst_ptr<BufferObject>(self);
+}
+
+void add_buffer_type(nb::module_& module) {
+  nb::class_<BufferObject>(module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
+                           "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
+                           "Args:\n"
+                           "    cache_time_ns: How long samples are kept, counted back from the newest of their link.")
+      .def(nb::init<Stamp>(), "cache_time_ns"_a = 10'000'000'000)
+      .def_prop_ro("cache_time_ns", [](BufferObject& self) { return self.shared.buffer.keep(); })
+      .def(
+          "latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
+          "The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static.")
+      .def(
+          "clear",
+          [](BufferObject& self) {
+            const std::scoped_lock lock(self.shared.mutex);
+            self.shared.buffer.clear();
+          },
+          "Forgets all samples. Frame names and static transforms stay, as in tf2.")
+      .def("frame_strings", &frame_strings, "The names of all frames ever heard of, in order of arrival.")
+      .def(
+          "frame_exists",
+          [](BufferObject& self, std::string_view frame) {
+            const std::scoped_lock lock(self.shared.mutex);
+            return self.shared.buffer.frames().find(frame).has_value();
+          },
+          "frame"_a, "Whether the frame was ever heard of.")
+      .def(
+          "all_frames_as_string",
+          [](BufferObject& self) { return locked(self, [](const Buffer& b) { return b.frames_as_string(); }); },
+          "tf2's list of frames and parents, one line each.")
+      .def(
+          "all_frames_as_yaml",
+          [](BufferObject& self, double now) {
+            return locked(self, [now](const Buffer& b) { return b.frames_as_yaml(now); });
+          },
+          "now"_a = 0.0, "tf2's YAML of frames, parents, senders, rates and ages; `now` in seconds adds the delay.")
+      .def(
+          "all_frames_as_dot",
+          [](BufferObject& self, double now) {
+            return locked(self, [now](const Buffer& b) { return b.frames_as_dot(now); });
+          },
+          "now"_a = 0.0, "tf2's Graphviz text of the tree; `now` in seconds adds ages.")
+      .def("add_change_listener", &add_change_listener, "listener"_a,
+           "Has `listener()` called after data came in, on the thread that brought it, without any lock.\n\n"
+           "Returns:\n"
+           "    A function that removes the listener again.")
+      .def("_remove_change_listener", &remove_change_listener, "listener"_a)
+      .def(
+          "wake", [](BufferObject& self) { self.wake(); },
+          "Makes every waiting lookup look at pending signals now, and go on waiting if there is none.\n\n"
+          "For signal handling that does not interrupt the main thread's system call, such as rclpy's.");
+}
+
+}  // namespace turtlewire::python

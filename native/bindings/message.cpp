@@ -1,0 +1,214 @@
+#include "message.hpp"
+
+#include <structmember.h>
+
+#include <cstring>
+
+#include "buffer.hpp"
+
+namespace turtlewire::python {
+namespace {
+
+using namespace nb::literals;
+
+// An attribute, or null without an error if there is none.
+PyObject* optional_attribute(PyObject* object, PyObject* name) {
+  PyObject* value = nullptr;
+#if PY_VERSION_HEX >= 0x030D0000
+  PyObject_GetOptionalAttr(object, name, &value);
+#else
+  _PyObject_LookupAttr(object, name, &value);
+#endif
+  return value;
+}
+
+bool take_integer(PyObject* value, long long& integer) {
+  if (value == nullptr) return false;
+  integer = PyLong_AsLongLong(value);
+  Py_DECREF(value);
+  return integer != -1 || PyErr_Occurred() == nullptr;
+}
+
+// tf2_py's converters: a message with sec and nanosec, else an rclpy Time or Duration with nanoseconds.
+bool time_of(PyObject* object, Stamp& t, const char* what) {
+  static PyObject* const sec_name = PyUnicode_InternFromString("sec");
+  static PyObject* const nanosec_name = PyUnicode_InternFromString("nanosec");
+  static PyObject* const nanoseconds_name = PyUnicode_InternFromString("nanoseconds");
+  long long seconds = 0, nanoseconds = 0;
+  PyObject* sec = optional_attribute(object, sec_name);
+  PyObject* nanosec = sec != nullptr ? optional_attribute(object, nanosec_name) : nullptr;
+  if (nanosec != nullptr) {
+    const bool fits = take_integer(sec, seconds) & take_integer(nanosec, nanoseconds);
+    t = seconds * 1'000'000'000 + nanoseconds;
+    return fits;
+  }
+  Py_XDECREF(sec);
+  if (PyErr_Occurred() != nullptr) return false;
+  PyObject* total = optional_attribute(object, nanoseconds_name);
+  if (total == nullptr) {
+    if (PyErr_Occurred() == nullptr) {
+      PyErr_Format(PyExc_TypeError, "%s must have sec and nanosec, or nanoseconds.", what);
+    }
+    return false;
+  }
+  if (!take_integer(total, nanoseconds)) return false;
+  t = nanoseconds;
+  return true;
+}
+
+// Where the fields of one message class lie: each is a slot, and no __init__ is needed to fill it.
+template <std::size_t N>
+class Layout {
+ public:
+  Layout(nb::handle cls, const std::array<const char*, N>& fields) : type_(reinterpret_cast<PyTypeObject*>(cls.ptr())) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const nb::object slot = cls.attr(fields[i]);
+      const auto* member = reinterpret_cast<PyMemberDescrObject*>(slot.ptr())->d_member;
+      if (Py_TYPE(slot.ptr()) != &PyMemberDescr_Type || member->type != T_OBJECT_EX) {
+        throw nb::type_error(
+            (std::string(nb::str(cls).c_str()) + ": the field '" + fields[i] + "' is not a slot").c_str());
+      }
+      offsets_[i] = member->offset;
+    }
+    Py_INCREF(type_);
+  }
+  Layout(const Layout&) = delete;
+  Layout& operator=(const Layout&) = delete;
+  ~Layout() { Py_DECREF(type_); }
+
+  // A new instance that owns the given values; null, and the values gone, if one of them is null.
+  PyObject* make(const std::array<PyObject*, N>& values) const {
+    PyObject* object = type_->tp_alloc(type_, 0);
+    bool complete = object != nullptr;
+    for (std::size_t i = 0; i < N; ++i) {
+      complete = complete && values[i] != nullptr;
+      if (object != nullptr) {
+        std::memcpy(reinterpret_cast<char*>(object) + offsets_[i], &values[i], sizeof(PyObject*));
+      } else {
+        Py_XDECREF(values[i]);
+      }
+    }
+    if (complete) return object;
+    Py_XDECREF(object);
+    return nullptr;
+  }
+
+ private:
+  PyTypeObject* type_;
+  std::array<Py_ssize_t, N> offsets_{};
+};
+
+// The six classes that make up a TransformStamped, as a default instance shows them.
+class StampedMaker {
+ public:
+  explicit StampedMaker(const nb::object& example)
+      : stamped_(example.type(), {"header", "child_frame_id", "transform"}),
+        header_(example.attr("header").type(), {"stamp", "frame_id"}),
+        time_(example.attr("header").attr("stamp").type(), {"sec", "nanosec"}),
+        transform_(example.attr("transform").type(), {"translation", "rotation"}),
+        vector_(example.attr("transform").attr("translation").type(), {"x", "y", "z"}),
+        quaternion_(example.attr("transform").attr("rotation").type(), {"x", "y", "z", "w"}) {}
+
+  PyObject* make(PyObject* target, PyObject* source, const Found& found) const {
+    constexpr Stamp second = 1'000'000'000;
+    Stamp sec = found.stamp / second, nanosec = found.stamp % second;
+    if (nanosec < 0) {
+      nanosec += second;
+      --sec;
+    }
+    const auto& [t, q] = found.target_from_source;
+    PyObject* stamp = time_.make({PyLong_FromLongLong(sec), PyLong_FromLongLong(nanosec)});
+    PyObject* header = header_.make({stamp, plain_string(target)});
+    PyObject* translation = vector_.make({PyFloat_FromDouble(t.x), PyFloat_FromDouble(t.y), PyFloat_FromDouble(t.z)});
+    PyObject* rotation = quaternion_.make(
+        {PyFloat_FromDouble(q.x), PyFloat_FromDouble(q.y), PyFloat_FromDouble(q.z), PyFloat_FromDouble(q.w)});
+    return stamped_.make({header, plain_string(source), transform_.make({translation, rotation})});
+  }
+
+ private:
+  static PyObject* plain_string(PyObject* text) {
+    return PyUnicode_CheckExact(text) ? Py_NewRef(text) : PyUnicode_FromObject(text);
+  }
+
+  Layout<3> stamped_;
+  Layout<2> header_, time_, transform_;
+  Layout<3> vector_;
+  Layout<4> quaternion_;
+};
+
+class MessageLookup {
+ public:
+  MessageLookup(nb::object buffer, const nb::object& example) : maker(example), owner_(std::move(buffer)) {
+    if (!nb::isinstance<BufferObject>(owner_)) throw nb::type_error("the first argument must be a native Buffer");
+    this->buffer = nb::inst_ptr<BufferObject>(owner_);
+  }
+
+  StampedMaker maker;
+  BufferObject* buffer;
+
+ private:
+  nb::object owner_;
+};
+
+MessageLookup* self_of(PyObject* self) {
+  if (!nb::inst_ready(self)) [[unlikely]] {
+    PyErr_SetString(PyExc_RuntimeError, "MessageLookup.__init__() was not called");
+    return nullptr;
+  }
+  return nb::inst_ptr<MessageLookup>(self);
+}
+
+PyObject* lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<4> signature("lookup", 3, {"target_frame", "source_frame", "time", "timeout"});
+  std::array<PyObject*, 4> v;
+  Stamp t = 0, timeout = 0;
+  MessageLookup* self = self_of(object);
+  if (self == nullptr || !signature.read(arguments, count, keywords, v) || !time_of(v[2], t, "time") ||
+      (v[3] != nullptr && !time_of(v[3], timeout, "duration"))) {
+    return nullptr;
+  }
+  Found found;
+  return self->buffer->lookup(v[0], v[1], t, timeout, found) ? self->maker.make(v[0], v[1], found) : nullptr;
+}
+
+PyObject* lookup_full(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<6> signature(
+      "lookup_full", 5, {"target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"});
+  std::array<PyObject*, 6> v;
+  Stamp target_time = 0, source_time = 0, timeout = 0;
+  MessageLookup* self = self_of(object);
+  if (self == nullptr || !signature.read(arguments, count, keywords, v) || !time_of(v[1], target_time, "time") ||
+      !time_of(v[3], source_time, "time") || (v[5] != nullptr && !time_of(v[5], timeout, "duration"))) {
+    return nullptr;
+  }
+  Found found;
+  if (!self->buffer->lookup(v[0], target_time, v[2], source_time, v[4], timeout, found)) return nullptr;
+  return self->maker.make(v[0], v[2], found);
+}
+
+PyMethodDef methods[] = {
+    fast_method("lookup", lookup,
+                "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
+                "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
+    fast_method("lookup_full", lookup_full,
+                "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=None)\n"
+                "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
+    {nullptr, nullptr, 0, nullptr},
+};
+
+PyType_Slot slots[] = {{Py_tp_methods, methods}, {0, nullptr}};
+
+}  // namespace
+
+void add_message_lookup_type(nb::module_& module) {
+  nb::class_<MessageLookup>(
+      module, "MessageLookup", nb::type_slots(slots),
+      "Lookups in a Buffer that return TransformStamped messages.\n\n"
+      "Args:\n"
+      "    buffer: The native Buffer.\n"
+      "    example: A TransformStamped with default fields; its classes must keep their fields in\n"
+      "        plain slots, which are filled here without running any __init__.")
+      .def(nb::init<nb::object, nb::object>(), "buffer"_a, "example"_a);
+}
+
+}  // namespace turtlewire::python

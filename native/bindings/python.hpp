@@ -1,0 +1,97 @@
+// The few helpers around the raw Python interface that the hot methods need.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "../core/samples.hpp"
+
+namespace turtlewire::python {
+
+namespace nb = nanobind;
+
+// A hot method in the vectorcall convention, as the method table wants it.
+using FastMethod = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
+inline PyMethodDef fast_method(const char* name, FastMethod method, const char* doc) {
+  return {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method)), METH_FASTCALL | METH_KEYWORDS,
+          doc};
+}
+
+// Positional and keyword arguments of a hot method, in the order of the names; missing optional ones are null.
+template <std::size_t N>
+class Signature {
+ public:
+  Signature(const char* method, std::size_t required, const std::array<const char*, N>& names)
+      : method_(method), required_(required) {
+    for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(names[i]);
+  }
+
+  bool read(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, std::array<PyObject*, N>& values) const {
+    values.fill(nullptr);
+    if (static_cast<std::size_t>(count) > N) {
+      PyErr_Format(PyExc_TypeError, "%s() takes at most %zu arguments (%zd given)", method_, N, count);
+      return false;
+    }
+    for (Py_ssize_t i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = arguments[i];
+    if (keywords != nullptr && !read_keywords(arguments + count, keywords, values)) return false;
+    for (std::size_t i = 0; i < required_; ++i) {
+      if (values[i] == nullptr) {
+        PyErr_Format(PyExc_TypeError, "%s() is missing the argument '%U'", method_, names_[i]);
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool read_keywords(PyObject* const* given, PyObject* keywords, std::array<PyObject*, N>& values) const {
+    for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(keywords); ++k) {
+      PyObject* keyword = PyTuple_GET_ITEM(keywords, k);
+      std::size_t i = 0;
+      while (i < N && names_[i] != keyword && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
+      if (i == N) {
+        PyErr_Format(PyExc_TypeError, "%s() got an unexpected keyword argument '%U'", method_, keyword);
+        return false;
+      }
+      if (values[i] != nullptr) {
+        PyErr_Format(PyExc_TypeError, "%s() got multiple values for argument '%U'", method_, keyword);
+        return false;
+      }
+      values[i] = given[k];
+    }
+    return true;
+  }
+
+  const char* method_;
+  std::size_t required_;
+  std::array<PyObject*, N> names_;
+};
+
+// A string's own bytes; they live as long as the object. False with a TypeError or UnicodeEncodeError set.
+inline bool text_of(PyObject* object, std::string_view& text, const char* what) {
+  if (!PyUnicode_Check(object)) {
+    PyErr_Format(PyExc_TypeError, "%s must be str, not %.200s", what, Py_TYPE(object)->tp_name);
+    return false;
+  }
+  Py_ssize_t size = 0;
+  const char* bytes = PyUnicode_AsUTF8AndSize(object, &size);
+  if (bytes == nullptr) return false;
+  text = {bytes, static_cast<std::size_t>(size)};
+  return true;
+}
+
+// Nanoseconds from an int (or what has __index__); a null object leaves the default.
+inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
+  if (object == nullptr) return true;
+  value = PyLong_AsLongLong(object);
+  if (value != -1 || PyErr_Occurred() == nullptr) return true;
+  if (PyErr_ExceptionMatches(PyExc_TypeError)) {
+    PyErr_Format(PyExc_TypeError, "%s must be an int of nanoseconds, not %.200s", what, Py_TYPE(object)->tp_name);
+  }
+  return false;
+}
+
+}  // namespace turtlewire::python

@@ -1,0 +1,228 @@
+// One link of the tree: how a child frame lies in its parent, over time (dynamic) or forever (static).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "interpolate.hpp"
+#include "samples.hpp"
+
+namespace turtlewire {
+
+enum class LinkKind : std::uint8_t { none, dynamic_link, static_link };  // none: nothing was ever sent; a root
+
+enum class ReadStatus : std::uint8_t { ok, no_data, future, past };
+
+enum class InsertStatus : std::uint8_t { added, duplicate, too_old };
+
+struct Reading {
+  ReadStatus status = ReadStatus::no_data;
+  FrameId parent = 0;
+  Pose pose{};
+};
+
+class Link {
+ public:
+  // Beyond this many values of one stamp only the first, the last and the count are kept: memory stays bounded.
+  static constexpr std::size_t kMostPerStamp = 1000;
+
+  LinkKind kind() const { return kind_; }
+  bool is_static() const { return kind_ == LinkKind::static_link; }
+  bool has_data() const { return is_static() || !samples_.empty(); }
+  // The parent of the newest sample; 0 without data.
+  FrameId parent() const { return parent_; }
+  // Samples of different parents are in the history, so the tree depends on the time asked for.
+  bool reparented() const { return parent_changes_ > 0; }
+  // An infinite translation was accepted (tf2 does): it spoils every walk through this link.
+  bool has_infinity() const { return has_infinity_; }
+  const Pose& static_pose() const { return static_pose_; }
+  const Samples& samples() const { return samples_; }
+
+  // The number of values that tf2 would hold, those of a flooded stamp included.
+  std::size_t length() const {
+    std::size_t n = is_static() ? 1 : samples_.size();
+    for (const Flood& flood : floods_) n += flood.dropped;
+    return n;
+  }
+  Stamp oldest() const { return is_static() || samples_.empty() ? 0 : samples_.oldest(); }
+  Stamp newest() const { return is_static() || samples_.empty() ? 0 : samples_.newest(); }
+
+  // All that a path between two frames depends on, but for the samples themselves; equal shapes, equal paths.
+  std::uint64_t shape() const {
+    const auto flags = static_cast<std::uint64_t>(kind_) | static_cast<std::uint64_t>(has_data()) << 2 |
+                       static_cast<std::uint64_t>(reparented()) << 3 | static_cast<std::uint64_t>(has_infinity_) << 4;
+    return flags << 32 | parent_;
+  }
+
+  // Turns the link into the other kind, which loses its history, as in tf2.
+  void become(LinkKind kind) {
+    if (kind == kind_) return;
+    clear_samples();
+    kind_ = kind;
+    has_infinity_ = false;
+  }
+
+  void set_static(FrameId parent, const Pose& pose) {
+    parent_ = parent;
+    static_pose_ = pose;
+    has_infinity_ = !is_finite(pose.translation);
+  }
+
+  // tf2's order of things: drop what is too old by the newest stamp so far, refuse what is older than that, and put a
+  // sample of a known stamp behind those that came before it.
+  InsertStatus insert(Stamp stamp, const Sample& sample, Stamp keep) {
+    if (samples_.empty()) {
+      append(stamp, sample, keep);
+      return InsertStatus::added;
+    }
+    const Stamp limit = before(samples_.newest(), keep);
+    prune(limit);
+    if (stamp > samples_.newest()) [[likely]] {
+      append(stamp, sample, keep);
+      return InsertStatus::added;
+    }
+    if (stamp < limit) return InsertStatus::too_old;
+    return insert_late(stamp, sample, keep);
+  }
+
+  // The history goes; a static pose stays.
+  void clear() {
+    if (!is_static()) {
+      clear_samples();
+      has_infinity_ = false;
+    }
+  }
+
+  // The pose at `t`; 0 means the newest.
+  Reading read(Stamp t) const {
+    if (is_static()) return {ReadStatus::ok, parent_, static_pose_};
+    if (samples_.empty()) return {};
+    if (t == 0) return sample_reading(samples_.back());
+    if (samples_.size() == 1) return samples_.newest() == t ? sample_reading(samples_.back()) : Reading{};
+    if (t >= samples_.newest())
+      return t == samples_.newest() ? sample_reading(samples_.back()) : Reading{ReadStatus::future};
+    if (t <= samples_.oldest())
+      return t == samples_.oldest() ? sample_reading(samples_.front()) : Reading{ReadStatus::past};
+    const std::size_t i = samples_.last_at_or_before(t);
+    const Sample& older = samples_[i];
+    const Sample& newer = samples_[i + 1];
+    if (older.parent != newer.parent) return sample_reading(older);
+    return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
+  }
+
+  // Whether a dynamic link of one parent has a pose at `t`, without computing it.
+  bool covers(Stamp t) const {
+    if (samples_.size() < 2) return !samples_.empty() && (t == 0 || t == samples_.newest());
+    return t == 0 || (t <= samples_.newest() && t >= samples_.oldest());
+  }
+
+  // The pose of a dynamic link of one parent; false when it has none at `t`.
+  bool pose_at(Stamp t, Pose& pose) const {
+    if (samples_.empty()) return false;
+    const Stamp newest = samples_.newest();
+    if (t == newest || t == 0) {
+      pose = samples_.back().pose;
+      return true;
+    }
+    if (t > newest || t <= samples_.oldest()) {
+      if (t != samples_.oldest()) return false;
+      pose = samples_.front().pose;
+      return true;
+    }
+    const std::size_t i = samples_.last_at_or_before(t);
+    pose = interpolate(samples_[i].pose, samples_[i + 1].pose, ratio(i, t));
+    return true;
+  }
+
+ private:
+  struct Flood {
+    Stamp stamp;
+    std::size_t dropped;
+  };
+
+  static Stamp before(Stamp stamp, Stamp span) {
+    constexpr Stamp first = std::numeric_limits<Stamp>::min();
+    return stamp < first + span ? first : stamp - span;
+  }
+
+  static Reading sample_reading(const Sample& sample) { return {ReadStatus::ok, sample.parent, sample.pose}; }
+
+  double ratio(std::size_t i, Stamp t) const {
+    const Stamp older = samples_.stamp(i);
+    return static_cast<double>(t - older) / static_cast<double>(samples_.stamp(i + 1) - older);
+  }
+
+  void append(Stamp stamp, const Sample& sample, Stamp keep) {
+    if (!samples_.empty() && samples_.back().parent != sample.parent) ++parent_changes_;
+    samples_.push_back(stamp, sample, keep);
+    note(sample);
+  }
+
+  InsertStatus insert_late(Stamp stamp, const Sample& sample, Stamp keep) {
+    std::size_t end = samples_.size();
+    if (stamp < samples_.newest()) end = stamp < samples_.oldest() ? 0 : samples_.last_at_or_before(stamp) + 1;
+    std::size_t begin = end;
+    while (begin > 0 && samples_.stamp(begin - 1) == stamp) {
+      --begin;
+      if (samples_[begin].parent == sample.parent && samples_[begin].pose == sample.pose)
+        return InsertStatus::duplicate;
+    }
+    if (end - begin >= kMostPerStamp) {
+      replace_last_of_flood(end - 1, stamp, sample);
+    } else {
+      samples_.insert(end, stamp, sample, keep);
+    }
+    if (parent_changes_ > 0 || sample.parent != parent_) count_parent_changes();
+    note(sample);
+    return InsertStatus::added;
+  }
+
+  void replace_last_of_flood(std::size_t i, Stamp stamp, const Sample& sample) {
+    samples_[i] = sample;
+    const auto known = std::find_if(floods_.begin(), floods_.end(), [&](const Flood& f) { return f.stamp == stamp; });
+    if (known != floods_.end()) {
+      ++known->dropped;
+    } else {
+      floods_.push_back({stamp, 1});
+    }
+  }
+
+  void note(const Sample& sample) {
+    parent_ = samples_.back().parent;
+    has_infinity_ = has_infinity_ || !is_finite(sample.pose.translation);
+  }
+
+  void prune(Stamp limit) {
+    if (samples_.oldest() >= limit) return;
+    while (samples_.oldest() < limit) {
+      const FrameId parent = samples_.front().parent;
+      samples_.pop_front();
+      if (parent_changes_ > 0 && samples_.front().parent != parent) --parent_changes_;
+    }
+    std::erase_if(floods_, [&](const Flood& flood) { return flood.stamp < limit; });
+  }
+
+  void count_parent_changes() {
+    parent_changes_ = 0;
+    for (std::size_t i = 1; i < samples_.size(); ++i) parent_changes_ += samples_[i].parent != samples_[i - 1].parent;
+  }
+
+  void clear_samples() {
+    samples_.clear();
+    floods_.clear();
+    parent_changes_ = 0;
+    parent_ = 0;
+  }
+
+  LinkKind kind_ = LinkKind::none;
+  bool has_infinity_ = false;
+  FrameId parent_ = 0;
+  std::size_t parent_changes_ = 0;
+  Samples samples_;
+  Pose static_pose_;
+  std::vector<Flood> floods_;
+};
+
+}  // namespace turtlewire

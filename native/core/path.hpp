@@ -1,0 +1,69 @@
+// The way between two frames, prepared once for each shape of the tree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "link.hpp"
+
+namespace turtlewire {
+
+// A dynamic link, or (link == nullptr) a run of static links multiplied out.
+struct Step {
+  const Link* link = nullptr;
+  Pose fixed;
+};
+
+// From the source up to the nearest common ancestor, and from the target up to it.
+struct Path {
+  FrameId target = 0, source = 0;
+  std::uint64_t version = 0;  // of the tree it was made for; 0: never made
+  // Whether the steps give the answer. If not (frames unconnected, a loop, links with changing parents, emptied links
+  // or infinite values on the way to the root), each lookup walks the tree as tf2 does.
+  bool direct = false;
+  std::vector<Step> up, down;
+};
+
+// The newest time that every dynamic link of the path has reached; 0 if none has.
+inline Stamp latest_common_time(const Path& path) {
+  Stamp latest = 0;
+  for (const auto* arm : {&path.up, &path.down}) {
+    for (const Step& step : *arm) {
+      if (step.link == nullptr) continue;
+      const Stamp newest = step.link->newest();
+      if (newest != 0 && (latest == 0 || newest < latest)) latest = newest;
+    }
+  }
+  return latest;
+}
+
+// top_from_start of one arm; false when a link has no data at `t`.
+inline bool follow(const std::vector<Step>& arm, Stamp t, Pose& result) {
+  Pose pose;
+  for (std::size_t i = 0; i < arm.size(); ++i) {
+    const Step& step = arm[i];
+    if (step.link != nullptr && !step.link->pose_at(t, pose)) return false;
+    const Pose& parent_from_child = step.link != nullptr ? pose : step.fixed;
+    result = i == 0 ? parent_from_child : parent_from_child * result;
+  }
+  return true;
+}
+
+// target_from_source; false when a link has no data at `t`.
+inline bool follow(const Path& path, Stamp t, Pose& target_from_source) {
+  Pose up, down;
+  if (!follow(path.up, t, up) || !follow(path.down, t, down)) return false;
+  target_from_source = path.down.empty() ? up : between(down, up);
+  return true;
+}
+
+inline bool covers(const Path& path, Stamp t) {
+  for (const auto* arm : {&path.up, &path.down}) {
+    for (const Step& step : *arm) {
+      if (step.link != nullptr && !step.link->covers(t)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace turtlewire

@@ -1,0 +1,114 @@
+// Rigid-body poses: a translation and a unit quaternion (x, y, z, w), and the arithmetic that tf2 does with them.
+#pragma once
+
+#include <cmath>
+
+namespace turtlewire {
+
+struct Vec3 {
+  double x = 0.0, y = 0.0, z = 0.0;
+  bool operator==(const Vec3&) const = default;
+};
+
+struct Quat {
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+  bool operator==(const Quat&) const = default;
+};
+
+// The pose of one frame in another: `parent_from_child`.
+struct Pose {
+  Vec3 translation;
+  Quat rotation;
+  bool operator==(const Pose&) const = default;
+};
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(double k, const Vec3& v) { return {k * v.x, k * v.y, k * v.z}; }
+
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline double dot(const Quat& a, const Quat& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+
+inline Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
+
+inline Quat operator*(const Quat& a, const Quat& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+          a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+// The vector turned by the unit quaternion: v + 2w(u×v) + 2u×(u×v), with u the vector part.
+inline Vec3 rotate(const Quat& q, const Vec3& v) {
+  const Vec3 axis{q.x, q.y, q.z};
+  const Vec3 twice = 2.0 * cross(axis, v);
+  return v + q.w * twice + cross(axis, twice);
+}
+
+// a_from_c = a_from_b * b_from_c
+inline Pose operator*(const Pose& a, const Pose& b) {
+  return {a.translation + rotate(a.rotation, b.translation), a.rotation * b.rotation};
+}
+
+inline Pose inverse(const Pose& p) {
+  const Quat back = conjugate(p.rotation);
+  return {-1.0 * rotate(back, p.translation), back};
+}
+
+// inverse(a) * b, with the subtraction before the rotation: exact where both are far from the origin.
+inline Pose between(const Pose& a, const Pose& b) {
+  const Quat back = conjugate(a.rotation);
+  return {rotate(back, b.translation - a.translation), back * b.rotation};
+}
+
+inline bool has_nan(const Vec3& v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); }
+inline bool has_nan(const Quat& q) { return std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z) || std::isnan(q.w); }
+inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// tf2 stores a rotation by way of its 3x3 matrix. That normalises any length and picks one of q and -q: the sign that
+// makes w positive if the trace is, else the sign that makes the largest of x, y, z positive. Duplicates are compared
+// after it and a half turn interpolates by its sign, so the steps and their order are tf2's.
+inline Quat through_matrix(const Quat& q) {
+  const double s = 2.0 / dot(q, q);
+  const double xs = q.x * s, ys = q.y * s, zs = q.z * s;
+  const double wx = q.w * xs, wy = q.w * ys, wz = q.w * zs;
+  const double xx = q.x * xs, xy = q.x * ys, xz = q.x * zs;
+  const double yy = q.y * ys, yz = q.y * zs, zz = q.z * zs;
+  const double m00 = 1.0 - (yy + zz), m11 = 1.0 - (xx + zz), m22 = 1.0 - (xx + yy);
+  const double trace = m00 + m11 + m22;
+  if (trace > 0.0) {
+    const double root = std::sqrt(trace + 1.0);
+    const double f = 0.5 / root;
+    return {((yz + wx) - (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f, ((xy + wz) - (xy - wz)) * f, root * 0.5};
+  }
+  if (m00 >= m11 && m00 >= m22) {
+    const double root = std::sqrt(m00 - m11 - m22 + 1.0);
+    const double f = 0.5 / root;
+    return {root * 0.5, ((xy + wz) + (xy - wz)) * f, ((xz - wy) + (xz + wy)) * f, ((yz + wx) - (yz - wx)) * f};
+  }
+  if (m11 >= m22) {
+    const double root = std::sqrt(m11 - m22 - m00 + 1.0);
+    const double f = 0.5 / root;
+    return {((xy - wz) + (xy + wz)) * f, root * 0.5, ((yz + wx) + (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f};
+  }
+  const double root = std::sqrt(m22 - m00 - m11 + 1.0);
+  const double f = 0.5 / root;
+  return {((xz + wy) + (xz - wy)) * f, ((yz - wx) + (yz + wx)) * f, root * 0.5, ((xy + wz) - (xy - wz)) * f};
+}
+
+// What through_matrix gives for a quaternion that is unit but for rounding: one Newton step and the same choice of
+// sign.
+inline Quat canonical(const Quat& q) {
+  const double norm2 = dot(q, q);
+  if (!(std::fabs(norm2 - 1.0) < 1e-8)) return through_matrix(q);
+  double leading = q.w;
+  if (!(4.0 * q.w * q.w > norm2)) {
+    const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+    leading = xx >= yy && xx >= zz ? q.x : yy >= zz ? q.y : q.z;
+  }
+  const double k = std::copysign(1.5 - 0.5 * norm2, leading);
+  return {k * q.x, k * q.y, k * q.z, k * q.w};
+}
+
+}  // namespace turtlewire

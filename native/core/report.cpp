@@ -1,0 +1,78 @@
+// The texts in which tf2 describes its whole tree.
+#include <algorithm>
+#include <cstdio>
+
+#include "buffer.hpp"
+
+namespace turtlewire {
+namespace {
+
+std::string decimals(double value, int digits) {
+  char text[400];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+// tf2 takes at least 100 µs for the time between the first and the last sample.
+double rate(const Link& link) {
+  return static_cast<double>(link.length()) / std::max(seconds(link.newest() - link.oldest()), 0.0001);
+}
+
+}  // namespace
+
+std::string Buffer::sender_of(FrameId child) const { return senders_[sender_[child]]; }
+
+std::string Buffer::frames_as_string() const {
+  std::string text;
+  for (FrameId id = 1; id < links_.size(); ++id) {
+    const Link& link = links_[id];
+    if (link.kind() == LinkKind::none) continue;
+    text += "Frame " + frames_[id] + " exists with parent " + frames_[link.parent()] + ".\n";
+  }
+  return text;
+}
+
+std::string Buffer::frames_as_yaml(double now) const {
+  if (links_.size() == 1) return "[]";
+  std::string text;
+  for (FrameId id = 1; id < links_.size(); ++id) {
+    const Link& link = links_[id];
+    if (!link.has_data()) continue;
+    text += frames_[id] + ": \n";
+    text += "  parent: '" + frames_[link.parent()] + "'\n";
+    text += "  broadcaster: '" + sender_of(id) + "'\n";
+    text += "  rate: " + decimals(rate(link), 3) + "\n";
+    text += "  most_recent_transform: " + decimals(seconds(link.newest()), 6) + "\n";
+    text += "  oldest_transform: " + decimals(seconds(link.oldest()), 6) + "\n";
+    if (now > 0.0) text += "  transform_delay: " + decimals(now - seconds(link.newest()), 3) + "\n";
+    text += "  buffer_length: " + decimals(seconds(link.newest() - link.oldest()), 3) + "\n";
+  }
+  return text;
+}
+
+std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const {
+  std::string text = "\"" + frames_[link.parent()] + "\" -> \"" + frames_[child] + "\"[label=\"";
+  text += "Broadcaster: " + sender_of(child) + "\\n";
+  text += "Average rate: " + decimals(rate(link), 3) + " Hz\\n";
+  text += "Most recent transform: " + decimals(seconds(link.newest()), 6) + " ";
+  if (now > 0.0) text += "( " + decimals(now - seconds(link.newest()), 3) + " sec old)";
+  text += "\\nBuffer length: " + decimals(seconds(link.newest() - link.oldest()), 3) + " sec\\n\"];\n";
+  return text;
+}
+
+std::string Buffer::frames_as_dot(double now) const {
+  std::string text = "digraph G {\n";
+  if (links_.size() == 1) text += "\"no tf data recieved\"";
+  for (FrameId id = 1; id < links_.size(); ++id) {
+    if (links_[id].kind() != LinkKind::none) text += dot_edge(id, links_[id], now);
+  }
+  for (FrameId id = 1; id < links_.size(); ++id) {
+    if (links_[id].has_data()) continue;
+    text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
+    if (now > 0.0) text += "\"Recorded at time: " + decimals(now, 6) + "\"[ shape=plaintext ] ;\n";
+    text += "}->\"" + frames_[id] + "\";\n";
+  }
+  return text + "}";
+}
+
+}  // namespace turtlewire

@@ -1,0 +1,97 @@
+#include "shared_buffer.hpp"
+
+namespace turtlewire {
+
+Status SharedBuffer::resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const {
+  const Status status = buffer.resolve(name, id);
+  if (status != Status::ok) {
+    failure.status = status;
+    failure.argument = argument;
+    failure.name = name;
+  }
+  return status;
+}
+
+// One step, the lock held. A frame in itself is the identity, whether it exists or not.
+Status SharedBuffer::find(const Request& request, Found& found, Failure& failure) {
+  FrameId target = 0, source = 0;
+  found = {request.t, {}};
+  if (request.target == request.source) {
+    if (request.t == 0 && buffer.resolve(request.source, source) == Status::ok) found.stamp = buffer.newest(source);
+    return Status::ok;
+  }
+  Status status = resolve(request.target, Argument::target, target, failure);
+  if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
+  if (status != Status::ok) return status;
+  return buffer.lookup(buffer.path(target, source), found.stamp, found.target_from_source, &failure);
+}
+
+Status SharedBuffer::test(const Request& request, Failure& failure) {
+  FrameId target = 0, source = 0;
+  if (request.target == request.source) return Status::ok;
+  Status status = resolve(request.target, Argument::target, target, failure);
+  if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
+  if (status != Status::ok) return status;
+  return buffer.can_transform(buffer.path(target, source), request.t, &failure);
+}
+
+Status SharedBuffer::lookup(const Request& request, Found& found, Failure& failure) {
+  const std::scoped_lock lock(mutex);
+  return find(request, found, failure);
+}
+
+Status SharedBuffer::lookup(const FullRequest& r, Found& found, Failure& failure) {
+  const std::scoped_lock lock(mutex);
+  FrameId id = 0;
+  Status status = resolve(r.target, Argument::target, id, failure);
+  if (status == Status::ok) status = resolve(r.source, Argument::source, id, failure);
+  if (status == Status::ok) status = resolve(r.fixed, Argument::fixed, id, failure);
+  if (status != Status::ok) return status;
+  Found fixed_from_source;
+  status = find({r.fixed, r.source, r.source_time}, fixed_from_source, failure);
+  if (status == Status::ok) status = find({r.target, r.fixed, r.target_time}, found, failure);
+  if (status != Status::ok) return status;
+  const Pose pose = found.target_from_source * fixed_from_source.target_from_source;
+  found.target_from_source = {pose.translation, canonical(pose.rotation)};
+  return Status::ok;
+}
+
+Status SharedBuffer::can_transform(const Request& request, Failure& failure) {
+  const std::scoped_lock lock(mutex);
+  return test(request, failure);
+}
+
+Status SharedBuffer::can_transform(const FullRequest& r, Failure& failure) {
+  const std::scoped_lock lock(mutex);
+  FrameId id = 0;
+  Status status = resolve(r.target, Argument::target, id, failure);
+  if (status == Status::ok) status = resolve(r.source, Argument::source, id, failure);
+  if (status == Status::ok) status = resolve(r.fixed, Argument::fixed, id, failure);
+  if (status == Status::ok) status = test({r.target, r.fixed, r.target_time}, failure);
+  if (status == Status::ok) status = test({r.fixed, r.source, r.source_time}, failure);
+  return status;
+}
+
+Status SharedBuffer::latest_common_time(std::string_view target, std::string_view source, Stamp& t, Failure& failure) {
+  const std::scoped_lock lock(mutex);
+  FrameId target_id = 0, source_id = 0;
+  Status status = resolve(target, Argument::target, target_id, failure);
+  if (status == Status::ok) status = resolve(source, Argument::source, source_id, failure);
+  if (status == Status::ok) status = buffer.latest_common_time(target_id, source_id, t, &failure);
+  return status;
+}
+
+bool SharedBuffer::worth_waiting(const Failure& failure) const {
+  switch (failure.status) {
+    case Status::empty_name:
+    case Status::slash_name:
+      return false;
+    case Status::no_data:
+    case Status::past:
+      return failure.emptied || failure.requested >= failure.newest - buffer.keep();
+    default:
+      return true;
+  }
+}
+
+}  // namespace turtlewire

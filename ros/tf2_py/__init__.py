@@ -1,0 +1,23 @@
+"""tf2_py as in ROS 2: the BufferCore, and the exceptions of tf2."""
+
+from __future__ import annotations
+
+from tf2_py.buffer_core import BufferCore
+from turtlewire.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+__all__ = [
+    "BufferCore",
+    "ConnectivityException",
+    "ExtrapolationException",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "TransformException",
+]

@@ -1,0 +1,126 @@
+"""tf2's buffer with the methods and signatures of ROS 2's ``tf2_py``, on turtlewire's engine."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import turtlewire
+from tf2_py.messages import message_lookup
+from tf2_py.times import to_nanoseconds
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.duration import Duration
+    from rclpy.time import Time
+
+__all__ = ["BufferCore"]
+
+_DEFAULT_CACHE_NS = 10_000_000_000
+
+
+class BufferCore:
+    """A tree of frames over time. Safe for use from many threads.
+
+    Args:
+        cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message); 10 s without it.
+
+    Attributes:
+        engine: The ``turtlewire.Buffer`` that does the work: integer nanoseconds, bytes, batches.
+    """
+
+    engine: turtlewire.Buffer
+
+    def __init__(self, cache_time: Duration | Any | None = None) -> None:
+        self.engine = turtlewire.Buffer(_DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration"))
+        self._messages = message_lookup(self.engine)
+
+    # -- data in
+
+    def set_transform(self, transform: TransformStamped | Any, authority: str) -> None:
+        """Add a transform of which one may ask at the times around its stamp. A refusal is logged, with its reason."""
+        self._set(transform, authority, static=False)
+
+    def set_transform_static(self, transform: TransformStamped | Any, authority: str) -> None:
+        """Add a transform that holds at all times."""
+        self._set(transform, authority, static=True)
+
+    def _set(self, transform: TransformStamped | Any, authority: str, *, static: bool) -> None:
+        header, pose = transform.header, transform.transform
+        t, q = pose.translation, pose.rotation
+        stamp = to_nanoseconds(header.stamp)
+        refusal = self.engine.set_transform(
+            header.frame_id, transform.child_frame_id, stamp, (t.x, t.y, t.z), (q.x, q.y, q.z, q.w), static, authority
+        )
+        if refusal:
+            _log_refusal(refusal)
+
+    def clear(self) -> None:
+        """Forget all samples; frame names and static transforms stay."""
+        self.engine.clear()
+
+    # -- questions
+
+    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time | Any) -> TransformStamped:
+        """The transform that takes data of ``source_frame`` into ``target_frame``, at once or not at all.
+
+        Raises:
+            TransformException: One of its kinds: Lookup, Connectivity, Extrapolation, InvalidArgument.
+        """
+        return self._messages.lookup(target_frame, source_frame, time)
+
+    def lookup_transform_full_core(
+        self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str
+    ) -> TransformStamped:
+        """From ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of a frame that did not move."""
+        return self._messages.lookup_full(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    def can_transform_core(self, target_frame: str, source_frame: str, time: Time | Any) -> tuple[int, str]:
+        """1 and an empty string if a lookup would succeed, else 0 and the reason."""
+        reason = self.engine.can_transform_reason(target_frame, source_frame, to_nanoseconds(time))
+        return (int(not reason), reason)
+
+    def can_transform_full_core(
+        self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str
+    ) -> tuple[int, str]:
+        """As can_transform_core, for lookup_transform_full_core."""
+        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
+        reason = self.engine.can_transform_full_reason(target_frame, times[0], source_frame, times[1], fixed_frame)
+        return (int(not reason), reason)
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
+        """The newest time that every link between the frames has reached."""
+        from rclpy.time import Time
+
+        return Time(nanoseconds=self.engine.latest_common_time(target_frame, source_frame))
+
+    # -- descriptions
+
+    def all_frames_as_yaml(self, *_ignored: Any) -> str:
+        """Frames, parents, senders, rates and ages as YAML. Arguments are ignored, as in ROS 2."""
+        return self.engine.all_frames_as_yaml()
+
+    def all_frames_as_string(self, *_ignored: Any) -> str:
+        """One line for each frame with its parent. Arguments are ignored, as in ROS 2."""
+        return self.engine.all_frames_as_string()
+
+    def _allFramesAsDot(self, time: Time | Any | None = None) -> str:  # noqa: N802 -- ROS 2's name
+        """The tree as Graphviz text; ``time`` is the present, for ages."""
+        return self.engine.all_frames_as_dot(0.0 if time is None else to_nanoseconds(time) / 1e9)
+
+    def _frameExists(self, frame_id: str, /) -> bool:  # noqa: N802 -- ROS 2's name
+        """Whether the frame was ever heard of."""
+        return self.engine.frame_exists(frame_id)
+
+    def _getFrameStrings(self) -> list[str]:  # noqa: N802 -- ROS 2's name
+        """The names of all frames, in order of arrival."""
+        return self.engine.frame_strings()
+
+
+def _log_refusal(reason: str) -> None:
+    from rclpy.logging import get_logger
+
+    logger = get_logger("tf2")
+    if reason.startswith("TF_OLD_DATA"):
+        logger.warning(reason)
+    else:
+        logger.error(reason)

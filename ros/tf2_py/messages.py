@@ -1,0 +1,71 @@
+"""Lookups that return ``TransformStamped`` messages: the compiled core builds them itself, the plain one needs some Python."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from tf2_py.times import to_nanoseconds
+from turtlewire.tf.buffer import CORE
+
+if TYPE_CHECKING:
+    import turtlewire
+    from geometry_msgs.msg import TransformStamped
+
+__all__ = ["MessageLookup", "message_lookup"]
+
+
+class MessageLookup(Protocol):
+    """Lookups of a buffer with ROS times in and messages out."""
+
+    def lookup(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> TransformStamped:
+        """As ``turtlewire.Buffer.lookup_transform``; without a timeout it does not wait."""
+        ...
+
+    def lookup_full(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = None
+    ) -> TransformStamped:
+        """As ``turtlewire.Buffer.lookup_transform_full``; without a timeout it does not wait."""
+        ...
+
+
+class _PlainMessageLookup:
+    def __init__(self, buffer: turtlewire.Buffer) -> None:
+        self._buffer = buffer
+
+    def lookup(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> TransformStamped:
+        return to_message(self._buffer.lookup_transform(target_frame, source_frame, to_nanoseconds(time), _timeout(timeout)))
+
+    def lookup_full(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = None
+    ) -> TransformStamped:
+        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
+        found = self._buffer.lookup_transform_full(target_frame, times[0], source_frame, times[1], fixed_frame, _timeout(timeout))
+        return to_message(found)
+
+
+def _timeout(timeout: Any) -> int:
+    return 0 if timeout is None else to_nanoseconds(timeout, "duration")
+
+
+def to_message(transform: turtlewire.Transform) -> TransformStamped:
+    """A transform of the engine as the message of ROS."""
+    from geometry_msgs.msg import TransformStamped
+
+    message = TransformStamped()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(transform.stamp_ns, 1_000_000_000)
+    message.header.frame_id = transform.frame_id
+    message.child_frame_id = transform.child_frame_id
+    translation, rotation = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = transform.translation
+    rotation.x, rotation.y, rotation.z, rotation.w = transform.rotation
+    return message
+
+
+def message_lookup(buffer: turtlewire.Buffer) -> MessageLookup:
+    """The quickest way from a buffer to messages."""
+    if CORE == "python":
+        return _PlainMessageLookup(buffer)
+    from geometry_msgs.msg import TransformStamped
+    from turtlewire import _native
+
+    return _native.MessageLookup(buffer, TransformStamped())

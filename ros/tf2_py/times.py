@@ -1,0 +1,24 @@
+"""tf2_py's duck-typed times: messages with ``sec`` and ``nanosec``, and rclpy's with ``nanoseconds``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = ["to_nanoseconds"]
+
+
+def to_nanoseconds(value: Any, what: str = "time") -> int:
+    """The nanoseconds of a time or duration.
+
+    Args:
+        value: A builtin_interfaces message, or an rclpy ``Time`` or ``Duration``.
+        what: ``time`` or ``duration``, for the error.
+
+    Raises:
+        TypeError: It is neither; numbers are refused, because their unit would be a guess.
+    """
+    if hasattr(value, "sec") and hasattr(value, "nanosec"):
+        return int(value.sec) * 1_000_000_000 + int(value.nanosec)
+    if hasattr(value, "nanoseconds"):
+        return int(value.nanoseconds)
+    raise TypeError(f"{what} must have sec and nanosec, or nanoseconds.")

@@ -1,0 +1,44 @@
+"""Poses as NumPy arrays. The only module of the buffer that imports NumPy, and only when an array is asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike, NDArray
+
+
+class HasPose(Protocol):
+    """A Transform of either core."""
+
+    @property
+    def translation(self) -> tuple[float, float, float]:
+        """In metres."""
+        ...
+
+    @property
+    def rotation(self) -> tuple[float, float, float, float]:
+        """The unit quaternion x, y, z, w."""
+        ...
+
+
+def pose_array(transform: HasPose, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+    """The seven numbers ``x, y, z, qx, qy, qz, qw`` of a transform, shape ``(7,)``."""
+    if copy is False:
+        raise ValueError("a Transform has no array to share; its array is always a copy")
+    return np.array((*transform.translation, *transform.rotation), dtype=dtype)
+
+
+def pose_matrix(transform: HasPose) -> NDArray[np.float64]:
+    """The homogeneous matrix of a transform, shape ``(4, 4)``, acting on column vectors from the left."""
+    x, y, z, w = transform.rotation
+    matrix = np.eye(4)
+    matrix[:3, :3] = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    matrix[:3, 3] = transform.translation
+    return matrix

@@ -1,0 +1,48 @@
+"""The transform buffer: the compiled core, or its plain-Python twin where that is missing.
+
+The environment decides when this module is first imported:
+
+- ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled core;
+- without it the compiled core is taken if it is there; if not, one line on stderr says how to get it;
+- ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+__all__ = ["CORE", "Buffer", "Transform"]
+
+_ADVICE = (
+    "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same answers). "
+    "For the fast one install a C++ compiler and Python's headers (Debian: apt install g++ python3-dev) and install turtlewire again."
+)
+
+
+def _choose() -> str:
+    wanted = os.environ.get("TURTLEWIRE_CORE", "")
+    if wanted not in {"", "native", "python"}:
+        raise ImportError(f"TURTLEWIRE_CORE is {wanted!r}; it can be 'native' or 'python'")
+    if wanted == "python":
+        return "python"
+    try:
+        import turtlewire._native  # noqa: F401
+    except ModuleNotFoundError as error:
+        if error.name != "turtlewire._native":
+            raise
+        if wanted == "native" or os.environ.get("TURTLEWIRE_REQUIRE_NATIVE", "0") not in {"", "0"}:
+            raise ImportError("the compiled core of turtlewire is required here, but it is not built") from error
+        print(_ADVICE, file=sys.stderr)  # noqa: T201
+        return "python"
+    return "native"
+
+
+CORE = _choose()
+"""Which core runs: ``native`` or ``python``."""
+
+if TYPE_CHECKING or CORE == "native":
+    from turtlewire._native import Buffer, Transform
+else:
+    from turtlewire.tf.plain import Buffer, Transform

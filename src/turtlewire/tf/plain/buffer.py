@@ -1,0 +1,262 @@
+"""The public class: the tree with a lock, waiting and listeners."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from functools import partial
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, TypeVar
+
+from turtlewire.tf.plain.cdr import decode_tf_message
+from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
+from turtlewire.tf.plain.texts import Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
+from turtlewire.tf.plain.transform import Transform
+from turtlewire.tf.plain.tree import NO_PARENT, Tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_Answer = TypeVar("_Answer")
+
+
+class Buffer:
+    """The transforms of a tree of frames over time. Safe for use from many threads.
+
+    Args:
+        cache_time_ns: How long samples are kept, counted back from the newest of their link.
+    """
+
+    __module__ = "turtlewire"
+
+    def __init__(self, cache_time_ns: int = 10_000_000_000) -> None:
+        if cache_time_ns < 0:
+            raise ValueError("cache_time_ns must not be negative")
+        self._tree = Tree(cache_time_ns)
+        self._changed = threading.Condition()
+        self._listeners: list[Callable[[], object]] = []
+
+    @property
+    def cache_time_ns(self) -> int:
+        """How long samples are kept."""
+        return self._tree.keep
+
+    # -- data in
+
+    def set_transform(
+        self,
+        parent_frame: str,
+        child_frame: str,
+        stamp_ns: int,
+        translation: Vector,
+        rotation: Quaternion,
+        static: bool = False,
+        authority: str = "default_authority",
+    ) -> str:
+        """Add one sample: the pose of child_frame in parent_frame at a time.
+
+        Returns:
+            An empty string if the sample was accepted, else tf2's reason for refusing it.
+        """
+        x, y, z = map(float, translation)
+        qx, qy, qz, qw = map(float, rotation)
+        pose = (x, y, z, qx, qy, qz, qw)
+        with self._changed:
+            verdict = self._tree.set(parent_frame, child_frame, stamp_ns, pose, authority, static=static)
+            if not verdict:
+                self._changed.notify_all()
+        if verdict:
+            return refusal(verdict, child_frame, stamp_ns, pose, authority)
+        self._call_listeners()
+        return ""
+
+    def ingest(self, cdr: bytes, static: bool = False, authority: str = "default_authority") -> int:
+        """Add the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.
+
+        Returns:
+            How many were accepted.
+
+        Raises:
+            CdrError: The bytes are malformed; nothing of them was added.
+        """
+        transforms = decode_tf_message(bytes(cdr))
+        accepted = 0
+        with self._changed:
+            for stamp, parent, child, pose in transforms:
+                try:
+                    names = parent.decode(), child.decode()
+                except UnicodeDecodeError:
+                    continue
+                accepted += not self._tree.set(*names, stamp, pose, authority, static=static)
+            if accepted:
+                self._changed.notify_all()
+        if accepted:
+            self._call_listeners()
+        return accepted
+
+    def clear(self) -> None:
+        """Forget all samples. Frame names and static transforms stay, as in tf2."""
+        with self._changed:
+            self._tree.clear()
+
+    # -- questions
+
+    def lookup_transform(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> Transform:
+        """The pose of source_frame in target_frame at one time: ``target_from_source``; 0 is the latest that all links know.
+
+        Raises:
+            InvalidArgumentException: A frame id is empty or starts with a slash.
+            LookupException: A frame does not exist.
+            ConnectivityException: The frames are not in one tree.
+            ExtrapolationException: The data does not reach the time.
+        """
+        stamp, pose = self._raising(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "lookupTransform"), timeout_ns)
+        return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
+
+    def lookup_transform_full(
+        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+    ) -> Transform:
+        """The pose of source_frame at one time in target_frame at another, by way of a frame that did not move."""
+        ask = partial(self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
+        stamp, pose = self._raising(ask, timeout_ns)
+        return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
+
+    def can_transform(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> bool:
+        """Whether lookup_transform with the same arguments gives an answer."""
+        return not self.can_transform_reason(target_frame, source_frame, stamp_ns, timeout_ns)
+
+    def can_transform_reason(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> str:
+        """An empty string if can_transform is true, else tf2's text of why it is not."""
+        return self._reason(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "canTransform"), timeout_ns)
+
+    def can_transform_full(
+        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+    ) -> bool:
+        """Whether lookup_transform_full with the same arguments gives an answer."""
+        return not self.can_transform_full_reason(target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, timeout_ns)
+
+    def can_transform_full_reason(
+        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+    ) -> str:
+        """An empty string if can_transform_full is true, else tf2's text of why it is not."""
+        return self._reason(partial(self._can_full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame), timeout_ns)
+
+    def latest_common_time(self, target_frame: str, source_frame: str) -> int:
+        """The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static."""
+        from turtlewire.errors import ConnectivityException, LookupException, TransformException
+
+        with self._changed:
+            try:
+                self._tree.check_name(target_frame, "get_latest_common_time", "")
+                self._tree.check_name(source_frame, "get_latest_common_time", "")
+            except Failure as failure:
+                raise failure.kind(str(failure)) from None
+            try:
+                return self._tree.latest_common_time(target_frame, source_frame)
+            except Failure as failure:
+                kind = TransformException if failure.kind in {ConnectivityException, LookupException} else failure.kind
+                raise kind(str(failure)) from None
+
+    # -- descriptions
+
+    def frame_strings(self) -> list[str]:
+        """The names of all frames ever heard of, in order of arrival."""
+        with self._changed:
+            return list(self._tree.frames)
+
+    def frame_exists(self, frame: str) -> bool:
+        """Whether the frame was ever heard of."""
+        with self._changed:
+            return frame in self._tree.frames or frame == NO_PARENT
+
+    def all_frames_as_string(self) -> str:
+        """tf2's list of frames and parents, one line each."""
+        with self._changed:
+            return frames_as_string(self._tree.links)
+
+    def all_frames_as_yaml(self, now: float = 0.0) -> str:
+        """tf2's YAML of frames, parents, senders, rates and ages; ``now`` in seconds adds the delay."""
+        with self._changed:
+            return frames_as_yaml(self._tree.links, now, empty=not self._tree.frames)
+
+    def all_frames_as_dot(self, now: float = 0.0) -> str:
+        """tf2's Graphviz text of the tree; ``now`` in seconds adds ages."""
+        with self._changed:
+            return frames_as_dot(list(self._tree.frames), self._tree.links, now)
+
+    # -- changes
+
+    def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
+        """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
+
+        Returns:
+            A function that removes the listener again.
+        """
+        self._listeners.append(listener)
+        return partial(self._remove_change_listener, listener)
+
+    def _remove_change_listener(self, listener: Callable[[], object]) -> None:
+        self._listeners = [known for known in self._listeners if known is not listener]
+
+    def _call_listeners(self) -> None:
+        for listener in tuple(self._listeners):
+            _call(listener)
+
+    def wake(self) -> None:
+        """Make every waiting lookup look at pending signals now, and go on waiting if there is none."""
+        with self._changed:
+            self._changed.notify_all()
+
+    # -- asking, with the lock and a timeout
+
+    def _full(self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str) -> tuple[int, Pose]:
+        self._check_names(target, source, fixed, "lookupTransform")
+        _, fixed_from_source = self._tree.lookup(fixed, source, source_stamp, "lookupTransform")
+        stamp, target_from_fixed = self._tree.lookup(target, fixed, target_stamp, "lookupTransform")
+        return stamp, canonical(compose(target_from_fixed, fixed_from_source))
+
+    def _can_full(self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str) -> None:
+        self._check_names(target, source, fixed, "canTransform")
+        self._tree.lookup(target, fixed, target_stamp, "canTransform")
+        self._tree.lookup(fixed, source, source_stamp, "canTransform")
+
+    def _check_names(self, target: str, source: str, fixed: str, question: Question) -> None:
+        self._tree.check_name(target, question, "target_frame")
+        self._tree.check_name(source, question, "source_frame")
+        self._tree.check_name(fixed, question, "fixed_frame")
+
+    def _raising(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
+        try:
+            return self._waiting(ask, timeout_ns)
+        except Failure as failure:
+            raise failure.kind(str(failure)) from None
+
+    def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
+        try:
+            self._waiting(ask, timeout_ns)
+        except Failure as failure:
+            return str(failure)
+        return ""
+
+    def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
+        """Ask; as long as the answer is a Failure that data can mend, ask again when data comes in."""
+        deadline = time.monotonic_ns() + timeout_ns
+        with self._changed:
+            while True:
+                try:
+                    return ask()
+                except Failure as failure:
+                    left = deadline - time.monotonic_ns()
+                    if left <= 0 or failure.hopeless:
+                        raise
+                self._changed.wait(left / 1e9)
+
+
+def _call(listener: Callable[[], object]) -> None:
+    try:
+        listener()
+    except Exception as error:  # noqa: BLE001 - whoever brought the data is not the one to tell
+        sys.unraisablehook(
+            SimpleNamespace(exc_type=type(error), exc_value=error, exc_traceback=error.__traceback__, err_msg=None, object=listener)
+        )

@@ -1,0 +1,115 @@
+"""One link of the tree: how a child frame lies in its parent, over time or forever."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from typing import NamedTuple
+
+from turtlewire.tf.plain.poses import Pose, interpolate
+
+MOST_PER_STAMP = 1000
+"""Beyond this many values of one stamp only the first, the last and the count are kept."""
+
+
+class Sample(NamedTuple):
+    """One pose of the child in ``parent``."""
+
+    parent: str
+    pose: Pose
+
+
+class Link:
+    """What is known of one child frame: a static pose, or samples in order of time, those of one stamp in order of arrival."""
+
+    def __init__(self, *, static: bool) -> None:
+        self.static = static
+        self.sender = "no recorded authority"
+        self.fixed: Sample | None = None
+        self.stamps: list[int] = []
+        self.samples: list[Sample] = []
+        self.dropped: dict[int, int] = {}  # by flooded stamp
+
+    @property
+    def has_data(self) -> bool:
+        """Whether the link has a pose at any time."""
+        return bool(self.samples) or self.fixed is not None
+
+    @property
+    def parent(self) -> str:
+        """The parent by the newest sample; NO_PARENT without data."""
+        newest = self.fixed or (self.samples[-1] if self.samples else None)
+        return newest.parent if newest else "NO_PARENT"
+
+    @property
+    def newest(self) -> int:
+        """The newest stamp; 0 for a static link, as in tf2."""
+        return self.stamps[-1] if self.stamps else 0
+
+    @property
+    def oldest(self) -> int:
+        """The oldest stamp; 0 for a static link, as in tf2."""
+        return self.stamps[0] if self.stamps else 0
+
+    @property
+    def length(self) -> int:
+        """How many values tf2 would hold."""
+        return (1 if self.fixed else len(self.stamps)) + sum(self.dropped.values())
+
+    def clear(self) -> None:
+        """Forget the samples; a static pose stays."""
+        self.stamps.clear()
+        self.samples.clear()
+        self.dropped.clear()
+
+    def insert(self, stamp: int, sample: Sample, keep: int) -> bool:
+        """Add a sample; False if it is too old. What is too old by the newest stamp so far is dropped first, as in tf2."""
+        if self.static:
+            self.fixed = sample
+            return True
+        if self.stamps:
+            limit = self.newest - keep
+            self._drop_before(limit)
+            if stamp < limit:
+                return False
+        first, end = bisect_left(self.stamps, stamp), bisect_right(self.stamps, stamp)
+        if sample in self.samples[first:end]:
+            return True
+        if end - first >= MOST_PER_STAMP:
+            self.samples[end - 1] = sample
+            self.dropped[stamp] = self.dropped.get(stamp, 0) + 1
+        else:
+            self.stamps.insert(end, stamp)
+            self.samples.insert(end, sample)
+        return True
+
+    def _drop_before(self, limit: int) -> None:
+        n = bisect_left(self.stamps, limit)
+        if n:
+            del self.stamps[:n], self.samples[:n]
+            self.dropped = {stamp: count for stamp, count in self.dropped.items() if stamp >= limit}
+
+    def read(self, stamp: int) -> Sample | str:
+        """The pose at a time, 0 being the newest; or why there is none: ``no_data``, ``future`` or ``past``."""
+        if self.fixed is not None:
+            return self.fixed
+        if not self.samples or (len(self.samples) == 1 and stamp not in {0, self.newest}):
+            return "no_data"
+        if stamp in {0, self.newest, self.oldest}:
+            return self.samples[0 if stamp == self.oldest != self.newest else -1]
+        if not self.oldest < stamp < self.newest:
+            return "future" if stamp > self.newest else "past"
+        return self._between(stamp)
+
+    def _between(self, stamp: int) -> Sample:
+        i = bisect_right(self.stamps, stamp)
+        older, newer = self.samples[i - 1], self.samples[i]
+        if older.parent != newer.parent:
+            return older
+        ratio = (stamp - self.stamps[i - 1]) / (self.stamps[i] - self.stamps[i - 1])
+        return Sample(older.parent, interpolate(older.pose, newer.pose, ratio))
+
+
+def is_nan(pose: Pose) -> bool:
+    """Whether any of the seven numbers is not a number."""
+    return any(map(math.isnan, pose))

@@ -1,0 +1,173 @@
+"""The tree of frames, and tf2's search in it."""
+
+from __future__ import annotations
+
+from turtlewire.tf.plain.links import Link, Sample, is_nan
+from turtlewire.tf.plain.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
+from turtlewire.tf.plain.texts import (
+    Failure,
+    NameFault,
+    Question,
+    connection_failure,
+    frames_as_string,
+    loop_failure,
+    name_failure,
+    time_failure,
+)
+
+MAX_GRAPH_DEPTH = 1000
+"""tf2 takes more hops for a loop."""
+
+NO_PARENT = "NO_PARENT"
+_LONGEST_NAME = 4096
+
+
+class Tree:
+    """All links by their child frame. Not locked."""
+
+    def __init__(self, keep: int) -> None:
+        self.keep = keep
+        self.frames: dict[str, None] = {}  # a set in order of arrival
+        self.links: dict[str, Link] = {}
+
+    def set(self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool) -> str:
+        """Add a sample. Returns the key of a refusal's text (see texts.refusal), or an empty string."""
+        parent, child = parent.removeprefix("/"), child.removeprefix("/")
+        fault = _name_fault(parent, child)
+        if fault:
+            return fault
+        stored = (*pose[:3], *through_matrix(pose[3:]))
+        if is_nan(stored):
+            return "nan"
+        self.frames.setdefault(child)
+        self.frames.setdefault(parent)
+        link = self.links.get(child)
+        if link is None or link.static != static:
+            known = link
+            link = Link(static=static)
+            if known is not None:
+                link.sender = known.sender
+            self.links[child] = link
+            if known is None:
+                self._sort_links()
+        if not link.insert(stamp, Sample(parent, stored), self.keep):
+            return "old"
+        link.sender = authority
+        return ""
+
+    def _sort_links(self) -> None:
+        # Descriptions list the links in the order in which their frames were first named.
+        self.links = {frame: self.links[frame] for frame in self.frames if frame in self.links}
+
+    def clear(self) -> None:
+        """Forget all samples; static poses and names stay."""
+        for link in self.links.values():
+            link.clear()
+
+    def check_name(self, name: str, question: Question, argument: str) -> None:
+        """Raise Failure unless the frame can be asked for."""
+        fault: NameFault | None = None
+        if not name:
+            fault = "empty"
+        elif name.startswith("/"):
+            fault = "slash"
+        elif name not in self.frames:
+            fault = "unknown"
+        if fault:
+            raise name_failure(fault, name, question, argument)
+
+    def lookup(self, target: str, source: str, stamp: int, question: Question) -> tuple[int, Pose]:
+        """The time and the pose ``target_from_source``; a frame in itself is the identity, whether it exists or not."""
+        if target == source:
+            link = self.links.get(target)
+            return (link.newest if stamp == 0 and link else stamp, IDENTITY)
+        self.check_name(target, question, "target_frame")
+        self.check_name(source, question, "source_frame")
+        if stamp == 0:
+            stamp = self.latest_common_time(target, source)
+        return stamp, canonical(self._walk(target, source, stamp))
+
+    def _walk(self, target: str, source: str, stamp: int) -> Pose:
+        """Source to the top, then target up to there. A link without data ends the first walk and fails the second."""
+        source_to_top, stopped = IDENTITY, None
+        top = source
+        for depth in range(MAX_GRAPH_DEPTH + 2):
+            link = self.links.get(top)
+            if link is None:
+                break
+            reading = link.read(stamp)
+            if isinstance(reading, str):
+                stopped = time_failure(reading, link, stamp, target, source, self.keep)
+                break
+            if top == target:
+                return source_to_top
+            source_to_top, top = compose(reading.pose, source_to_top), reading.parent
+            self._check_depth(depth + 1)
+        target_to_top, frame = IDENTITY, target
+        for depth in range(MAX_GRAPH_DEPTH + 2):
+            link = self.links.get(frame)
+            if frame == top:
+                return between(target_to_top, source_to_top)
+            if link is None:
+                break
+            reading = link.read(stamp)
+            if isinstance(reading, str):
+                raise time_failure(reading, link, stamp, target, source, self.keep)
+            if frame == source:
+                return between(target_to_top, IDENTITY)
+            target_to_top, frame = compose(reading.pose, target_to_top), reading.parent
+            self._check_depth(depth + 1)
+        raise stopped or connection_failure(target, source)
+
+    def _check_depth(self, depth: int) -> None:
+        if depth > MAX_GRAPH_DEPTH:
+            raise loop_failure(frames_as_string(self.links))
+
+    def latest_common_time(self, target: str, source: str) -> int:
+        """The oldest of the newest stamps on the way, by the newest parent of each link; a stamp of 0 counts as static."""
+        if target == source:
+            link = self.links.get(source)
+            return link.newest if link else 0
+        line: dict[str, int] = {}  # parent on the source's line -> how many of its stamps lie on the way to it
+        stamps: list[int] = []
+        frame = source
+        while (link := self.links.get(frame)) and link.has_data:
+            stamps.append(link.newest)
+            frame = link.parent
+            line.setdefault(frame, len(stamps))
+            if frame == target:
+                return _earliest(stamps)
+            self._check_depth(len(stamps))
+        target_stamps: list[int] = []
+        frame = target
+        while (link := self.links.get(frame)) and link.has_data:
+            target_stamps.append(link.newest)
+            frame = link.parent
+            if frame in line:
+                return _earliest(target_stamps + stamps[: line[frame]])
+            if frame == source:
+                return _earliest(target_stamps)
+            self._check_depth(len(target_stamps))
+        raise connection_failure(target, source)
+
+
+def _earliest(stamps: list[int]) -> int:
+    return min((stamp for stamp in stamps if stamp != 0), default=0)
+
+
+def _name_fault(parent: str, child: str) -> str:
+    if child == parent:
+        return "self"
+    if not child:
+        return "no child"
+    if not parent:
+        return "no parent"
+    if NO_PARENT in {child, parent}:
+        return "reserved"
+    for name in (child, parent):
+        if "\0" in name or len(name.encode()) > _LONGEST_NAME:
+            return "name"
+    return ""
+
+
+__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "Failure", "Tree"]

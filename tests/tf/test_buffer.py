@@ -1,0 +1,424 @@
+"""The buffer's public interface, on both cores. What tf2 answers is in tests/tf2_py/test_golden.py."""
+
+from __future__ import annotations
+
+import gc
+import math
+import os
+import pickle
+import struct
+import subprocess
+import sys
+import threading
+import time
+import weakref
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from turtlewire import errors, msg
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import turtlewire
+
+SECOND = 1_000_000_000
+NO_TURN = (0.0, 0.0, 0.0, 1.0)
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+
+
+def tf_message(*transforms: tuple[str, str, int, Sequence[float]]) -> bytes:
+    stamped = msg.get_message("geometry_msgs/msg/TransformStamped")
+    message = msg.get_message("tf2_msgs/msg/TFMessage")()
+    for parent, child, stamp, (x, y, z, qx, qy, qz, qw) in transforms:
+        transform = stamped(child_frame_id=child)
+        transform.header.frame_id = parent
+        transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(stamp, SECOND)
+        t, q = transform.transform.translation, transform.transform.rotation
+        t.x, t.y, t.z, q.x, q.y, q.z, q.w = x, y, z, qx, qy, qz, qw
+        message.transforms.append(transform)
+    return msg.serialize(message)
+
+
+def near(values: Sequence[float]) -> Any:
+    return pytest.approx(values, abs=1e-14)
+
+
+class TestLookup:
+    def test_takes_source_data_into_target(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("world", "base", SECOND, (1, 2, 3), QUARTER)
+        buffer.set_transform("base", "camera", SECOND, (1, 0, 0), NO_TURN)
+        found = buffer.lookup_transform("world", "camera", SECOND)
+        assert (found.frame_id, found.child_frame_id, found.stamp_ns) == ("world", "camera", SECOND)
+        assert found.translation == near((1, 3, 3))
+        assert found.rotation == near(QUARTER)
+
+    def test_interpolates(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("world", "base", SECOND, (0, 0, 0), NO_TURN)
+        buffer.set_transform("world", "base", 2 * SECOND, (2, 4, 6), QUARTER)
+        found = buffer.lookup_transform("world", "base", SECOND + SECOND // 2)
+        assert found.translation == near((1, 2, 3))
+        assert found.rotation == near((0, 0, math.sin(math.pi / 8), math.cos(math.pi / 8)))
+
+    def test_zero_is_the_latest_common_time(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("a", "b", 5 * SECOND, (0, 0, 0), NO_TURN)
+        for t in (3, 7):
+            buffer.set_transform("b", "c", t * SECOND, (t, 0, 0), NO_TURN)
+        assert buffer.latest_common_time("a", "c") == 5 * SECOND
+        found = buffer.lookup_transform("a", "c")
+        assert (found.stamp_ns, found.x) == (5 * SECOND, pytest.approx(5.0))
+
+    def test_fixed_frame(self, buffer: turtlewire.Buffer) -> None:
+        for t in (1, 2):
+            buffer.set_transform("map", "car", t * SECOND, (10.0 * t, 0, 0), NO_TURN)
+        found = buffer.lookup_transform_full("car", 2 * SECOND, "car", SECOND, "map")
+        assert (found.translation, found.stamp_ns) == ((-10.0, 0.0, 0.0), 2 * SECOND)
+        assert buffer.can_transform_full("car", 2 * SECOND, "car", SECOND, "map")
+        assert not buffer.can_transform_full("car", 3 * SECOND, "car", SECOND, "map")
+        assert "into the future" in buffer.can_transform_full_reason("car", 3 * SECOND, "car", SECOND, "map")
+
+    def test_keywords(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform(parent_frame="a", child_frame="b", stamp_ns=1, translation=(1, 2, 3), rotation=NO_TURN, static=True)
+        assert buffer.lookup_transform(target_frame="a", source_frame="b", stamp_ns=7, timeout_ns=0).x == 1.0
+        with pytest.raises(TypeError, match="unexpected keyword"):
+            buffer.lookup_transform("a", "b", stamp=7)  # type: ignore[call-arg]
+        with pytest.raises(TypeError):
+            buffer.lookup_transform("a")  # type: ignore[call-arg]
+
+    def test_names_are_known_by_value(self, buffer: turtlewire.Buffer) -> None:
+        for i in range(600):  # more pairs than are kept by identity
+            buffer.set_transform("root", f"leaf{i}", 1, (i, 0, 0), NO_TURN, static=True)
+        for _ in range(3):
+            assert [buffer.lookup_transform("root", f"leaf{i}").x for i in range(600)] == [float(i) for i in range(600)]
+
+    def test_follows_a_changing_tree(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("a", "b", 1, (1, 0, 0), NO_TURN, static=True)
+        assert buffer.lookup_transform("a", "b").x == 1.0
+        buffer.set_transform("a", "b", 1, (2, 0, 0), NO_TURN, static=True)
+        assert buffer.lookup_transform("a", "b").x == 2.0
+        buffer.set_transform("z", "a", 1, (10, 0, 0), NO_TURN, static=True)
+        assert buffer.lookup_transform("z", "b").x == 12.0
+        buffer.set_transform("z", "b", 1, (5, 0, 0), NO_TURN, static=True)
+        assert buffer.lookup_transform("a", "b").x == -5.0
+
+
+class TestErrors:
+    def test_classes(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("a", "b", SECOND, (0, 0, 0), NO_TURN)
+        buffer.set_transform("a", "b", 2 * SECOND, (0, 0, 0), NO_TURN)
+        buffer.set_transform("x", "y", SECOND, (0, 0, 0), NO_TURN)
+        with pytest.raises(errors.LookupException, match="does not exist"):
+            buffer.lookup_transform("a", "nobody")
+        with pytest.raises(errors.InvalidArgumentException):
+            buffer.lookup_transform("/a", "b")
+        with pytest.raises(errors.ConnectivityException):
+            buffer.lookup_transform("a", "y", SECOND)
+        with pytest.raises(errors.ExtrapolationException, match="into the future"):
+            buffer.lookup_transform("a", "b", 3 * SECOND)
+        with pytest.raises(errors.TransformException, match="passed to get_latest_common_time"):
+            buffer.latest_common_time("a", "nobody")
+
+    @pytest.mark.parametrize("arguments", [(1, "b"), ("a", None), ("a", "b", "now"), ("a", "b", 1.5), ("a", "b", 0, 0.1), ("a", "\ud800")])
+    def test_wrong_types(self, core: Any, buffer: turtlewire.Buffer, arguments: tuple[Any, ...]) -> None:
+        if core.__name__.endswith("plain"):
+            pytest.skip("the plain core takes what Python takes")
+        buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
+        with pytest.raises((TypeError, UnicodeEncodeError)):
+            buffer.lookup_transform(*arguments)
+
+    def test_stamp_beyond_64_bits(self, core: Any, buffer: turtlewire.Buffer) -> None:
+        if core.__name__.endswith("plain"):
+            pytest.skip("Python's integers have no bound")
+        with pytest.raises(OverflowError):
+            buffer.lookup_transform("a", "b", 2**63)
+
+    def test_never_initialised(self, core: Any) -> None:
+        broken = core.Buffer.__new__(core.Buffer)
+        with pytest.raises((RuntimeError, AttributeError, TypeError)):
+            broken.lookup_transform("a", "b")
+
+    def test_negative_cache(self, core: Any) -> None:
+        with pytest.raises(ValueError, match="negative"):
+            core.Buffer(-1)
+
+
+class TestRefusals:
+    @pytest.mark.parametrize(
+        ("parent", "child", "translation", "rotation", "reason"),
+        [
+            (
+                "a",
+                "a",
+                (0, 0, 0),
+                NO_TURN,
+                'TF_SELF_TRANSFORM: Ignoring transform from authority "me" with frame_id and  child_frame_id "a"',
+            ),
+            ("a", "", (0, 0, 0), NO_TURN, 'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "me" because child_frame_id not set '),
+            ("/", "b", (0, 0, 0), NO_TURN, 'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "b"  from authority "me"'),
+            ("a", "b", (math.nan, 0, 0), NO_TURN, 'TF_NAN_INPUT: Ignoring transform for child_frame_id "b" from authority "me"'),
+            ("a", "b", (1, 2, 3), (0, 0, 0, 0), "(1.000000 2.000000 3.000000) (0.000000 0.000000 0.000000 0.000000)"),
+            ("NO_PARENT", "b", (0, 0, 0), NO_TURN, "NO_PARENT"),
+            ("a", "x" * 5000, (0, 0, 0), NO_TURN, "4096 bytes"),
+            ("a", "x\0y", (0, 0, 0), NO_TURN, "NUL"),
+        ],
+    )
+    def test_reason(self, buffer: turtlewire.Buffer, parent: str, child: str, translation: Any, rotation: Any, reason: str) -> None:
+        assert reason in buffer.set_transform(parent, child, 1, translation, rotation, authority="me")
+        assert buffer.frame_strings() == []
+
+    def test_old_data(self, buffer: turtlewire.Buffer) -> None:
+        assert buffer.set_transform("a", "b", 100 * SECOND, (0, 0, 0), NO_TURN) == ""
+        assert buffer.set_transform("a", "b", 90 * SECOND, (0, 0, 0), NO_TURN) == ""
+        assert buffer.set_transform("a", "b", 90 * SECOND - 1, (0, 0, 0), NO_TURN, authority="me") == (
+            "TF_OLD_DATA ignoring data from the past for frame b at time 90.000000 according to authority me\n"
+            "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
+        )
+
+
+class TestIngest:
+    def test_message(self, buffer: turtlewire.Buffer) -> None:
+        data = tf_message(("a", "b", SECOND, (1, 2, 3, *NO_TURN)), ("b", "cc", SECOND, (1, 1, 1, *QUARTER)))
+        assert buffer.ingest(data) == 2
+        assert buffer.lookup_transform("a", "cc").translation == (2.0, 3.0, 4.0)
+        assert buffer.ingest(memoryview(bytearray(data))) == 2
+        assert "default_authority" in buffer.all_frames_as_yaml()
+
+    def test_static_and_authority(self, buffer: turtlewire.Buffer) -> None:
+        assert buffer.ingest(tf_message(("a", "b", SECOND, (1, 2, 3, *NO_TURN))), static=True, authority="robot") == 1
+        assert buffer.lookup_transform("a", "b", 77).stamp_ns == 77
+        assert "broadcaster: 'robot'" in buffer.all_frames_as_yaml()
+
+    def test_big_endian(self, buffer: turtlewire.Buffer) -> None:
+        body = struct.pack(">IiI", 1, 1, 5) + struct.pack(">I4s", 2, b"a") + struct.pack(">I4s", 2, b"b") + b"\0" * 4
+        data = b"\0\0\0\0" + body + struct.pack(">7d", 1, 2, 3, 0, 0, 0, 1)
+        assert buffer.ingest(data) == 1
+        assert buffer.lookup_transform("a", "b", SECOND + 5).translation == (1.0, 2.0, 3.0)
+
+    def test_refused_among_good(self, buffer: turtlewire.Buffer) -> None:
+        data = tf_message(("a", "b", 1, (0, 0, 0, *NO_TURN)), ("a", "a", 1, (0, 0, 0, *NO_TURN)), ("a", "c", 1, (0, 0, 0, 0, 0, 0, 0)))
+        assert buffer.ingest(data) == 1
+
+    def test_every_truncation_is_an_error(self, buffer: turtlewire.Buffer) -> None:
+        data = tf_message(("parent", "child", SECOND, (1, 2, 3, *NO_TURN)), ("child", "grand", SECOND, (1, 2, 3, *NO_TURN)))
+        for size in range(len(data)):
+            with pytest.raises(errors.CdrError):
+                buffer.ingest(data[:size])
+        assert buffer.frame_strings() == []
+
+    @pytest.mark.parametrize(
+        "data",
+        [b"", b"\0\1\0\0", b"\0\3\0\0\0\0\0\0", b"\1\1\0\0\0\0\0\0", b"\0\1\0\0\xff\xff\xff\xff", b"\0\1\0\0\1\0\0\0" + b"\xff" * 80],
+    )
+    def test_malformed(self, buffer: turtlewire.Buffer, data: bytes) -> None:
+        with pytest.raises(errors.CdrError):
+            buffer.ingest(data)
+
+    def test_name_that_is_not_utf8(self, buffer: turtlewire.Buffer) -> None:
+        data = tf_message(("a", "bx", 1, (0, 0, 0, *NO_TURN)), ("a", "c", 1, (0, 0, 0, *NO_TURN)))
+        assert buffer.ingest(data.replace(b"bx\0", b"\xff\xfe\0")) == 1
+        assert buffer.frame_strings() == ["c", "a"]
+
+    def test_empty_message(self, buffer: turtlewire.Buffer) -> None:
+        assert buffer.ingest(tf_message()) == 0
+
+    def test_not_bytes(self, buffer: turtlewire.Buffer) -> None:
+        with pytest.raises((TypeError, errors.CdrError)):
+            buffer.ingest("text")  # type: ignore[arg-type]
+
+
+class TestCache:
+    def test_clear_keeps_static(self, buffer: turtlewire.Buffer) -> None:
+        buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN, static=True)
+        buffer.set_transform("b", "c", 1, (0, 0, 0), NO_TURN)
+        buffer.clear()
+        assert buffer.can_transform("a", "b")
+        assert not buffer.can_transform("a", "c", 1)
+        assert buffer.frame_strings() == ["b", "a", "c"]
+        assert buffer.frame_exists("c")
+        assert not buffer.frame_exists("d")
+
+    def test_full_ring_with_late_arrivals(self, core: Any) -> None:
+        buffer = core.Buffer(SECOND)
+        step = SECOND // 100
+        for i in range(1000):
+            late = i ^ 1  # neighbours change places
+            buffer.set_transform("a", "b", late * step, (late, 0, 0), NO_TURN)
+        for i in range(905, 999):
+            assert buffer.lookup_transform("a", "b", i * step + step // 2).x == pytest.approx(i + 0.5)
+        assert not buffer.can_transform("a", "b", 890 * step)
+
+    def test_flood_of_one_stamp(self, buffer: turtlewire.Buffer) -> None:
+        for i in range(3000):
+            buffer.set_transform("a", "b", SECOND, (i, 0, 0), NO_TURN)
+        assert buffer.lookup_transform("a", "b", SECOND).x == 2999.0
+        assert "rate: 30000000.000" in buffer.all_frames_as_yaml()
+        buffer.set_transform("a", "b", 2 * SECOND, (7, 0, 0), NO_TURN)
+        assert buffer.lookup_transform("a", "b", SECOND).x == 0.0  # at the oldest stamp tf2 answers with the first
+
+    def test_unlimited(self, core: Any) -> None:
+        buffer = core.Buffer(2**63 - 1)
+        for t in (-5, 1, 10**18):
+            assert buffer.set_transform("a", "b", t, (0, 0, 0), NO_TURN) == ""
+        assert buffer.can_transform("a", "b", -5)
+
+
+class TestTransform:
+    def test_value(self, core: Any) -> None:
+        t = core.Transform("a", "b", 5, (1, 2, 3), QUARTER)
+        assert (t.x, t.y, t.z) == t.translation == (1.0, 2.0, 3.0)
+        assert (t.qx, t.qy, t.qz, t.qw) == t.rotation == QUARTER
+        assert t == core.Transform("a", "b", 5, (1, 2, 3), QUARTER)
+        assert t != core.Transform("a", "c", 5, (1, 2, 3), QUARTER)
+        assert repr(t) == f"Transform(frame_id='a', child_frame_id='b', stamp_ns=5, translation=(1.0, 2.0, 3.0), rotation={QUARTER!r})"
+        assert t.inverse().inverse().translation == near((1, 2, 3))
+        with pytest.raises(AttributeError):
+            t.x = 3.0
+        with pytest.raises(TypeError):
+            hash(t)
+
+    def test_pickle(self, core: Any, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr("turtlewire.Transform", core.Transform)  # as in a process that runs on this core
+        buffer.set_transform("a", "b", 1, (1, 2, 3), QUARTER)
+        found = buffer.lookup_transform("a", "b")
+        assert pickle.loads(pickle.dumps(found)) == found
+
+    def test_arrays(self, core: Any) -> None:
+        import numpy as np
+
+        t = core.Transform("a", "b", 5, (1, 2, 3), QUARTER)
+        assert np.array_equal(np.asarray(t), [1, 2, 3, *QUARTER])
+        assert np.asarray(t, dtype=np.float32).dtype == np.float32
+        assert np.allclose(t.as_matrix(), [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]])
+
+
+class TestWaiting:
+    def test_wakes_when_data_comes(self, buffer: turtlewire.Buffer) -> None:
+        begun = threading.Event()
+
+        def feed() -> None:
+            begun.wait()
+            buffer.set_transform("a", "b", SECOND, (1, 0, 0), NO_TURN)
+            buffer.set_transform("b", "c", SECOND, (1, 0, 0), NO_TURN)
+
+        feeder = threading.Thread(target=feed)
+        feeder.start()
+        begun.set()
+        assert buffer.lookup_transform("a", "c", SECOND, timeout_ns=60 * SECOND).x == 2.0
+        feeder.join()
+
+    def test_gives_up(self, buffer: turtlewire.Buffer) -> None:
+        start = time.monotonic()
+        with pytest.raises(errors.LookupException):
+            buffer.lookup_transform("a", "b", timeout_ns=SECOND // 20)
+        assert not buffer.can_transform("a", "b", 0, SECOND // 20)
+        assert time.monotonic() - start >= 0.1
+
+    def test_does_not_wait_for_the_impossible(self, buffer: turtlewire.Buffer) -> None:
+        for t in (100, 101):
+            buffer.set_transform("a", "b", t * SECOND, (0, 0, 0), NO_TURN)
+        start = time.monotonic()
+        with pytest.raises(errors.ExtrapolationException):
+            buffer.lookup_transform("a", "b", 90 * SECOND, timeout_ns=3600 * SECOND)
+        with pytest.raises(errors.InvalidArgumentException):
+            buffer.lookup_transform("a", "/b", timeout_ns=3600 * SECOND)
+        assert time.monotonic() - start < 600
+
+    def test_many_waiters(self, buffer: turtlewire.Buffer) -> None:
+        results: list[float] = []
+        waiters = [
+            threading.Thread(target=lambda t=t: results.append(buffer.lookup_transform("a", "b", t * SECOND, 60 * SECOND).x))  # type: ignore[misc]
+            for t in range(1, 9)
+        ]
+        for waiter in waiters:
+            waiter.start()
+        for t in range(1, 9):
+            buffer.set_transform("a", "b", t * SECOND, (t, 0, 0), NO_TURN)
+        for waiter in waiters:
+            waiter.join(60)
+        assert sorted(results) == [float(t) for t in range(1, 9)]
+
+    @pytest.mark.parametrize("core_name", ["native", "python"])
+    def test_ctrl_c_ends_a_wait_of_the_main_thread(self, core_name: str) -> None:
+        program = (
+            "import turtlewire\n"
+            "print('ready', flush=True)\n"
+            "try:\n"
+            "    turtlewire.Buffer().lookup_transform('a', 'b', timeout_ns=3600 * 10**9)\n"
+            "except KeyboardInterrupt:\n"
+            "    print('interrupted')\n"
+        )
+        environment = {**os.environ, "TURTLEWIRE_CORE": core_name}
+        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, env=environment) as child:
+            assert child.stdout is not None
+            assert child.stdout.readline() == "ready\n"
+            asked = time.monotonic()
+            while child.poll() is None and time.monotonic() - asked < 60:
+                child.send_signal(2)  # again, should the first have come before the wait began
+                try:
+                    child.wait(0.5)
+                except subprocess.TimeoutExpired:
+                    continue
+            assert child.stdout.read() == "interrupted\n"
+
+
+class TestListeners:
+    def test_called_after_data(self, buffer: turtlewire.Buffer) -> None:
+        seen: list[bool] = []
+        remove = buffer.add_change_listener(lambda: seen.append(buffer.can_transform("a", "b")))
+        buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
+        buffer.ingest(tf_message(("a", "b", 2, (0, 0, 0, *NO_TURN))))
+        buffer.set_transform("a", "a", 1, (0, 0, 0), NO_TURN)
+        assert seen == [True, True]
+        remove()
+        remove()
+        buffer.set_transform("a", "b", 3, (0, 0, 0), NO_TURN)
+        assert len(seen) == 2
+
+    def test_fault_of_a_listener_is_reported(self, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch) -> None:
+        faults: list[Any] = []
+        monkeypatch.setattr(sys, "unraisablehook", lambda details: faults.append(details.exc_type))
+        buffer.add_change_listener(lambda: 1 / 0)  # type: ignore[arg-type, return-value]
+        assert buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN) == ""
+        assert faults == [ZeroDivisionError]
+
+    def test_cycle_is_collected(self, core: Any) -> None:
+        buffer = core.Buffer()
+        buffer.add_change_listener(lambda kept=buffer: None)
+        gone = weakref.ref(buffer)
+        del buffer
+        gc.collect()
+        assert gone() is None
+
+
+class TestChoiceOfCore:
+    def run(self, code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+        clean = {k: v for k, v in os.environ.items() if not k.startswith("TURTLEWIRE_")}
+        return subprocess.run(
+            [sys.executable, "-c", code], env=clean | environment, capture_output=True, text=True, timeout=60, check=False
+        )
+
+    def test_python_on_request(self) -> None:
+        run = self.run("import turtlewire.tf.buffer as b; print(b.CORE, b.Buffer.__module__)", TURTLEWIRE_CORE="python")
+        assert (run.stdout, run.stderr) == ("python turtlewire\n", "")
+
+    def test_wrong_request(self) -> None:
+        assert "can be 'native' or 'python'" in self.run("import turtlewire; turtlewire.Buffer", TURTLEWIRE_CORE="fast").stderr
+
+    MISSING = "import sys; sys.modules['turtlewire._native'] = None\n"
+
+    def test_missing_native_is_said(self) -> None:
+        run = self.run(self.MISSING + "import turtlewire; print(turtlewire.Buffer().frame_strings())")
+        assert run.stdout == "[]\n"
+        assert run.stderr.count("\n") == 1
+        assert "g++" in run.stderr
+
+    def test_missing_native_can_be_an_error(self) -> None:
+        run = self.run(self.MISSING + "import turtlewire; turtlewire.Buffer", TURTLEWIRE_REQUIRE_NATIVE="1")
+        assert "ImportError: the compiled core of turtlewire is required here, but it is not built" in run.stderr
+
+    def test_import_is_light(self) -> None:
+        code = (
+            "import sys, turtlewire; turtlewire.Buffer().set_transform('a', 'b', 1, (0, 0, 0), (0, 0, 0, 1)); print('numpy' in sys.modules)"
+        )
+        assert self.run(code).stdout == "False\n"
