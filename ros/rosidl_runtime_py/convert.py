@@ -20,7 +20,7 @@ _ELLIPSIS = "..."
 
 def get_message_slot_types(msg: Message) -> OrderedDict[str, AbstractType]:
     """Names and types of a message's fields, in order."""
-    return OrderedDict(zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES))
+    return OrderedDict(zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=True))
 
 
 def message_to_yaml(

@@ -146,7 +146,11 @@ def test_other_encapsulations_are_refused(header):
         (Header, "0000000000000000ffffffff6d", "field 'frame_id' at offset 16: needs 4294967295 bytes, but the data ends after 17"),
         (Header, "0000000000000000020000006d61", "field 'frame_id' at offset 16: a string without its terminating zero byte"),
         (Header, "000000000000000002000000ff00", "field 'frame_id' at offset 16: a string that is not valid UTF-8 (invalid start byte)"),
-        (TFMessage, "ffffffff00000000", "field 'transforms[0].header.stamp.nanosec' at offset 12: needs 4 bytes, but the data ends after 12"),
+        (
+            TFMessage,
+            "ffffffff00000000",
+            "field 'transforms[0].header.stamp.nanosec' at offset 12: needs 4 bytes, but the data ends after 12",
+        ),
         (
             msg.get_message("std_msgs/msg/Float64MultiArray"),
             "0000000000000000ffffffff00000000",

@@ -190,7 +190,9 @@ def test_rosbags_knows_the_same_fields_constants_and_hashes(all_messages):
         ours = [field.name for field in definition.fields] or ["structure_needs_at_least_one_member"]
         assert ours == [field[0] for field in fields], name
         values = {constant.name: constant.value for constant in definition.constants}
-        assert {key: value[0] if isinstance(value, bytes) else value for key, value in values.items()} == {c[0]: c[2] for c in constants}, name
+        assert {key: value[0] if isinstance(value, bytes) else value for key, value in values.items()} == {c[0]: c[2] for c in constants}, (
+            name
+        )
         if name not in _ROSBAGS_KEEPS_CHAR:
             assert store.hash_rihs01(name) == msg.type_hash(name), name
             hashed += 1

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict, message_to_yaml, set_message_fields
 from rosidl_runtime_py.utilities import get_message
-
 from turtlewire import msg
 
 GOLDEN = Path(__file__).parent.parent / "golden"

@@ -6,6 +6,7 @@ from array import array
 
 import numpy as np
 import pytest
+
 from rosidl_runtime_py import message_to_ordereddict, set_message_fields
 from rosidl_runtime_py.utilities import get_message, get_service
 
@@ -73,7 +74,7 @@ def test_auto_and_now_await_the_time_of_publishing():
     transforms = get_message("tf2_msgs/msg/TFMessage")()
     values = {"transforms": [{"header": {"stamp": "now", "frame_id": "map"}}, {"header": "auto"}]}
     stamps = set_message_fields(transforms, values, expand_header_auto=True, expand_time_now=True)
-    assert [stamp is transform.header.stamp for stamp, transform in zip(stamps, transforms.transforms)] == [True, True]
+    assert [stamp is transform.header.stamp for stamp, transform in zip(stamps, transforms.transforms, strict=True)] == [True, True]
     assert transforms.transforms[0].header.frame_id == "map"
 
 

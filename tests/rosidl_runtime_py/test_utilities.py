@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 import rosidl_runtime_py
 from geometry_msgs.msg import Twist
 from rosidl_runtime_py.utilities import get_action, get_interface, get_message, get_service, is_action, is_message, is_service

@@ -43,7 +43,7 @@ def turn_on_checks(message: Message) -> None:
     plain = type(message)
     if plain not in _checked:
         _checked[plain] = _make_checked(plain)
-    message.__class__ = _checked[plain]  # type: ignore[assignment]
+    message.__class__ = _checked[plain]
     for field in message._DEFINITION.fields:
         setattr(message, field.name, getattr(message, field.name))
 
@@ -90,11 +90,13 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
     if longest is not None:
         wanted += f" and each string value not longer than {longest}"
     wanted += f" and each value of type '{_python_name(element)}'{_each_range_text(element)}"
+    is_sequence = isinstance(value, (list, tuple, set, frozenset, range, array, bytes, bytearray))
+    items: list[Any] = list(value) if is_sequence else []
     good = (
-        isinstance(value, (list, tuple, set, frozenset, range, array, bytes, bytearray))
-        and (limit is None or (len(value) == limit if isinstance(type_, Array) else len(value) <= limit))
-        and all(_fits(element, item) and _in_range(element, item) for item in value)
-        and (longest is None or all(len(item) <= longest for item in value))
+        is_sequence
+        and (limit is None or (len(items) == limit if isinstance(type_, Array) else len(items) <= limit))
+        and all(_fits(element, item) and _in_range(element, item) for item in items)
+        and (longest is None or all(len(item) <= longest for item in items))
     )
     _demand(good, name, wanted)
 

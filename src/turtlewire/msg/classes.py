@@ -7,8 +7,9 @@ bulk are properties over their slot, because assigning a list to them converts i
 from __future__ import annotations
 
 import os
+from keyword import iskeyword
 from threading import RLock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import split_name
@@ -45,9 +46,7 @@ class Message:
 
     def __repr__(self) -> str:
         package, kind, name = split_name(self._TYPE_NAME)
-        arguments = ", ".join(
-            f"{field.name}={_repr_value(field.type, getattr(self, field.name))}" for field in self._DEFINITION.fields
-        )
+        arguments = ", ".join(f"{field.name}={_repr_value(field.type, getattr(self, field.name))}" for field in self._DEFINITION.fields)
         return f"{package}.{kind}.{name}({arguments})"
 
     def __eq__(self, other: object) -> bool:
@@ -69,7 +68,7 @@ class Message:
         from turtlewire.msg.encoder import make_encoder
 
         encode = make_encoder(type(self))
-        _plain_class(type(self))._to_cdr = encode  # type: ignore[method-assign]
+        _plain_class(type(self))._to_cdr = encode  # type: ignore[method-assign, assignment]
         return encode(self)
 
     @classmethod
@@ -94,7 +93,7 @@ class Message:
 class _PartsOnDemand(type):
     """Gives a service or action class its message classes when they are asked for."""
 
-    _PARTS: dict[str, str]
+    _PARTS: dict[str, str] = {}  # noqa: RUF012 - classes made for interfaces have their own
 
     def __getattr__(cls, name: str) -> type:
         full_name = cls._PARTS.get(name)
@@ -109,7 +108,6 @@ class Service(metaclass=_PartsOnDemand):
     """Base of all service classes; their ``Request``, ``Response`` and ``Event`` are message classes."""
 
     _TYPE_NAME: str
-    _PARTS: dict[str, str] = {}
 
     def __init__(self) -> None:
         raise NotImplementedError("Service classes can not be instantiated")
@@ -119,7 +117,6 @@ class Action(metaclass=_PartsOnDemand):
     """Base of all action classes; their ``Goal``, ``Result`` and ``Feedback`` are message classes, ``Impl`` holds the rest."""
 
     _TYPE_NAME: str
-    _PARTS: dict[str, str] = {}
 
     def __init__(self) -> None:
         raise NotImplementedError("Action classes can not be instantiated")
@@ -168,15 +165,12 @@ def get_action(name: str) -> type[Action]:
 
 
 def get_interface_class(full_name: str) -> type:
-    """Class of any interface: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X"``, ``"pkg/action/X_SendGoal"`` …"""
+    """Class of any interface or part of one: ``"pkg/msg/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X_SendGoal"`` and so on."""
     kind, _, name = full_name.partition("/")[2].partition("/")
-    if kind == "srv" and "_" not in name:
+    if kind == "action" and "_" not in name:
+        return get_action(full_name)
+    if name.endswith(("_SendGoal", "_GetResult")) or (kind == "srv" and "_" not in name):
         return get_service(full_name)
-    if kind == "action":
-        if "_" not in name:
-            return get_action(full_name)
-        if name.endswith(("_SendGoal", "_GetResult")):
-            return get_service(full_name)
     return get_message(full_name)
 
 
@@ -240,7 +234,7 @@ def _make_constructor(definition: MessageDefinition) -> Any:
     parameters = ["_self"]
     body = []
     for index, field in enumerate(definition.fields):
-        if not field.name.isidentifier() or field.name in _KEYWORDS:
+        if iskeyword(field.name):
             raise InterfaceError(f"{definition.full_name}: the field name '{field.name}' is a keyword of Python")
         fresh = _fresh_default(field, index, environment)
         if index == 0:
@@ -266,12 +260,16 @@ def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str
         return f"_class{index}()"
     if not isinstance(type_, AbstractNestedType):
         return ""
+    return _fresh_values(field.default, type_, index, environment)
+
+
+def _fresh_values(default: Any, type_: AbstractNestedType, index: int, environment: dict[str, Any]) -> str:
     if element_code(type_):
-        environment[f"_default{index}"] = field.default or (0,) * getattr(type_, "size", 0)
+        environment[f"_default{index}"] = default or (0,) * getattr(type_, "size", 0)
         # The assignment makes the array.array or NumPy array of it.
         return f"_default{index}"
-    if field.default is not None:
-        environment[f"_default{index}"] = field.default
+    if default is not None:
+        environment[f"_default{index}"] = default
         return f"_default{index}.copy()"
     if not isinstance(type_, Array):
         return "[]"
@@ -309,7 +307,7 @@ def _make_service(full_name: str) -> type[Service]:
         "_TYPE_NAME": full_name,
         "_PARTS": {part: f"{full_name}_{part}" for part in ("Request", "Response", "Event")},
     }
-    return type(Service)(full_name.rpartition("/")[2], (Service,), namespace)
+    return cast("type[Service]", _PartsOnDemand(full_name.rpartition("/")[2], (Service,), namespace))
 
 
 def _make_action(full_name: str) -> type[Action]:
@@ -328,7 +326,7 @@ def _make_action(full_name: str) -> type[Action]:
         "_PARTS": {part: f"{full_name}_{part}" for part in ("Goal", "Result", "Feedback")},
         "Impl": _PartsOnDemand("Impl", (), {"__module__": module, "__qualname__": f"{name}.Impl", "_PARTS": implementation}),
     }
-    return type(Action)(name, (Action,), namespace)
+    return cast("type[Action]", _PartsOnDemand(name, (Action,), namespace))
 
 
 def _restore(full_name: str, values: dict[str, Any]) -> Message:
@@ -344,9 +342,3 @@ def _repr_value(type_: AbstractType, value: Any) -> str:
 
 def _all_equal(comparison: Any) -> bool:
     return bool(comparison.all()) if hasattr(comparison, "all") else bool(comparison)
-
-
-_KEYWORDS = frozenset(
-    "and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not "
-    "or pass raise return try while with yield".split()
-)

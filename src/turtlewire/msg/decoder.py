@@ -1,8 +1,8 @@
 """Generates the function that decodes one message type from CDR, little or big endian.
 
 The generated code reads numbers that follow one another with one ``struct.unpack_from``. It notices every malformed input, by an exception
-of the operation that hits it; ``turtlewire.msg.diagnosis`` then finds out which field it was. As in the encoder, ``modulus`` and ``remainder`` say
-what is known about the position, counted from the end of the four header bytes.
+of the operation that hits it; ``turtlewire.msg.diagnosis`` then finds out which field it was. As in the encoder, ``modulus`` and
+``remainder`` say what is known about the position, counted from the end of the four header bytes.
 """
 
 from __future__ import annotations
@@ -173,7 +173,7 @@ class _Decoder:
 
         dtype = np.dtype(numpy_name(str(type_.value_type)))
         wire, native = self.name(), self.name()
-        self.environment.update({"frombuffer": np.frombuffer, wire: dtype.newbyteorder(self.order), native: dtype})
+        self.environment.update({"frombuffer": np.frombuffer, wire: np.dtype(f"{self.order}{dtype.str[1:]}"), native: dtype})
         self.line(f"{target} = frombuffer(data, {wire}, {type_.size}, {self.position()}).astype({native})")
         size = SIZES[code] * type_.size
         self.offset += size

@@ -130,7 +130,8 @@ class ActionDefinition:
             f"{full_name}_GetResult",
             MessageDefinition(f"{full_name}_GetResult_Request", (goal_id,)),
             MessageDefinition(
-                f"{full_name}_GetResult_Response", (Field("status", BasicType("int8")), Field("result", NamespacedType.parse(result.full_name)))
+                f"{full_name}_GetResult_Response",
+                (Field("status", BasicType("int8")), Field("result", NamespacedType.parse(result.full_name))),
             ),
         )
         self.feedback_message = MessageDefinition(

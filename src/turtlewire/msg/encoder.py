@@ -13,7 +13,6 @@ from math import gcd
 from struct import Struct
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.msg.definition import MessageDefinition
 from turtlewire.msg.registry import load_message
 from turtlewire.msg.types import (
     TYPE_CODES,
@@ -29,6 +28,7 @@ from turtlewire.msg.values import element_code
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
 
 __all__ = ["make_encoder"]
@@ -56,7 +56,7 @@ def make_encoder(cls: type) -> Callable[[Any], bytes]:
 
 def as_bool(value: Any) -> bool:
     """A bool of what equals one: 0, 1, NumPy's bools."""
-    if value == 0 or value == 1:
+    if value in (0, 1):
         return bool(value)
     raise TypeError("expected a bool")
 

@@ -1,17 +1,20 @@
 """Turns a folder of interface definitions into a Python package: real modules with type stubs, no compiler, no import hook.
 
-The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``, their stubs, and a copy of the definitions, which
-the classes are made of at first access.
+The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``, their stubs, and a copy of the
+definitions, which the classes are made of at first access.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
 from shutil import copyfile
+from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.registry import KINDS, interfaces_in, register_package
 from turtlewire.msg.stubs import module_stub
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 __all__ = ["generate_package", "package_name", "write_modules"]
 

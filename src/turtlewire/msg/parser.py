@@ -73,16 +73,14 @@ def parse_message(full_name: str, text: str) -> MessageDefinition:
                 _parse_statement(package, statement, fields, constants)
             except ValueError as error:
                 raise InterfaceError(f"{full_name}, line {number}: {error} in '{statement}'") from None
-    _refuse_duplicates(full_name, [member.name for member in (*fields, *constants)])
+    _refuse_duplicates(full_name, [*(field.name for field in fields), *(constant.name for constant in constants)])
     return MessageDefinition(full_name, tuple(fields), tuple(constants))
 
 
 def parse_service(full_name: str, text: str) -> ServiceDefinition:
     """Parse one service; see `parse_message`."""
     request, response = _parts(full_name, text, 2)
-    return ServiceDefinition(
-        full_name, parse_message(f"{full_name}_Request", request), parse_message(f"{full_name}_Response", response)
-    )
+    return ServiceDefinition(full_name, parse_message(f"{full_name}_Request", request), parse_message(f"{full_name}_Response", response))
 
 
 def parse_action(full_name: str, text: str) -> ActionDefinition:

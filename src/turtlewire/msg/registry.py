@@ -7,7 +7,7 @@ A definition is looked for in the packages registered by generated modules, in t
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import ActionDefinition, MessageDefinition, ServiceDefinition
@@ -33,7 +33,7 @@ KINDS = ("msg", "srv", "action")
 
 _BUNDLED = os.path.join(os.path.dirname(__file__), "interfaces")
 
-Definition = Union[MessageDefinition, ServiceDefinition, ActionDefinition]
+Definition = MessageDefinition | ServiceDefinition | ActionDefinition
 
 _registered: dict[str, str] = {}
 _loaded: dict[str, Definition] = {}
@@ -111,7 +111,7 @@ def load_interface(full_name: str) -> Definition:
     """Definition of any interface or part of one; raises as `load_message` does."""
     definition = _loaded.get(full_name)
     if definition is None:
-        package, kind, name = (full_name.split("/") + ["", ""])[:3]
+        package, kind, name = [*full_name.split("/"), "", ""][:3]
         _parse_file(f"{package}/{kind}/{name.partition('_')[0]}", kind)
         definition = _loaded.get(full_name)
         if definition is None:
@@ -177,8 +177,6 @@ def interfaces_in(directory: str) -> dict[str, list[str]]:
 def _nearest(full_name: str) -> str:
     import difflib
 
-    known = [
-        f"{package}/{kind}/{name}" for package, kinds in interface_names().items() for kind, names in kinds.items() for name in names
-    ]
+    known = [f"{package}/{kind}/{name}" for package, kinds in interface_names().items() for kind, names in kinds.items() for name in names]
     near = difflib.get_close_matches(full_name, known, n=3)
     return f"Did you mean {' or '.join(near)}?" if near else "`ros2 interface list` shows what there is."

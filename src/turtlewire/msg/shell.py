@@ -24,11 +24,11 @@ def lazy_classes(module_name: str) -> Callable[[str], type]:
     """
     module = sys.modules[module_name]
 
-    def __getattr__(name: str) -> type:
+    def find(name: str) -> type:
         if name not in module.__all__:
             raise AttributeError(f"module '{module_name}' has no attribute '{name}'")
         found = get_interface_class(f"{module_name.replace('.', '/')}/{name}")
         setattr(module, name, found)
         return found
 
-    return __getattr__
+    return find

@@ -106,13 +106,7 @@ class _StubWriter:
     def held(self, type_: AbstractType) -> str:
         """Annotation of what a field gives back."""
         if isinstance(type_, AbstractNestedType):
-            if not element_code(type_):
-                return f"list[{self.held(type_.value_type)}]"
-            if isinstance(type_, Array):
-                self.imports |= {"numpy", "numpy.typing"}
-                return f"numpy.typing.NDArray[numpy.{numpy_name(str(type_.value_type))}]"
-            self.imports.add("array")
-            return f"array.array[{self.held(type_.value_type)}]"
+            return self.held_values(type_)
         if isinstance(type_, NamespacedType):
             module = ".".join(type_.namespaces)
             if module == self.home:
@@ -124,6 +118,15 @@ class _StubWriter:
         assert isinstance(type_, BasicType)
         special = {"boolean": "bool", "octet": "bytes"}
         return special.get(type_.typename, "float" if type_.typename in FLOATING_POINT_TYPES else "int")
+
+    def held_values(self, type_: AbstractNestedType) -> str:
+        if not element_code(type_):
+            return f"list[{self.held(type_.value_type)}]"
+        if isinstance(type_, Array):
+            self.imports |= {"numpy", "numpy.typing"}
+            return f"numpy.typing.NDArray[numpy.{numpy_name(str(type_.value_type))}]"
+        self.imports.add("array")
+        return f"array.array[{self.held(type_.value_type)}]"
 
     def accepted(self, type_: AbstractType) -> str:
         """Annotation of what can be assigned."""

@@ -1,6 +1,7 @@
 """The types a field of an interface can have, named as in ROS 2's ``rosidl_parser.definition``.
 
-Every type answers ``str(type)`` with ROS 2's spelling (``sequence<double, 3>``, ``geometry_msgs/Vector3[2]``), compares by value and is hashable.
+Every type answers ``str(type)`` with ROS 2's spelling (``sequence<double, 3>``, ``geometry_msgs/Vector3[2]``), compares by value and is
+hashable.
 """
 
 from __future__ import annotations

@@ -69,6 +69,8 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
     """Make an ``array.array`` of a sequence of numbers; one of the right letter is kept, buffers of the right layout are copied whole."""
     if type(value) is array and value.typecode == code:
         return value
+    if isinstance(value, (list, tuple)):
+        return array(code, value)
     try:
         view = memoryview(value)  # type: ignore[arg-type]
     except TypeError:
