@@ -198,14 +198,14 @@ class NodeEndpoints:
     def _expand(self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]) -> str:
         fault = names.validate_topic_name(name)
         if fault is not None:
-            raise error(name, fault.message, fault.index)
+            raise error(name, fault.message, fault.invalid_index)
         try:
             expanded = names.expand_topic_name(name, self._node.get_name(), self._node.get_namespace())
         except ValueError as unknown:
             raise error(name, str(unknown), 0) from None
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:
-            raise error(expanded, fault.message, fault.index)
+            raise error(expanded, fault.message, fault.invalid_index)
         return expanded
 
 
