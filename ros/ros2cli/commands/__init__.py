@@ -1,0 +1,22 @@
+"""The commands, each with a line for ``ros2 --help``."""
+
+from __future__ import annotations
+
+__all__ = ["COMMANDS"]
+
+COMMANDS = {
+    "action": "Goals that take time: list them, send one",
+    "daemon": "Status of the daemon (there is none, and none is needed)",
+    "doctor": "Look for what is wrong with the setup and the traffic",
+    "interface": "Show the definitions of messages, services and actions",
+    "launch": "Run a launch file",
+    "lifecycle": "States of managed nodes",
+    "multicast": "Try whether multicast gets through",
+    "node": "List nodes, show what one of them offers",
+    "param": "Read and set parameters of nodes",
+    "pkg": "List and create packages",
+    "run": "Run an executable of a package",
+    "service": "List services, call one",
+    "topic": "List topics, listen to one, publish to one",
+    "wtf": "The same as doctor",
+}

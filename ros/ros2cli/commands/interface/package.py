@@ -1,0 +1,36 @@
+"""``ros2 interface package``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import interface_packages
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    package = parser.add_argument("package_name", help="Name of the package")
+    package.completer = interface_packages  # type: ignore[attr-defined]
+    parser.add_argument("--only-msgs", action="store_true", help="Only messages")
+    parser.add_argument("--only-srvs", action="store_true", help="Only services")
+    parser.add_argument("--only-actions", action="store_true", help="Only actions")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the full names."""
+    from turtlewire import msg
+
+    packages = msg.interface_names()
+    if args.package_name not in packages:
+        return f"Unknown package '{args.package_name}'"
+    wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
+    for kind in wanted:
+        if wanted[kind] or not any(wanted.values()):
+            for name in packages[args.package_name][kind]:
+                print(f"{args.package_name}/{kind}/{name}")
+    return None

@@ -1,0 +1,33 @@
+"""``ros2 interface proto``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import interfaces
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    interface = parser.add_argument("type", help="Name of the interface, for example geometry_msgs/msg/Twist")
+    interface.completer = interfaces  # type: ignore[attr-defined]
+    parser.add_argument("--no-quotes", action="store_true", help="Without the quotes that a shell needs")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the default values as YAML."""
+    from rosidl_runtime_py import message_to_yaml
+    from rosidl_runtime_py.utilities import get_interface, is_action, is_service
+
+    interface = get_interface(args.type)
+    if is_service(interface):
+        interface = interface.Request
+    elif is_action(interface):
+        interface = interface.Goal
+    text = message_to_yaml(interface())
+    print(text if args.no_quotes else f'"{text}"')

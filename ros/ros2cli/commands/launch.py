@@ -1,0 +1,176 @@
+"""``ros2 launch``."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import packages
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator
+
+    from launch import LaunchDescription, LaunchDescriptionSource
+
+__all__ = ["add_arguments", "main"]
+
+_SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    parser.add_argument("-n", "--noninteractive", action="store_true", default=not sys.stdin.isatty(), help="Nobody at a terminal watches")
+    parser.add_argument("-d", "--debug", action="store_true", help="Log what the launch does in detail")
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument("-p", "--print", "--print-description", action="store_true", help="Show what would be launched, and end")
+    either.add_argument("-s", "--show-args", "--show-arguments", action="store_true", help="Show the arguments of the file, and end")
+    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", help="Show all output of all processes")
+    parser.add_argument("--launch-prefix", help="Command to put before all processes, for example a debugger")
+    parser.add_argument("--launch-prefix-filter", help="Pattern of the executables that get the prefix; all when it is not given")
+    package = parser.add_argument("package_name", help="Name of the package, or path of a launch file")
+    package.completer = packages  # type: ignore[attr-defined]
+    file = parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
+    file.completer = _launch_files  # type: ignore[attr-defined]
+    parser.add_argument("launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value")
+
+
+def main(args: argparse.Namespace) -> int | str | None:
+    """Launch."""
+    path, words = _file_and_arguments(args)
+    arguments = _parsed_arguments(words)
+    if args.show_all_subprocesses_output:
+        os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    for name in ("launch_prefix", "launch_prefix_filter"):
+        value = getattr(args, name)
+        if value is not None:
+            arguments.append((name.replace("_", "-"), value))
+    from launch import LaunchDescription
+    from launch.actions import IncludeLaunchDescription
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    source = AnyLaunchDescriptionSource(path)
+    if args.show_args:
+        return _show_arguments(source)
+    description = LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
+    if args.print:
+        return _print_description(source)
+    with _terminal_restored():
+        return _launch(description, args)
+
+
+def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
+    from launch import LaunchService
+
+    service = LaunchService(argv=args.launch_arguments, noninteractive=args.noninteractive, debug=args.debug)
+    service.include_launch_description(description)
+    return service.run()
+
+
+@contextlib.contextmanager
+def _terminal_restored() -> Iterator[None]:
+    """A launched node may have put the terminal into another mode, and have been killed before it could undo that."""
+    if not sys.stdin.isatty():
+        yield
+        return
+    import termios
+
+    mode = termios.tcgetattr(sys.stdin)
+    try:
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
+
+
+def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
+    """Path of the launch file, and the words that are arguments for it.
+
+    Raises:
+        RuntimeError: There is no such package or file.
+    """
+    name: str | None = args.launch_file_name
+    if os.path.isfile(args.package_name):
+        return args.package_name, ([] if name is None else [name]) + args.launch_arguments
+    if name is None:
+        if os.sep in args.package_name or args.package_name.endswith(_SUFFIXES):
+            raise RuntimeError(f"No launch file at '{args.package_name}'")
+        args.parser.error("the following arguments are required: launch_file_name, launch_arguments")
+    from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+
+    try:
+        share = get_package_share_directory(args.package_name)
+    except PackageNotFoundError as error:
+        raise RuntimeError(f"Package '{args.package_name}' not found: {error}") from error
+    return _in_share(args.package_name, share, str(name)), args.launch_arguments
+
+
+def _in_share(package: str, share: str, name: str) -> str:
+    found = [os.path.join(folder, name) for folder, _, files in os.walk(share) if name in files]
+    if not found:
+        from ros2cli.suggestion import did_you_mean
+
+        message = f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
+        raise RuntimeError(message + did_you_mean(name, _files_in(share)))
+    if len(found) > 1:
+        raise RuntimeError(f"file '{name}' was found more than once in the share directory of package '{package}': {sorted(found)}")
+    return found[0]
+
+
+def _files_in(share: str) -> list[str]:
+    return sorted(file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES))
+
+
+def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    from turtlewire_ros.prefix import share_directory
+
+    share = share_directory(parsed_args.package_name)
+    return [] if share is None else _files_in(share)
+
+
+def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
+    """``name:=value`` pairs, the last one of each name.
+
+    Raises:
+        RuntimeError: A word is none.
+    """
+    values: dict[str, str] = {}
+    for word in words:
+        name, separator, value = word.partition(":=")
+        if not separator or not name or not value:
+            raise RuntimeError(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
+        values[name] = value
+    return list(values.items())
+
+
+def _show_arguments(source: LaunchDescriptionSource) -> int:
+    from launch import LaunchContext
+    from launch.utilities import perform_substitutions
+
+    description = source.get_launch_description(LaunchContext())
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    conditional = False
+    for argument in description.get_launch_arguments():
+        conditional |= argument._conditionally_included
+        star = "*" if argument._conditionally_included else ""
+        lines += ["", f"    '{argument.name}'{star}:", *(f"        {line}" for line in argument.description.splitlines())]
+        if argument.default_value is not None:
+            try:
+                default = f"'{perform_substitutions(LaunchContext(), argument.default_value)}'"
+            except Exception:  # noqa: BLE001  it depends on what happens during the launch
+                default = " + ".join(part.describe() for part in argument.default_value)
+            lines.append(f"        (default: {default})")
+    if len(lines) == 1:
+        lines += ["", "  No arguments."]
+    if conditional:
+        lines += ["", "* argument(s) which are only used if specific conditions occur"]
+    print("\n".join(lines))
+    return 0
+
+
+def _print_description(source: LaunchDescriptionSource) -> int:
+    from launch import LaunchContext, LaunchIntrospector
+
+    print(LaunchIntrospector().format_launch_description(source.get_launch_description(LaunchContext())))
+    return 0

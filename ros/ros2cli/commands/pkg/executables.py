@@ -1,0 +1,34 @@
+"""``ros2 pkg executables``."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import packages
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    package = parser.add_argument("package_name", nargs="?", help="Name of the package; all when it is not given")
+    package.completer = packages  # type: ignore[attr-defined]
+    parser.add_argument("--full-path", action="store_true", help="Show the paths")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print package and executable, or the path."""
+    from turtlewire_ros.executables import executable_paths
+
+    names = packages() if args.package_name is None else [args.package_name]
+    for name in names:
+        paths = executable_paths(name)
+        if paths is None:
+            return f"Package '{name}' not found"
+        for path in paths:
+            print(path if args.full_path else f"{name} {os.path.basename(path)}")
+    return None

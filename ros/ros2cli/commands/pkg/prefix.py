@@ -1,0 +1,30 @@
+"""``ros2 pkg prefix``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import packages
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    package = parser.add_argument("package_name", help="Name of the package")
+    package.completer = packages  # type: ignore[attr-defined]
+    parser.add_argument("--share", action="store_true", help="Show the folder with its data instead")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the folder."""
+    from turtlewire_ros.prefix import package_prefix, share_directory
+
+    folder = (share_directory if args.share else package_prefix)(args.package_name)
+    if folder is None:
+        return "Package not found"
+    print(folder)
+    return None

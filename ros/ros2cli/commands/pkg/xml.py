@@ -1,0 +1,43 @@
+"""``ros2 pkg xml``."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import packages
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    package = parser.add_argument("package_name", help="Name of the package")
+    package.completer = packages  # type: ignore[attr-defined]
+    parser.add_argument("-t", "--tag", help="Show only the content of this tag, for example version")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the file, or the content of a tag."""
+    from turtlewire_ros.prefix import share_directory
+
+    share = share_directory(args.package_name)
+    if share is None:
+        return "Package not found"
+    path = os.path.join(share, "package.xml")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    if args.tag is None:
+        print(text)
+        return None
+    from defusedxml import ElementTree
+
+    elements = ElementTree.fromstring(text, forbid_dtd=True).findall(f".//{args.tag}")
+    if not elements:
+        return f"No element '{args.tag}' in the package manifest found"
+    for element in elements:
+        print("".join(element.itertext()))
+    return None

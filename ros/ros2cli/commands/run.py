@@ -1,0 +1,65 @@
+"""``ros2 run``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import signal
+import subprocess
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import executables, packages
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    parser.add_argument("--prefix", help="Command to put before the executable, for example a debugger: --prefix 'gdb -ex run --args'")
+    package = parser.add_argument("package_name", help="Name of the package")
+    package.completer = packages  # type: ignore[attr-defined]
+    executable = parser.add_argument("executable_name", help="Name of the executable")
+    executable.completer = executables  # type: ignore[attr-defined]
+    parser.add_argument("argv", nargs=argparse.REMAINDER, help="Arguments for the executable")
+
+
+def main(args: argparse.Namespace) -> int | str:
+    """Run the executable, and end as it ends."""
+    from turtlewire_ros.executables import argv_for, executable_paths
+
+    paths = executable_paths(args.package_name)
+    if paths is None:
+        raise RuntimeError(f"Package '{args.package_name}' not found{_suggestion(args.package_name, packages())}")
+    found = [path for path in paths if os.path.basename(path) in (args.executable_name, f"{args.executable_name}.exe")]
+    if not found:
+        known = [os.path.basename(path) for path in paths]
+        return f"No executable found{_suggestion(args.executable_name, known)}"
+    if len(found) > 1:
+        return "Multiple executables found:" + "".join(f"\n- {path}" for path in found)
+    prefix = [] if args.prefix is None else shlex.split(args.prefix)
+    return _run([*prefix, *argv_for(found[0]), *args.argv])
+
+
+def _run(command: list[str]) -> int:
+    with subprocess.Popen(command) as process:
+        while process.returncode is None:
+            try:
+                process.wait()
+            except KeyboardInterrupt:
+                continue  # the terminal has sent it to the executable as well; it decides
+    status = process.returncode
+    if status < 0:
+        print(f"[ros2run]: {signal.strsignal(-status)}")
+    elif status > 0:
+        print(f"[ros2run]: Process exited with failure {status}")
+    return status
+
+
+def _suggestion(name: str, known: Iterable[str]) -> str:
+    from ros2cli.suggestion import did_you_mean
+
+    return did_you_mean(name, known)

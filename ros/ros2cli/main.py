@@ -1,0 +1,110 @@
+# PYTHON_ARGCOMPLETE_OK
+"""The ``ros2`` command."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from ros2cli.commands import COMMANDS
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+__all__ = ["main", "make_parser"]
+
+_EXIT_INTERRUPTED = 2  # the number of SIGINT
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run a command line.
+
+    Args:
+        argv: The words after ``ros2``; None takes those of this process.
+
+    Returns:
+        The exit status.
+    """
+    words = sys.argv[1:] if argv is None else argv
+    parser = make_parser(_words_to_complete() or words)
+    if "_ARGCOMPLETE" in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser, exclude=["-h", "--help"])
+    args = parser.parse_args(words)
+    if not args.use_python_default_buffering:
+        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    return _status(args)
+
+
+def make_parser(words: list[str]) -> argparse.ArgumentParser:
+    """The parser for a command line; of commands and verbs that are not on it only the names are known.
+
+    Args:
+        words: The words after ``ros2``.
+    """
+    parser = argparse.ArgumentParser(prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False)
+    parser.add_argument("--use-python-default-buffering", action="store_true", help="Leave the buffering of the output to Python")
+    parser.set_defaults(show_help=parser.print_help)
+    _add_choices(parser, "ros2", COMMANDS, words, "ros2cli.commands")
+    return parser
+
+
+def _add_choices(parser: argparse.ArgumentParser, prog: str, choices: dict[str, str], words: list[str], package: str) -> None:
+    """Add commands or verbs; the one that the words name is loaded."""
+    title = "Verbs" if " " in prog else "Commands"
+    rest = "<command>" if prog == "ros2" else "<verb>"
+    group = parser.add_subparsers(title=title, metavar=f"Call `{prog} {rest} -h` for more detailed usage.")
+    chosen = next((word for word in words if not word.startswith("-")), None)
+    for name, summary in choices.items():
+        sub = group.add_parser(name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False)
+        if name == chosen:
+            _load(sub, f"{prog} {name}", words[words.index(name) + 1 :], f"{package}.{name}")
+
+
+def _load(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
+    module = import_module(module_name)
+    if hasattr(module, "add_arguments"):
+        module.add_arguments(parser)
+    if hasattr(module, "VERBS"):
+        parser.set_defaults(show_help=parser.print_help)
+        _add_choices(parser, prog, module.VERBS, words, module_name)
+    else:
+        parser.set_defaults(module=module, parser=parser)
+
+
+def _status(args: argparse.Namespace) -> int:
+    module: ModuleType | None = getattr(args, "module", None)
+    if module is None:
+        args.show_help()
+        return 0
+    try:
+        status: int | str | None = module.main(args)
+    except KeyboardInterrupt:
+        return _EXIT_INTERRUPTED
+    except BrokenPipeError:  # the reader of a pipe has enough
+        sys.stdout = None  # type: ignore[assignment]
+        return 1
+    except RuntimeError as error:
+        status = _told(error)
+    except Exception as error:  # noqa: BLE001  a user gets one line; the name of the error is what a search finds
+        import traceback
+
+        status = "".join(traceback.format_exception_only(type(error), error)).rstrip("\n")
+    if isinstance(status, str):
+        print(status, file=sys.stderr)
+        return 1
+    return status or 0
+
+
+def _told(error: RuntimeError) -> str:
+    hint = getattr(error, "hint", "")
+    return f"{error}\n{hint}" if hint else str(error)
+
+
+def _words_to_complete() -> list[str]:
+    """What the shell has of the command line when it asks for completions."""
+    return os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []
