@@ -240,7 +240,7 @@ class Arguments:
         fault = names.validate_namespace(name)
         if fault is not None:
             message = fault.message.replace("namespace", "context name")
-            raise ValueError(f"Enclave name is not valid: '{message}'. Invalid index: {fault.index}")
+            raise ValueError(f"Enclave name is not valid: '{message}'. Invalid index: {fault.invalid_index}")
         self.enclave = name
 
 

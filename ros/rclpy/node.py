@@ -661,7 +661,7 @@ def _names(node_name: str, namespace: str, arguments: Arguments) -> tuple[str, s
 def _check_names(name: str, namespace: str) -> None:
     fault = names.validate_namespace(namespace)
     if fault is not None:
-        raise InvalidNamespaceException(namespace, fault.message, fault.index)
+        raise InvalidNamespaceException(namespace, fault.message, fault.invalid_index)
     fault = names.validate_node_name(name)
     if fault is not None:
-        raise InvalidNodeNameException(name, fault.message, fault.index)
+        raise InvalidNodeNameException(name, fault.message, fault.invalid_index)

@@ -118,7 +118,7 @@ class NodeGraph:
         expanded = resolve(name, only_expand=True)
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:
-            raise error(expanded, fault.message, fault.index)
+            raise error(expanded, fault.message, fault.invalid_index)
         return expanded
 
     def endpoint_infos(self, kind: str, topic: str, *, no_mangle: bool) -> list[TopicEndpointInfo]:

@@ -20,5 +20,5 @@ def validate_namespace(namespace: str) -> bool:
     """
     fault = names.validate_namespace(namespace)
     if fault is not None:
-        raise InvalidNamespaceException(namespace, fault.message, fault.index)
+        raise InvalidNamespaceException(namespace, fault.message, fault.invalid_index)
     return True

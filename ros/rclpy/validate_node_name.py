@@ -20,5 +20,5 @@ def validate_node_name(node_name: str) -> bool:
     """
     fault = names.validate_node_name(node_name)
     if fault is not None:
-        raise InvalidNodeNameException(node_name, fault.message, fault.index)
+        raise InvalidNodeNameException(node_name, fault.message, fault.invalid_index)
     return True

@@ -25,5 +25,5 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
     fault = names.validate_topic_name(name)
     if fault is not None:
         error = InvalidServiceNameException if is_service else InvalidTopicNameException
-        raise error(name, fault.message, fault.index)
+        raise error(name, fault.message, fault.invalid_index)
     return True
