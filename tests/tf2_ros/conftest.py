@@ -1,0 +1,52 @@
+"""Contexts and nodes of the in-process middleware, fresh for each test."""
+
+from __future__ import annotations
+
+import pytest
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.context import Context
+from rclpy.node import Node
+
+
+@pytest.fixture(autouse=True)
+def _local_middleware(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+
+
+@pytest.fixture
+def context():
+    context = Context()
+    context.init(args=[])
+    yield context
+    context.try_shutdown()
+
+
+@pytest.fixture
+def make_node(context):
+    nodes = []
+
+    def make(name="node", **arguments):
+        nodes.append(Node(name, context=context, **arguments))
+        return nodes[-1]
+
+    yield make
+    for node in nodes:
+        node.destroy_node()
+
+
+@pytest.fixture
+def node(make_node):
+    return make_node()
+
+
+@pytest.fixture
+def stamped():
+    def make(parent="world", child="robot", x=0.0, stamp_s=1):
+        transform = TransformStamped(child_frame_id=child)
+        transform.header.frame_id = parent
+        transform.header.stamp.sec = stamp_s
+        transform.transform.translation.x = x
+        return transform
+
+    return make

@@ -1,0 +1,130 @@
+"""Both broadcasters, and that no static transform is ever lost."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+
+LONG = Duration(seconds=10)
+
+
+@pytest.fixture
+def heard(make_node):
+    """What a listener hears that comes when it is called."""
+
+    def listen():
+        buffer = Buffer()
+        TransformListener(buffer, make_node(f"listener{random.randrange(10**9)}"))
+        return buffer
+
+    return listen
+
+
+def x_of(buffer, child, parent="world"):
+    return buffer.lookup_transform(parent, child, Time(), LONG).transform.translation.x
+
+
+def test_one_or_several_transforms(node, heard, stamped):
+    buffer, broadcaster = heard(), TransformBroadcaster(node)
+    broadcaster.sendTransform(stamped(child="a", x=1.0))
+    broadcaster.sendTransform([stamped(child="b", x=2.0), stamped(child="c", x=3.0)])
+    broadcaster.sendTransform(stamped(child=name, x=4.0) for name in ("d", "e"))
+    assert [x_of(buffer, child) for child in "abcde"] == [1.0, 2.0, 3.0, 4.0, 4.0]
+
+
+def test_the_topics_and_their_qualities(node):
+    dynamic, static = TransformBroadcaster(node).pub_tf, StaticTransformBroadcaster(node).pub_tf
+    assert (dynamic.topic_name, static.topic_name) == ("/tf", "/tf_static")
+    assert dynamic.qos_profile == QoSProfile(depth=100)
+    assert static.qos_profile == QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    assert TransformBroadcaster(node, qos=7).pub_tf.qos_profile == QoSProfile(depth=7)
+    assert StaticTransformBroadcaster(node, QoSProfile(depth=2)).pub_tf.qos_profile == QoSProfile(depth=2)
+
+
+def test_late_joiners_get_everything_that_was_sent(node, heard, stamped):
+    broadcaster = StaticTransformBroadcaster(node)
+    for number in range(5):
+        broadcaster.sendTransform(stamped(child=f"frame{number}", x=float(number)))
+    buffer = heard()
+    assert [x_of(buffer, f"frame{number}") for number in range(5)] == [0.0, 1.0, 2.0, 3.0, 4.0]
+
+
+def test_a_static_transform_can_be_sent_again(node, heard, stamped):
+    broadcaster, early = StaticTransformBroadcaster(node), heard()
+    broadcaster.sendTransform([stamped(child="a", x=1.0), stamped(child="b", x=1.0)])
+    broadcaster.sendTransform(stamped(child="a", x=2.0))
+    broadcaster.sendTransform(stamped(child="last", x=0.0))
+    for buffer in (early, heard()):
+        x_of(buffer, "last")
+        assert (x_of(buffer, "a"), x_of(buffer, "b")) == (2.0, 1.0)
+
+
+def test_the_caller_may_reuse_the_message(node, heard, stamped):
+    broadcaster, message = StaticTransformBroadcaster(node), stamped(child="a", x=1.0)
+    broadcaster.sendTransform(message)
+    message.transform.translation.x = 99.0
+    broadcaster.sendTransform(stamped(child="b"))
+    buffer = heard()
+    x_of(buffer, "b")
+    assert x_of(buffer, "a") == 1.0
+
+
+def test_the_last_sender_of_a_process_wins_for_late_joiners_too(node, make_node, heard, stamped):
+    first, second = StaticTransformBroadcaster(node), StaticTransformBroadcaster(make_node("second"))
+    first.sendTransform([stamped(child="a", x=1.0), stamped(child="only", x=5.0)])
+    second.sendTransform(stamped(child="a", x=2.0))
+    late = heard()
+    x_of(late, "only")
+    assert x_of(late, "a") == 2.0
+    first.sendTransform(stamped(child="a", x=3.0))
+    later = heard()
+    x_of(later, "only")
+    assert x_of(later, "a") == 3.0
+
+
+def test_it_may_replace_what_a_destroyed_node_sent(make_node, heard, stamped):
+    gone, staying = make_node("gone"), make_node("staying")
+    StaticTransformBroadcaster(gone).sendTransform(stamped(child="a", x=1.0))
+    gone.destroy_node()
+    StaticTransformBroadcaster(staying).sendTransform(stamped(child="a", x=2.0))
+    assert x_of(heard(), "a") == 2.0
+
+
+def test_none_is_lost_over_many_joins_updates_and_restarts(make_node, heard, stamped):
+    """Any order of sending, joining and restarting: a late joiner sees exactly what the living broadcasters sent last."""
+    chance = random.Random(20261121)
+    broadcasters, expected, owner = {}, {}, {}
+    joins = 0
+    for step in range(400):
+        name = f"broadcaster{chance.randrange(4)}"
+        action = chance.random()
+        if action < 0.1 and name in broadcasters:
+            broadcasters.pop(name)[0].destroy_node()
+            expected = {child: x for child, x in expected.items() if owner[child] != name}
+        elif action < 0.8:
+            if name not in broadcasters:
+                node = make_node(name)
+                broadcasters[name] = (node, StaticTransformBroadcaster(node))
+            children = [f"frame{chance.randrange(12)}" for _ in range(chance.randrange(1, 4))]
+            broadcasters[name][1].sendTransform([stamped(child=child, x=float(step)) for child in children])
+            expected |= dict.fromkeys(children, float(step))
+            owner |= dict.fromkeys(children, name)
+        else:
+            joins += 1
+            buffer = heard()
+            assert {child: x_of(buffer, child) for child in expected} == expected
+            assert set(buffer._getFrameStrings()) == ({"world", *expected} if expected else set())
+    assert joins > 50
+
+
+def test_a_destroyed_broadcaster_says_so(node, stamped):
+    broadcaster = TransformBroadcaster(node)
+    node.destroy_node()
+    with pytest.raises(Exception, match="destruction was requested"):
+        broadcaster.sendTransform(stamped())

@@ -1,0 +1,231 @@
+"""tf2_ros.Buffer: answers, waiting in callbacks, futures, the frames service, jumps of the clock."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+
+import pytest
+
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.clock import ClockType, ROSClock
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformBroadcaster, TransformListener
+
+LONG = Duration(seconds=10)
+
+
+@pytest.fixture
+def buffer():
+    return Buffer()
+
+
+def at(seconds):
+    return Time(seconds=seconds)
+
+
+def test_every_public_name_exists():
+    assert all(hasattr(tf2_ros, name) for name in tf2_ros.__all__)
+    assert issubclass(tf2_ros.LookupException, tf2_ros.TransformException)
+
+
+def test_a_lookup_is_a_real_message(buffer, stamped):
+    sent = stamped("world", "robot", x=2.0, stamp_s=3)
+    assert buffer.set_transform(sent, "me") is None
+    assert buffer.lookup_transform("world", "robot", at(3)) == sent
+    assert type(buffer.lookup_transform("world", "robot", Time())) is TransformStamped
+    assert buffer.lookup_transform("world", "robot", sent.header.stamp) == sent
+    assert buffer.lookup_transform(target_frame="world", source_frame="robot", time=Time(), timeout=Duration()) == sent
+
+
+def test_can_transform_is_a_number_or_a_tuple(buffer, stamped):
+    buffer.set_transform_static(stamped("world", "wall"), "me")
+    assert buffer.can_transform("world", "wall", Time()) == 1
+    assert buffer.can_transform("world", "nothing", Time()) == 0
+    assert buffer.can_transform("world", "wall", Time(), return_debug_tuple=True) == (1, "")
+    known, reason = buffer.can_transform("world", "nothing", Time(), Duration(), True)
+    assert (known, reason) == (0, 'Invalid frame ID "nothing" passed to canTransform argument source_frame - frame does not exist')
+    assert buffer.can_transform_full("world", at(1), "wall", at(2), "world") == 1
+    assert buffer.can_transform_full("world", at(1), "nothing", at(2), "world", return_debug_tuple=True)[0] == 0
+
+
+def test_the_errors_have_tf2_s_texts(buffer, stamped):
+    with pytest.raises(tf2_ros.LookupException) as unknown:
+        buffer.lookup_transform("turtle2", "turtle1", Time())
+    assert str(unknown.value) == '"turtle2" passed to lookupTransform argument target_frame does not exist. '
+    buffer.set_transform(stamped("world", "robot", stamp_s=3), "me")
+    buffer.set_transform(stamped("world", "robot", stamp_s=4), "me")
+    with pytest.raises(tf2_ros.ExtrapolationException, match="into the future"):
+        buffer.lookup_transform("world", "robot", at(5))
+    with pytest.raises(tf2_ros.InvalidArgumentException):
+        buffer.lookup_transform("", "robot", at(5))
+    buffer.set_transform(stamped("map", "other", stamp_s=3), "me")
+    with pytest.raises(tf2_ros.ConnectivityException):
+        buffer.lookup_transform("map", "robot", Time())
+
+
+@pytest.mark.parametrize("wrong", [3, 3.0, None, "now"])
+def test_times_are_ros_times(buffer, wrong):
+    with pytest.raises(TypeError, match=r"time must have sec and nanosec, or nanoseconds\."):
+        buffer.lookup_transform("a", "b", wrong)
+    with pytest.raises(TypeError, match=r"duration must have sec and nanosec, or nanoseconds\."):
+        buffer.can_transform("a", "b", Time(), wrong)
+
+
+def test_full_lookups_travel_in_time(buffer, stamped):
+    for second in (1, 2, 3):
+        buffer.set_transform(stamped("world", "robot", x=float(second), stamp_s=second), "me")
+    then = buffer.lookup_transform_full("robot", at(3), "robot", at(1), "world")
+    assert then.transform.translation.x == -2.0
+    assert (
+        buffer.lookup_transform_full(
+            target_frame="robot", target_time=at(3), source_frame="robot", source_time=at(1), fixed_frame="world", timeout=LONG
+        )
+        == then
+    )
+
+
+def test_a_lookup_waits_for_data(buffer, stamped):
+    feeder = threading.Timer(0.05, lambda: buffer.set_transform(stamped(x=4.0), "me"))
+    feeder.start()
+    assert buffer.lookup_transform("world", "robot", Time(), LONG).transform.translation.x == 4.0
+    feeder.join()
+
+
+def test_a_wait_ends_with_the_error_of_the_lookup(buffer):
+    started = time.monotonic()
+    with pytest.raises(tf2_ros.LookupException):
+        buffer.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))
+    assert time.monotonic() - started >= 0.1
+    assert buffer.can_transform("world", "robot", Time(), Duration(seconds=0.01)) == 0
+
+
+def test_a_callback_of_a_single_threaded_executor_may_wait(context, make_node, stamped):
+    node, talker = make_node("waits"), make_node("talks")
+    buffer, broadcaster = Buffer(node=node), TransformBroadcaster(talker)
+    TransformListener(buffer, node)
+    results = []
+
+    def on_timer():
+        threading.Timer(0.05, broadcaster.sendTransform, [stamped(x=1.0)]).start()
+        results.append(buffer.lookup_transform("world", "robot", Time(), LONG))
+
+    node.create_timer(0.001, on_timer)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    while not results:
+        executor.spin_once(timeout_sec=10)
+    assert results[0].transform.translation.x == 1.0
+
+
+def test_futures_finish_when_the_data_comes(buffer, stamped):
+    future = buffer.wait_for_transform_async("world", "robot", at(1))
+    full = buffer.wait_for_transform_full_async("world", at(1), "robot", at(1), "world")
+    buffer.set_transform(stamped(stamp_s=3), "me")
+    assert not future.done()
+    buffer.set_transform(stamped(x=5.0, stamp_s=1), "me")
+    assert future.result().transform.translation.x == full.result().transform.translation.x == 5.0
+    assert buffer.wait_for_transform_async("world", "robot", at(1)).result() == future.result()
+
+
+def test_nothing_listens_when_no_future_waits(buffer, stamped):
+    futures = buffer._futures
+    waiting = [buffer.wait_for_transform_async("world", f"robot{i}", Time()) for i in range(3)]
+    assert futures._stop_listening is not None
+    waiting[0].cancel()
+    buffer.set_transform(stamped(child="robot1"), "me")
+    buffer.set_transform(stamped(child="robot2"), "me")
+    assert [future.done() for future in waiting] == [True, True, True]
+    assert futures._waiting == []
+    assert futures._stop_listening is None
+
+
+def test_a_request_that_cannot_be_answered_fails_at_once(buffer):
+    with pytest.raises(tf2_ros.InvalidArgumentException):
+        buffer.wait_for_transform_async("/world", "robot", Time()).result()
+
+
+def test_awaiting_is_agnostic_of_loops(buffer, stamped):
+    coroutine = buffer.lookup_transform_async("world", "robot", Time())
+    coroutine.send(None)
+    buffer.set_transform(stamped(x=6.0), "me")
+    with pytest.raises(StopIteration) as end:
+        coroutine.send(None)
+    assert end.value.value.transform.translation.x == 6.0
+
+
+def test_awaiting_in_asyncio(buffer, stamped):
+    async def program():
+        asyncio.get_running_loop().call_later(0.05, lambda: buffer.set_transform(stamped(x=7.0), "me"))
+        first = await asyncio.wait_for(buffer.lookup_transform_async("world", "robot", Time()), 10)
+        second = await buffer.lookup_transform_full_async("world", at(1), "robot", at(1), "world")
+        return first, second
+
+    first, second = asyncio.run(program())
+    assert first == second
+    assert first.transform.translation.x == 7.0
+
+
+def test_awaiting_in_a_callback_leaves_the_executor_free(context, make_node, stamped):
+    node = make_node()
+    buffer = Buffer()
+    TransformListener(buffer, node)
+    broadcaster = TransformBroadcaster(node)
+    results, asked = [], []
+
+    async def wait():
+        if not asked:
+            asked.append(True)
+            results.append(await buffer.lookup_transform_async("world", "robot", Time()))
+
+    node.create_timer(0.001, wait, callback_group=ReentrantCallbackGroup())
+    node.create_timer(0.05, lambda: broadcaster.sendTransform(stamped(x=8.0)))  # only runs if the wait above does not block
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    while not results:
+        executor.spin_once(timeout_sec=10)
+    assert results[0].transform.translation.x == 8.0
+
+
+def test_a_node_offers_its_frames(context, make_node, stamped):
+    from tf2_msgs.srv import FrameGraph
+
+    node = make_node()
+    buffer = Buffer(node=node)
+    buffer.set_transform_static(stamped("world", "wall"), "me")
+    client = node.create_client(FrameGraph, "tf2_frames")
+    future = client.call_async(FrameGraph.Request())
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.spin_until_future_complete(future, timeout_sec=10)
+    assert future.result().frame_yaml == buffer.all_frames_as_yaml()
+    assert "wall:" in future.result().frame_yaml
+
+
+def test_a_jump_back_clears_what_is_not_static(make_node, stamped, capfd):
+    node = make_node()
+    buffer = Buffer(node=node)
+    clock = node.get_clock()
+    assert isinstance(clock, ROSClock)
+    clock._set_ros_time_is_active(True)
+    clock.set_ros_time_override(Time(seconds=100, clock_type=ClockType.ROS_TIME))
+    buffer.set_transform(stamped(), "me")
+    buffer.set_transform_static(stamped(child="wall"), "me")
+    clock.set_ros_time_override(Time(seconds=99.5, clock_type=ClockType.ROS_TIME))
+    assert buffer.can_transform("world", "robot", Time()) == 1
+    clock.set_ros_time_override(Time(seconds=50, clock_type=ClockType.ROS_TIME))
+    assert buffer.can_transform("world", "robot", Time()) == 0
+    assert buffer.can_transform("world", "wall", Time()) == 1
+    assert "Detected jump back in time. Clearing tf buffer." in capfd.readouterr().err
+
+
+def test_cache_time():
+    buffer = Buffer(cache_time=Duration(seconds=2))
+    assert buffer.engine.cache_time_ns == 2_000_000_000
+    assert Buffer(Duration(seconds=3)).engine.cache_time_ns == 3_000_000_000
+    assert Buffer().engine.cache_time_ns == 10_000_000_000

@@ -1,0 +1,157 @@
+"""tf2_ros.TransformListener on nodes: its arguments, its thread, its end."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+from rclpy.time import Time
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+from tf2_ros import Buffer, StaticTransformBroadcaster, StaticTransformListener, TransformBroadcaster, TransformListener
+
+LONG = Duration(seconds=10)
+
+
+def subscriptions(node, topic):
+    return [info.node_name for info in node.get_subscriptions_info_by_topic(topic)]
+
+
+def test_it_needs_no_executor(make_node, stamped):
+    buffer = Buffer()
+    TransformListener(buffer, make_node("listener"))
+    TransformBroadcaster(make_node("talker")).sendTransform(stamped(x=1.0))
+    assert buffer.lookup_transform("world", "robot", Time(), LONG).transform.translation.x == 1.0
+
+
+def test_the_graph_shows_its_subscriptions_as_the_node_s(node):
+    listener = TransformListener(Buffer(), node)
+    assert subscriptions(node, "/tf") == subscriptions(node, "/tf_static") == ["node"]
+    listener.unregister()
+    listener.unregister()
+    assert subscriptions(node, "/tf") == subscriptions(node, "/tf_static") == []
+
+
+def test_topics_follow_remappings_and_arguments(make_node, stamped):
+    remapped = make_node("remapped", cli_args=["--ros-args", "-r", "/tf:=/robot1/tf"])
+    buffer, named = Buffer(), Buffer()
+    TransformListener(buffer, remapped)
+    TransformListener(named, make_node("named"), tf_topic="/robot1/tf", tf_static_topic="/robot1/tf_static")
+    talker = make_node("talker")
+    talker.create_publisher(TFMessage, "/robot1/tf", 10).publish(TFMessage(transforms=[stamped()]))
+    for each in (buffer, named):
+        each.lookup_transform("world", "robot", Time(), LONG)
+    assert subscriptions(talker, "/robot1/tf_static") == ["named"]
+
+
+def test_qos(node):
+    TransformListener(Buffer(), node, qos=3, static_qos=QoSProfile(depth=4))
+    (dynamic,) = node.get_subscriptions_info_by_topic("/tf")
+    (static,) = node.get_subscriptions_info_by_topic("/tf_static")
+    assert dynamic.qos_profile.depth == 3
+    assert static.qos_profile.depth == 4
+
+
+def test_static_listeners(make_node, stamped):
+    buffer, other = Buffer(), Buffer()
+    node = make_node("static")
+    StaticTransformListener(buffer, node)
+    TransformListener(other, node, static_only=True)
+    assert subscriptions(node, "/tf") == []
+    StaticTransformBroadcaster(make_node("talker")).sendTransform(stamped())
+    for each in (buffer, other):
+        each.lookup_transform("world", "robot", Time(), LONG)
+
+
+def test_it_goes_on_when_nobody_keeps_it(node, stamped):
+    buffer = Buffer()
+    TransformListener(buffer, node)
+    TransformBroadcaster(node).sendTransform(stamped())
+    buffer.lookup_transform("world", "robot", Time(), LONG)
+
+
+def test_it_ends_with_its_node_and_leaves_others_alone(make_node, stamped):
+    first, second = make_node("first"), make_node("second")
+    buffers = Buffer(), Buffer()
+    for buffer, node in zip(buffers, (first, second), strict=True):
+        TransformListener(buffer, node)
+    assert subscriptions(second, "/tf") == ["first"]  # one subscription in this process, of the node that came first
+    first.destroy_node()
+    assert subscriptions(second, "/tf") == ["second"]
+    TransformBroadcaster(second).sendTransform(stamped())
+    buffers[1].lookup_transform("world", "robot", Time(), LONG)
+    assert not buffers[0]._frameExists("robot")
+
+
+def test_spin_thread_serves_the_node_s_other_callbacks(node):
+    heard = threading.Event()
+    node.create_subscription(String, "chatter", lambda _message: heard.set(), 1)
+    listener = TransformListener(Buffer(), node, spin_thread=True)
+    node.create_publisher(String, "chatter", 1).publish(String(data="hello"))
+    assert heard.wait(10)
+    thread = listener.dedicated_listener_thread
+    listener.unregister()
+    assert not thread.is_alive()
+
+
+def test_spin_thread_ends_with_the_context(context, node):
+    thread = TransformListener(Buffer(), node, spin_thread=True).dedicated_listener_thread
+    context.shutdown()
+    thread.join(10)
+    assert not thread.is_alive()
+
+
+def test_a_callback_may_unregister_the_listener_that_spins_it(node):
+    done = threading.Event()
+    listener = TransformListener(Buffer(), node, spin_thread=True)
+
+    def on_timer():
+        listener.unregister()
+        done.set()
+
+    node.create_timer(0.001, on_timer)
+    assert done.wait(10)
+    listener.dedicated_listener_thread.join(10)
+    assert not listener.dedicated_listener_thread.is_alive()
+
+
+def test_messages_from_elsewhere_can_be_handed_in(node, stamped):
+    buffer = Buffer()
+    listener = TransformListener(buffer, node)
+    listener.callback(TFMessage(transforms=[stamped(child="moves")]))
+    listener.static_callback(TFMessage(transforms=[stamped(child="stays")]))
+    assert buffer.can_transform("moves", "stays", Time())
+    assert listener.buffer is buffer
+    assert listener.node is node
+
+
+def test_no_message_is_decoded_on_the_way(make_node, stamped, monkeypatch):
+    buffer, broadcaster = Buffer(), TransformBroadcaster(make_node("talker"))
+    TransformListener(buffer, make_node("listener"))
+    monkeypatch.setattr(TFMessage, "_from_cdr", lambda *_: pytest.fail("decoded"))
+    broadcaster.sendTransform(stamped())
+    buffer.lookup_transform("world", "robot", Time(), LONG)
+
+
+def test_a_listener_without_a_node_makes_one(stamped):
+    import rclpy
+
+    with rclpy.init(args=[]):
+        buffer = Buffer()
+        listener = TransformListener(buffer, None)
+        TransformBroadcaster(listener.node).sendTransform(stamped())
+        buffer.lookup_transform("world", "robot", Time(), LONG)
+        own = listener.node
+        listener.unregister()
+        assert list(own.publishers) == []
+
+
+def test_the_executor_of_the_user_is_free_to_spin_the_node(context, node):
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    TransformListener(Buffer(), node)
+    executor.spin_once(timeout_sec=0)
