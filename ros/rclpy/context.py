@@ -63,6 +63,7 @@ class Context:
                 raise RuntimeError("Context.init() must only be called once")
             self._arguments = Arguments.parse_global(sys.argv if args is None else args)
             self._wire = open_context(domain_id)
+            _ = self._wire.graph  # discovery begins here, so that the first question about the graph finds it known
             self._valid = True
             _open_contexts.add(self)
             signals.listeners.add(self)
