@@ -208,7 +208,14 @@ class TestIngest:
 
     @pytest.mark.parametrize(
         "data",
-        [b"", b"\0\1\0\0", b"\0\3\0\0\0\0\0\0", b"\1\1\0\0\0\0\0\0", b"\0\1\0\0\xff\xff\xff\xff", b"\0\1\0\0\1\0\0\0" + b"\xff" * 80],
+        [
+            b"",
+            b"\0\1\0\0",
+            b"\0\3\0\0\0\0\0\0",
+            b"\1\1\0\0\0\0\0\0",
+            b"\0\1\0\0\xff\xff\xff\xff",
+            b"\0\1\0\0\1\0\0\0" + b"\xff" * 80,
+        ],
     )
     def test_malformed(self, buffer: turtlewire.Buffer, data: bytes) -> None:
         with pytest.raises(errors.CdrError):

@@ -1,0 +1,138 @@
+"""The surface of tf2_py: what it takes and gives back. Its answers are in test_golden.py."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import tf2_py
+from builtin_interfaces.msg import Duration as DurationMsg
+from builtin_interfaces.msg import Time as TimeMsg
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+from tf2_py import messages
+from turtlewire import errors
+
+SECOND = 1_000_000_000
+
+
+def stamped(parent: str, child: str, stamp: int, x: float = 0.0) -> TransformStamped:
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id = parent
+    message.header.stamp = TimeMsg(sec=stamp // SECOND, nanosec=stamp % SECOND)
+    message.transform.translation.x = x
+    return message
+
+
+@pytest.fixture(params=["native", "python"])
+def buffer(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> tf2_py.BufferCore:
+    if request.param == "python":
+        from turtlewire.tf import plain
+
+        monkeypatch.setattr("turtlewire.Buffer", plain.Buffer)
+        monkeypatch.setattr(messages, "CORE", "python")
+    elif messages.CORE != "native":
+        pytest.skip("the compiled core is not built here")
+    core = tf2_py.BufferCore(Duration(seconds=5))
+    for t in (1, 2):
+        core.set_transform(stamped("map", "base", t * SECOND, x=float(t)), "me")
+    core.set_transform_static(stamped("base", "camera", 0, x=0.5), "me")
+    return core
+
+
+def test_exceptions_are_those_of_the_engine() -> None:
+    for name in ("Connectivity", "Extrapolation", "InvalidArgument", "Lookup", "Timeout", "Transform"):
+        assert getattr(tf2_py, name + "Exception") is getattr(errors, name + "Exception")
+
+
+def test_lookup_returns_a_message(buffer: tf2_py.BufferCore) -> None:
+    found = buffer.lookup_transform_core(target_frame="map", source_frame="camera", time=Time(nanoseconds=SECOND + SECOND // 2))
+    expected = stamped("map", "camera", SECOND + SECOND // 2, x=2.0)
+    assert isinstance(found, TransformStamped)
+    assert found == expected
+    assert repr(found) == repr(expected)
+    assert type(found.header.stamp) is TimeMsg
+    found.transform.translation.y = 7.0  # the message is the caller's own
+    assert buffer.lookup_transform_core("map", "camera", Time(seconds=1.5)).transform.translation.y == 0.0
+
+
+def test_full_lookup(buffer: tf2_py.BufferCore) -> None:
+    found = buffer.lookup_transform_full_core("base", Time(seconds=2), "base", Time(seconds=1), "map")
+    assert (found.header.frame_id, found.child_frame_id, found.transform.translation.x) == ("base", "base", -1.0)
+    assert found.header.stamp.sec == 2
+
+
+def test_can_transform(buffer: tf2_py.BufferCore) -> None:
+    assert buffer.can_transform_core("map", "camera", Time()) == (1, "")
+    assert buffer.can_transform_core("map", "nobody", Time()) == (
+        0,
+        'Invalid frame ID "nobody" passed to canTransform argument source_frame - frame does not exist',
+    )
+    assert buffer.can_transform_full_core("base", Time(seconds=2), "base", Time(seconds=1), "map") == (1, "")
+
+
+@pytest.mark.parametrize(
+    "time", [Time(seconds=2), TimeMsg(sec=2), SimpleNamespace(sec=2, nanosec=0), SimpleNamespace(nanoseconds=2 * SECOND)]
+)
+def test_times_are_duck_typed(buffer: tf2_py.BufferCore, time: Any) -> None:
+    assert buffer.lookup_transform_core("map", "base", time).transform.translation.x == 2.0
+    assert buffer.can_transform_core("map", "base", time)[0] == 1
+
+
+@pytest.mark.parametrize("time", [2, 2.0, None, "2"])
+def test_numbers_are_no_times(buffer: tf2_py.BufferCore, time: Any) -> None:
+    with pytest.raises(TypeError, match=r"^time must have sec and nanosec, or nanoseconds\.$"):
+        buffer.lookup_transform_core("map", "base", time)
+    with pytest.raises(TypeError, match=r"^time must have sec and nanosec, or nanoseconds\.$"):
+        buffer.can_transform_core("map", "base", time)
+
+
+def test_cache_time() -> None:
+    assert tf2_py.BufferCore().engine.cache_time_ns == 10 * SECOND
+    assert tf2_py.BufferCore(DurationMsg(sec=3)).engine.cache_time_ns == 3 * SECOND
+    assert tf2_py.BufferCore(cache_time=Duration(seconds=3)).engine.cache_time_ns == 3 * SECOND  # ROS 2 ignores the keyword
+    with pytest.raises(TypeError, match="duration must have"):
+        tf2_py.BufferCore(3)  # type: ignore[arg-type]
+
+
+def test_latest_common_time(buffer: tf2_py.BufferCore) -> None:
+    assert buffer.get_latest_common_time("map", "camera") == Time(seconds=2)
+    with pytest.raises(tf2_py.LookupException, match=r'^"nobody" passed to get_latest_common_time does not exist\. $'):
+        buffer.get_latest_common_time("map", "nobody")
+
+
+def test_descriptions(buffer: tf2_py.BufferCore) -> None:
+    assert buffer.all_frames_as_string() == "Frame base exists with parent map.\nFrame camera exists with parent base.\n"
+    assert buffer.all_frames_as_yaml(1, "anything").startswith("base: \n  parent: 'map'\n  broadcaster: 'me'\n")
+    assert buffer._allFramesAsDot().startswith('digraph G {\n"map" -> "base"[label="Broadcaster: me\\nAverage rate: 2.000 Hz\\n')
+    assert "( 3.000 sec old)" in buffer._allFramesAsDot(Time(seconds=5))
+    assert buffer._frameExists("camera")
+    assert buffer._getFrameStrings() == ["base", "map", "camera"]
+    buffer.clear()
+    assert buffer.can_transform_core("base", "camera", Time())[0] == 1
+
+
+def test_refusal_is_logged(buffer: tf2_py.BufferCore, capfd: pytest.CaptureFixture[str]) -> None:
+    assert buffer.set_transform(stamped("map", "base", SECOND, x=math.nan), "me") is None  # type: ignore[func-returns-value]
+    assert 'TF_NAN_INPUT: Ignoring transform for child_frame_id "base" from authority "me"' in capfd.readouterr().err
+
+
+def test_classes_without_slots_are_refused() -> None:
+    if messages.CORE != "native":
+        pytest.skip("only the compiled core fills slots")
+    import turtlewire
+    from turtlewire import _native
+
+    class Loose:
+        header = SimpleNamespace(stamp=SimpleNamespace(), frame_id="")
+        transform = SimpleNamespace()
+        child_frame_id = ""
+
+    with pytest.raises(TypeError, match="the field 'header' is not a slot"):
+        _native.MessageLookup(turtlewire.Buffer(), Loose())
+    with pytest.raises(TypeError, match="native Buffer"):
+        _native.MessageLookup(object(), TransformStamped())  # type: ignore[arg-type]
