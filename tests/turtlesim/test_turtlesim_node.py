@@ -1,0 +1,288 @@
+"""The node as other nodes see it: topics, services, parameters and texts, in one process on the `local` middleware."""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+
+import pytest
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import Empty
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
+from turtlesim.turtlesim_node import TurtlesimNode
+
+MIDDLE = 5.544444561004639
+
+
+class World:
+    """A simulator, a node that talks to it, and what it hears."""
+
+    def __init__(self, **options) -> None:
+        self.sim = TurtlesimNode(headless=True, **options)
+        self.user = Node("user")
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.sim)
+        self.executor.add_node(self.user)
+
+    def close(self) -> None:
+        self.sim.close()
+        self.sim.destroy_node()
+        self.user.destroy_node()
+        self.executor.shutdown()
+
+    def spin_until(self, is_done, timeout: float = 20.0) -> None:
+        deadline = time.monotonic() + timeout
+        while not is_done():
+            assert time.monotonic() < deadline, "nothing happened"
+            self.executor.spin_once(timeout_sec=0.1)
+
+    def listen(self, kind, topic: str) -> list:
+        heard: list = []
+        self.user.create_subscription(kind, topic, heard.append, 100)
+        return heard
+
+    def call(self, kind, service: str, **fields):
+        client = self.user.create_client(kind, service)
+        self.spin_until(client.service_is_ready)
+        future = client.call_async(kind.Request(**fields))
+        self.spin_until(future.done)
+        self.user.destroy_client(client)
+        return future.result()
+
+    def talk(self, topic: str):
+        publisher = self.user.create_publisher(Twist, topic, 10)
+        self.spin_until(lambda: publisher.get_subscription_count() > 0)
+        return publisher
+
+
+@pytest.fixture
+def make_world(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    rclpy.init(args=[])
+    worlds = []
+
+    def make_world(**options) -> World:
+        worlds.append(World(**options))
+        return worlds[-1]
+
+    yield make_world
+    for world in worlds:
+        world.close()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def world(make_world):
+    return make_world()
+
+
+def twist(linear: float = 0.0, angular: float = 0.0, lateral: float = 0.0) -> Twist:
+    message = Twist()
+    message.linear.x, message.linear.y, message.angular.z = linear, lateral, angular
+    return message
+
+
+def lines(capfd) -> list[str]:
+    """What was logged since the last look, level and text."""
+    matches = re.findall(r"^(\[[A-Z]+\]) \[[0-9.]+\] \[[a-z0-9.]+\]: (.*)$", capfd.readouterr().err, re.MULTILINE)
+    return [f"{level} {text}" for level, text in matches]
+
+
+def test_the_graph_is_that_of_the_original(world):
+    topics = dict(world.user.get_publisher_names_and_types_by_node("turtlesim", "/"))
+    assert topics["/turtle1/pose"] == ["turtlesim/msg/Pose"]
+    assert topics["/turtle1/color_sensor"] == ["turtlesim/msg/Color"]
+    assert dict(world.user.get_subscriber_names_and_types_by_node("turtlesim", "/"))["/turtle1/cmd_vel"] == ["geometry_msgs/msg/Twist"]
+    services = dict(world.user.get_service_names_and_types_by_node("turtlesim", "/"))
+    expected = {
+        "/clear": "std_srvs/srv/Empty",
+        "/kill": "turtlesim/srv/Kill",
+        "/reset": "std_srvs/srv/Empty",
+        "/spawn": "turtlesim/srv/Spawn",
+        "/turtle1/set_pen": "turtlesim/srv/SetPen",
+        "/turtle1/teleport_absolute": "turtlesim/srv/TeleportAbsolute",
+        "/turtle1/teleport_relative": "turtlesim/srv/TeleportRelative",
+    }
+    assert {name: types[0] for name, types in services.items() if "_parameter" not in name and "type_desc" not in name} == expected
+    (info,) = world.user.get_publishers_info_by_topic("/turtle1/pose")
+    assert (info.qos_profile.depth, info.qos_profile.reliability.name, info.qos_profile.durability.name) == (7, "RELIABLE", "VOLATILE")
+
+
+def test_poses_come_at_the_original_rate(world):
+    poses = world.listen(Pose, "/turtle1/pose")
+    world.spin_until(lambda: poses)
+    start, first = time.monotonic(), len(poses)
+    world.spin_until(lambda: len(poses) >= first + 62)
+    assert time.monotonic() - start == pytest.approx(0.992, abs=0.15)
+    assert poses[0] == Pose(x=MIDDLE, y=MIDDLE, theta=0.0, linear_velocity=0.0, angular_velocity=0.0)
+
+
+def test_a_velocity_command_lasts_a_second(world):
+    poses = world.listen(Pose, "/turtle1/pose")
+    world.talk("/turtle1/cmd_vel").publish(twist(2.0))
+    world.spin_until(lambda: poses and poses[-1].linear_velocity == 2.0)
+    world.spin_until(lambda: poses[-1].linear_velocity == 0.0)
+    moving = sum(pose.linear_velocity == 2.0 for pose in poses)
+    assert moving in range(60, 65)
+    assert poses[-1].x == pytest.approx(MIDDLE + moving * 0.032, abs=1e-5)
+
+
+def test_what_is_not_finite_is_ignored_with_one_line(world, capfd):
+    poses = world.listen(Pose, "/turtle1/pose")
+    cmd_vel = world.talk("/turtle1/cmd_vel")
+    capfd.readouterr()
+    cmd_vel.publish(twist(math.nan))
+    cmd_vel.publish(twist(angular=math.inf))
+    cmd_vel.publish(twist(1e300))
+    world.call(TeleportAbsolute, "/turtle1/teleport_absolute", x=math.nan)
+    assert world.call(Spawn, "/spawn", x=math.inf).name == ""
+    seen = len(poses)
+    world.spin_until(lambda: len(poses) > seen + 3)
+    assert (poses[-1].x, poses[-1].theta, poses[-1].linear_velocity) == (MIDDLE, 0.0, 0.0)
+    logged = sorted(lines(capfd), reverse=True)
+    assert [line[:7] for line in logged] == ["[WARN] "] * 3 + ["[ERROR]"] * 2
+    assert logged[0] == "[WARN] Ignored a velocity command for [turtle1] that is not finite: x=nan, y=0.0, angular z=0.0"
+
+
+def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
+    world = make_world()
+    assert lines(capfd) == [
+        "[INFO] Starting turtlesim with node name /turtlesim",
+        "[INFO] Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
+    ]
+    assert world.call(Spawn, "/spawn", x=4.0, y=2.0, theta=0.5, name="turtle2").name == "turtle2"
+    assert world.call(Spawn, "/spawn", x=1.0, y=2.0).name == "turtle3"
+    assert world.call(Spawn, "/spawn", name="turtle2").name == ""
+    assert world.call(Spawn, "/spawn", name="no good").name == ""
+    assert sorted(world.sim.world.turtles) == ["turtle1", "turtle2", "turtle3"]
+    world.call(Kill, "/kill", name="turtle2")
+    world.call(Kill, "/kill", name="turtle2")
+    world.call(Empty, "/clear")
+    world.call(Empty, "/reset")
+    logged = lines(capfd)
+    assert logged[:3] == [
+        "[INFO] Spawning turtle [turtle2] at x=[4.000000], y=[2.000000], theta=[0.500000]",
+        "[INFO] Spawning turtle [turtle3] at x=[1.000000], y=[2.000000], theta=[0.000000]",
+        "[ERROR] A turtle named [turtle2] already exists",
+    ]
+    assert logged[3].startswith("[ERROR] Cannot name a turtle [no good]: ")
+    assert logged[-4:] == [
+        "[ERROR] Tried to kill turtle [turtle2], which does not exist",
+        "[INFO] Clearing turtlesim.",
+        "[INFO] Resetting turtlesim.",
+        "[INFO] Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
+    ]
+    assert {name for name, _ in world.user.get_topic_names_and_types() if "turtle" in name} == {
+        "/turtle1/cmd_vel",
+        "/turtle1/color_sensor",
+        "/turtle1/pose",
+    }
+
+
+def test_teleports_draw_and_the_colour_sensor_sees_it(world):
+    colours = world.listen(Color, "/turtle1/color_sensor")
+    poses = world.listen(Pose, "/turtle1/pose")
+    world.spin_until(lambda: colours)
+    assert colours[0] == Color(r=255, g=255, b=255)
+    world.call(SetPen, "/turtle1/set_pen", r=10, g=20, b=30, width=5, off=0)
+    world.call(TeleportAbsolute, "/turtle1/teleport_absolute", x=2.0, y=3.0, theta=1.5)
+    world.spin_until(lambda: colours[-1] == Color(r=10, g=20, b=30))
+    world.call(TeleportRelative, "/turtle1/teleport_relative", linear=1.0, angular=-1.5)
+    world.spin_until(lambda: poses[-1].x == 3.0)
+    assert (poses[-1].y, poses[-1].theta) == (3.0, 0.0)
+    world.call(Empty, "/clear")
+    world.spin_until(lambda: colours[-1] == Color(r=255, g=255, b=255))
+    world.call(SetPen, "/turtle1/set_pen", off=1)
+    world.call(TeleportAbsolute, "/turtle1/teleport_absolute", x=5.0, y=5.0)
+    seen = len(colours)
+    world.spin_until(lambda: len(colours) > seen + 3)
+    assert colours[-1] == Color(r=255, g=255, b=255)
+
+
+def test_walls_warn_with_the_original_text(world, capfd):
+    capfd.readouterr()
+    world.talk("/turtle1/cmd_vel").publish(twist(1000.0))
+    logged: list[str] = []
+
+    def has_warned() -> bool:
+        logged.extend(lines(capfd))
+        return bool(logged)
+
+    world.spin_until(has_warned)
+    assert logged[0] == "[WARN] Oh no! I hit the wall! (Clamping from [x=21.544445, y=5.544445])"
+
+
+def test_sideways_only_when_holonomic(world):
+    poses = world.listen(Pose, "/turtle1/pose")
+    cmd_vel = world.talk("/turtle1/cmd_vel")
+    cmd_vel.publish(twist(lateral=1.0))
+    world.spin_until(lambda: len(poses) > 3)
+    assert poses[-1].y == MIDDLE
+    world.sim.set_parameters([Parameter("holonomic", value=True)])
+    cmd_vel.publish(twist(lateral=1.0))
+    world.spin_until(lambda: poses[-1].y > MIDDLE)
+    assert (poses[-1].x, poses[-1].linear_velocity) == (MIDDLE, 1.0)
+
+
+def test_parameters_have_the_original_defaults_and_ranges(world):
+    sim = world.sim
+    assert [sim.get_parameter(f"background_{channel}").value for channel in "rgb"] == [69, 86, 255]
+    assert sim.get_parameter("holonomic").value is False
+    descriptor = sim.describe_parameter("background_g")
+    assert descriptor.description == "Green channel of the background color"
+    assert [(r.from_value, r.to_value, r.step) for r in descriptor.integer_range] == [(0, 255, 1)]
+    (result,) = sim.set_parameters([Parameter("background_r", value=256)])
+    assert not result.successful
+
+
+def test_names_are_relative_to_the_namespace(make_world):
+    world = make_world(namespace="/turtlesim1")
+    poses = world.listen(Pose, "/turtlesim1/turtle1/pose")
+    world.spin_until(lambda: poses)
+    assert world.call(Spawn, "/turtlesim1/spawn").name == "turtle2"
+
+
+def test_turtles_are_stepped_in_the_order_of_their_names(world):
+    """A turtle's stroke is under the sensor of a later one in the same tick, as in the original."""
+    world.call(Spawn, "/spawn", x=2.0, y=2.0, name="b")
+    world.call(Spawn, "/spawn", x=2.0, y=2.0, name="a")
+    assert [tick.turtle.name for tick in world.sim.world.step(0)] == ["a", "b", "turtle1"]
+
+
+class TestMissingTurtles:
+    def test_a_wanted_turtle_is_named_once_with_the_command(self, make_world, capfd):
+        world = make_world()
+        capfd.readouterr()
+        world.listen(Pose, "/turtle2/pose")
+        world.user.create_publisher(Twist, "/turtle2/cmd_vel", 1)
+        world.spin_until(lambda: world.sim._missing.names)
+        assert world.sim._missing.names == ("turtle2",)
+        (hint,) = lines(capfd)
+        assert hint == (
+            "[INFO] Somebody waits for turtle2, and there is no turtle of that name. To add it, type: "
+            "ros2 service call /spawn turtlesim/srv/Spawn \"{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}\""
+        )
+        world.call(Spawn, "/spawn", x=4.0, y=2.0, name="turtle2")
+        assert world.sim._missing.names == ()
+        world.call(Kill, "/kill", name="turtle2")
+        world.spin_until(lambda: world.sim._missing.names)
+        assert not any("Somebody" in line for line in lines(capfd))
+
+    def test_what_is_not_a_turtle_is_left_alone(self, world):
+        from turtlesim.missing_turtles import find_missing
+
+        world.user.create_publisher(Twist, "/robot/cmd_vel", 1)
+        world.user.create_subscription(Pose, "/elsewhere/turtle7/pose", print, 1)
+        world.user.create_subscription(Twist, "/turtle8/pose", print, 1)
+        world.user.create_publisher(Twist, "/turtle9/cmd_vel", 1)
+        endpoints = world.sim.context.wire.graph.endpoints()
+        assert find_missing(endpoints, "/", ["turtle1"]) == ("turtle9",)
+        assert find_missing(endpoints, "/elsewhere", []) == ("turtle7",)
+        assert find_missing(endpoints, "/", ["turtle9", "turtle1"]) == ()
