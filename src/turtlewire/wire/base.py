@@ -335,6 +335,10 @@ class Graph(ABC):
         """
 
     @abstractmethod
+    def is_complete(self) -> bool:
+        """Whether all that the known participants announced has arrived; of participants that are not known yet it says nothing."""
+
+    @abstractmethod
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
         """Call ``on_change`` on the context's reader thread after changes; returns a function that ends it."""
 

@@ -182,6 +182,10 @@ class GraphView(Graph):
                     break
         return predicate()
 
+    def is_complete(self) -> bool:
+        """See :meth:`Graph.is_complete`; nothing is under way where nothing has to be discovered."""
+        return True
+
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
         """See :meth:`Graph.add_listener`."""
         with self._change:

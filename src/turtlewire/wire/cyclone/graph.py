@@ -144,6 +144,13 @@ class CycloneGraph(GraphView):
             for node in nodes
         ]
 
+    def is_complete(self) -> bool:
+        """See :meth:`Graph.is_complete`: each ROS participant has announced its nodes, and each endpoint of theirs is known."""
+        with self._lock:
+            others = {gid for gid, enclave in self._enclaves.items() if enclave} - {self._participant_gid}
+            gids = (gid for nodes in self._announced.values() for node in nodes for gid in (*node.readers, *node.writers))
+            return others <= self._announced.keys() and all(gid in self._endpoints for gid in gids)
+
     def nodes(self) -> list[NodeInfo]:
         """See :meth:`Graph.nodes`."""
         with self._lock:
