@@ -51,13 +51,14 @@ def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
 
 
 def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
-    findings = (
-        _open("reliability", publisher.reliability, subscription.reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE),
-        _open("durabilty", publisher.durability, subscription.durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL),
-        _open(
-            "liveliness", publisher.liveliness, subscription.liveliness, LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC
-        ),
-    )
+    reliability, durability = (publisher.reliability, subscription.reliability), (publisher.durability, subscription.durability)
+    liveliness = (publisher.liveliness, subscription.liveliness)
+    findings = [
+        _open("reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE),
+        _open("durabilty", *durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL),
+    ]
+    if not all(map(_is_open, liveliness)):  # both are open in every preset, and then the middleware settles on the same
+        findings.append(_open("liveliness", *liveliness, LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC))
     return [finding for finding in findings if finding]
 
 

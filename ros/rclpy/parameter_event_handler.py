@@ -1,0 +1,124 @@
+"""Tells of changes of parameters, of all nodes or of one parameter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire import names
+
+from .qos import QoSProfile, qos_profile_parameter_events
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import rcl_interfaces.msg
+    from rcl_interfaces.msg import ParameterEvent
+
+    from .node import Node
+
+__all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "ParameterEventHandler"]
+
+
+class ParameterCallbackHandle:
+    """A callback for one parameter; :meth:`ParameterEventHandler.remove_parameter_callback` takes it."""
+
+    def __init__(self, parameter_name: str, node_name: str, callback: Callable[[rcl_interfaces.msg.Parameter], None]) -> None:
+        self.parameter_name = parameter_name
+        self.node_name = node_name
+        self.callback = callback
+
+
+class ParameterEventCallbackHandle:
+    """A callback for all events; :meth:`ParameterEventHandler.remove_parameter_event_callback` takes it."""
+
+    def __init__(self, callback: Callable[[ParameterEvent], None]) -> None:
+        self.callback = callback
+
+
+class ParameterEventHandler:
+    """Listens to ``/parameter_events``. The newest callback is called first, on the executor of ``node``.
+
+    Args:
+        node: The node that subscribes.
+        qos_profile: Of the subscription.
+    """
+
+    def __init__(self, node: Node, qos_profile: QoSProfile = qos_profile_parameter_events) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
+        self.node = node
+        self.qos_profile = qos_profile
+        self._parameter_callbacks: list[ParameterCallbackHandle] = []
+        self._event_callbacks: list[ParameterEventCallbackHandle] = []
+        self.parameter_event_subscription = node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile)
+
+    def destroy(self) -> None:
+        """Listen no longer."""
+        self.node.destroy_subscription(self.parameter_event_subscription)
+
+    @staticmethod
+    def get_parameter_from_event(event: ParameterEvent, parameter_name: str, node_name: str) -> rcl_interfaces.msg.Parameter | None:
+        """The new or changed parameter of that name, if the event has it."""
+        if event.node != node_name:
+            return None
+        found = [each for each in ParameterEventHandler.get_parameters_from_event(event) if each.name == parameter_name]
+        return found[0] if found else None
+
+    @staticmethod
+    def get_parameters_from_event(event: ParameterEvent) -> Iterable[rcl_interfaces.msg.Parameter]:
+        """All new and changed parameters of an event."""
+        yield from event.new_parameters
+        yield from event.changed_parameters
+
+    def add_parameter_event_callback(self, callback: Callable[[ParameterEvent], None]) -> ParameterEventCallbackHandle:
+        """Call ``callback(event)`` for every event of every node."""
+        handle = ParameterEventCallbackHandle(callback)
+        self._event_callbacks.insert(0, handle)
+        return handle
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """Undo :meth:`add_parameter_event_callback`.
+
+        Raises:
+            RuntimeError: It was removed before.
+        """
+        if handle not in self._event_callbacks:
+            raise RuntimeError("Callback doesn't exist")
+        self._event_callbacks.remove(handle)
+
+    def add_parameter_callback(
+        self, parameter_name: str, node_name: str, callback: Callable[[rcl_interfaces.msg.Parameter], None]
+    ) -> ParameterCallbackHandle:
+        """Call ``callback(parameter)`` when a parameter is declared or changed.
+
+        Args:
+            parameter_name: Its name.
+            node_name: Node that has it: fully qualified, relative to the own namespace, or empty for the own node.
+            callback: Gets the message of the parameter.
+        """
+        handle = ParameterCallbackHandle(parameter_name, self._resolve(node_name), callback)
+        self._parameter_callbacks.insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """Undo :meth:`add_parameter_callback`.
+
+        Raises:
+            RuntimeError: It was removed before.
+        """
+        if handle not in self._parameter_callbacks:
+            raise RuntimeError("Callback doesn't exist")
+        self._parameter_callbacks.remove(handle)
+
+    def _resolve(self, node_name: str) -> str:
+        if not node_name:
+            return self.node.get_fully_qualified_name()
+        return node_name if node_name.startswith("/") else names.fully_qualified_node_name(node_name, self.node.get_namespace())
+
+    def _on_event(self, event: ParameterEvent) -> None:
+        for handle in list(self._parameter_callbacks):
+            parameter = self.get_parameter_from_event(event, handle.parameter_name, handle.node_name)
+            if parameter is not None:
+                handle.callback(parameter)
+        for each in list(self._event_callbacks):
+            each.callback(event)

@@ -1,0 +1,160 @@
+from __future__ import annotations
+
+import pytest
+from rclpy.duration import Duration, Infinite
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    InvalidQoSProfileException,
+    LivelinessPolicy,
+    QoSCompatibility,
+    QoSPolicyKind,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+    qos_policy_name_from_kind,
+    qos_profile_best_available,
+    qos_profile_system_default,
+)
+
+from turtlewire.wire import qos as wire_qos
+
+S, R, B = ReliabilityPolicy.SYSTEM_DEFAULT, ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+
+
+def profile(**changes):
+    return QoSProfile(**{"depth": 10, **changes})
+
+
+def test_an_int_depth_alone_is_the_default_profile():
+    made = QoSProfile(depth=10)
+    assert made == QoSPresetProfiles.DEFAULT.value
+    assert (made.history, made.reliability, made.durability) == (HistoryPolicy.KEEP_LAST, R, DurabilityPolicy.VOLATILE)
+    assert made.to_wire() == wire_qos.QoS()
+
+
+@pytest.mark.parametrize(
+    ("preset", "history", "depth", "reliability", "durability"),
+    [
+        ("default", "KEEP_LAST", 10, "RELIABLE", "VOLATILE"),
+        ("sensor_data", "KEEP_LAST", 5, "BEST_EFFORT", "VOLATILE"),
+        ("services_default", "KEEP_LAST", 10, "RELIABLE", "VOLATILE"),
+        ("parameters", "KEEP_LAST", 1000, "RELIABLE", "VOLATILE"),
+        ("parameter_events", "KEEP_LAST", 1000, "RELIABLE", "VOLATILE"),
+        ("system_default", "SYSTEM_DEFAULT", 0, "SYSTEM_DEFAULT", "SYSTEM_DEFAULT"),
+        ("best_available", "KEEP_LAST", 10, "BEST_AVAILABLE", "BEST_AVAILABLE"),
+        ("action_status_default", "KEEP_LAST", 1, "RELIABLE", "TRANSIENT_LOCAL"),
+        ("unknown", "UNKNOWN", 0, "UNKNOWN", "UNKNOWN"),
+    ],
+)
+def test_presets(preset, history, depth, reliability, durability):
+    made = QoSPresetProfiles.get_from_short_key(preset)
+    assert (made.history.name, made.depth, made.reliability.name, made.durability.name) == (history, depth, reliability, durability)
+    assert preset in QoSPresetProfiles.short_keys()
+    assert QoSProfile.from_wire(made.to_wire()) == made
+
+
+def test_short_keys():
+    assert HistoryPolicy.short_keys() == ["system_default", "keep_last", "keep_all", "unknown"]
+    assert ReliabilityPolicy.get_from_short_key("best_effort") == ReliabilityPolicy.BEST_EFFORT
+    assert DurabilityPolicy.TRANSIENT_LOCAL.short_key == "transient_local"
+    assert LivelinessPolicy.MANUAL_BY_TOPIC == 3
+    assert qos_policy_name_from_kind(QoSPolicyKind.RELIABILITY) == qos_policy_name_from_kind(16) == "RELIABILITY"
+
+
+def test_durations_and_numbers_reach_the_wire():
+    made = profile(
+        deadline=Duration(seconds=1), lifespan=Duration(seconds=2), liveliness_lease_duration=Infinite, avoid_ros_namespace_conventions=True
+    )
+    wire = made.to_wire()
+    assert (wire.deadline_ns, wire.lifespan_ns, wire.liveliness_lease_ns) == (10**9, 2 * 10**9, wire_qos.INFINITE_NS)
+    assert wire.avoid_ros_namespace_conventions
+    assert qos_profile_best_available.to_wire().reliability is wire_qos.Reliability.BEST_AVAILABLE
+
+
+def test_incomplete_profiles():
+    with pytest.raises(InvalidQoSProfileException) as caught:
+        QoSProfile(reliability=R)
+    assert caught.value.args == ("Invalid QoSProfile", "History and/or depth settings are required.")
+    with pytest.raises(InvalidQoSProfileException) as caught:
+        QoSProfile(history=HistoryPolicy.KEEP_LAST)
+    assert caught.value.args == ("Invalid QoSProfile", "History set to KEEP_LAST without a depth setting.")
+    assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
+
+
+def test_wrong_values():
+    with pytest.raises(ValueError, match="^history depth must be greater than or equal to zero$"):
+        QoSProfile(depth=-1)
+    with pytest.raises(AssertionError):
+        QoSProfile(depth="10")
+    with pytest.raises(AssertionError):
+        QoSProfile(depth=1, relibility=R)
+    with pytest.raises(ValueError):
+        QoSProfile(depth=1, reliability=99)
+    with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"):
+        QoSProfile(depth=0)
+
+
+def test_text():
+    text = "lifespan=0 nanoseconds, deadline=0 nanoseconds, liveliness=0, liveliness_lease_duration=0 nanoseconds"
+    assert str(QoSProfile(depth=10)) == (
+        f"QoSProfile(history=1, depth=10, reliability=1, durability=2, {text}, avoid_ros_namespace_conventions=False)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("publisher", "subscription", "level", "reason"),
+    [
+        ({}, {}, "OK", ""),
+        ({}, {"reliability": B}, "OK", ""),
+        ({"durability": DurabilityPolicy.TRANSIENT_LOCAL}, {}, "OK", ""),
+        ({"deadline": Duration(seconds=1)}, {"deadline": Duration(seconds=2)}, "OK", ""),
+        ({"reliability": B}, {}, "ERROR", "ERROR: Best effort publisher and reliable subscription;"),
+        (
+            {},
+            {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
+            "ERROR",
+            "ERROR: Volatile publisher and transient local subscription;",
+        ),
+        ({}, {"deadline": Duration(seconds=1)}, "ERROR", "ERROR: Subscription has a deadline, but publisher does not;"),
+        ({"deadline": Infinite}, {"deadline": Infinite}, "OK", ""),
+        (
+            {"deadline": Duration(seconds=2)},
+            {"deadline": Duration(seconds=1)},
+            "ERROR",
+            "ERROR: Subscription deadline is less than publisher deadline;",
+        ),
+        (
+            {"liveliness": LivelinessPolicy.AUTOMATIC},
+            {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC},
+            "ERROR",
+            "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;",
+        ),
+        (
+            {},
+            {"liveliness_lease_duration": Duration(seconds=1)},
+            "ERROR",
+            "ERROR: Subscription has a liveliness lease duration, but publisher does not;",
+        ),
+        (
+            {"reliability": B},
+            {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
+            "ERROR",
+            "ERROR: Best effort publisher and reliable subscription;ERROR: Volatile publisher and transient local subscription;",
+        ),
+        ({"reliability": S}, {}, "WARNING", "WARNING: Reliable subscription, but publisher is system default;"),
+        ({"reliability": B}, {"reliability": S}, "WARNING", "WARNING: Best effort publisher, but subscription is system default;"),
+        ({"reliability": S}, {"reliability": B}, "OK", ""),
+    ],
+)
+def test_compatibility(publisher, subscription, level, reason):
+    answer = qos_check_compatible(profile(**publisher), profile(**subscription))
+    assert answer == (QoSCompatibility[level], reason)
+    assert answer.compatibility is QoSCompatibility[level]
+
+
+def test_two_system_defaults_are_left_open():
+    level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
+    assert level is QoSCompatibility.WARNING
+    assert reason.startswith("WARNING: Publisher reliability is system default and subscription reliability is system default;")
