@@ -65,11 +65,12 @@ class TurtlesimNode(Node):
             self._open_screen()
         self.create_timer(TICK_NS / 1e9, self._on_tick)
 
-    def close(self) -> None:
-        """Stop watching the graph and serving the page."""
+    def destroy_node(self) -> None:
+        """Leave the graph, and stop serving the page."""
         self._missing.close()
         if self._screen is not None:
             self._screen.close()
+        super().destroy_node()
 
     def _declare_parameters(self) -> None:
         for channel, (name, default) in _BACKGROUND.items():
@@ -241,14 +242,12 @@ class TurtlesimNode(Node):
 def main(args: list[str] | None = None) -> None:
     """Run the simulator until Ctrl-C. ``--headless`` does without the page."""
     rclpy.init(args=args)
-    node = TurtlesimNode(headless="--headless" in (sys.argv if args is None else args))
     try:
-        rclpy.spin(node)
+        with TurtlesimNode(headless="--headless" in (sys.argv if args is None else args)) as node:
+            rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        node.close()
-        node.destroy_node()
         rclpy.try_shutdown()
 
 

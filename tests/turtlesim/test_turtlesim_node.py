@@ -32,7 +32,6 @@ class World:
         self.executor.add_node(self.user)
 
     def close(self) -> None:
-        self.sim.close()
         self.sim.destroy_node()
         self.user.destroy_node()
         self.executor.shutdown()

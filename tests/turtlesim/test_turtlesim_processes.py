@@ -1,0 +1,226 @@
+"""The programs as processes of their own over DDS: the simulator with its page, and teleop on a pseudo-terminal."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import termios
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from websockets.sync.client import connect
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from turtlesim.msg import Pose
+
+TELEOP = json.loads((Path(__file__).parent.parent / "golden" / "tutorial" / "teleop.json").read_text())
+LINE = re.compile(r"\[(INFO|WARN|ERROR)\] \[\d+\.\d{9}\] \[[a-z0-9_.]+\]: (.*)")
+
+
+class Process:
+    """A program of ours, with what it printed."""
+
+    def __init__(self, module: str, *args: str, stdin: int = subprocess.DEVNULL, **env: str) -> None:
+        self.popen = subprocess.Popen(
+            [sys.executable, "-m", module, *args],
+            stdin=stdin,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env={**os.environ, "TURTLEWIRE_BROWSER": "0", "TURTLEWIRE_PORT": "0", **env},
+        )
+        self.output = ""
+        self._more = threading.Condition()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self) -> None:
+        for line in self.popen.stdout:
+            with self._more:
+                self.output += line
+                self._more.notify_all()
+        with self._more:
+            self._more.notify_all()
+
+    def wait_for(self, pattern: str) -> re.Match:
+        with self._more:
+            assert self._more.wait_for(lambda: re.search(pattern, self.output), 30), self.output
+        return re.search(pattern, self.output)
+
+    def interrupt(self) -> int:
+        """Ctrl-C; the exit code."""
+        self.popen.send_signal(signal.SIGINT)
+        return self.join()
+
+    def join(self) -> int:
+        try:
+            return self.popen.wait(20)
+        finally:
+            self.popen.kill()
+            self._reader.join()
+            self.popen.stdout.close()
+
+
+class Ear:
+    """A node that listens, spun by the test."""
+
+    def __init__(self) -> None:
+        rclpy.init(args=[])
+        self.node = Node("ear")
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self.node)
+
+    def listen(self, kind, topic: str) -> list:
+        heard: list = []
+        self.node.create_subscription(kind, topic, heard.append, 100)
+        return heard
+
+    def spin_until(self, is_done) -> None:
+        deadline = time.monotonic() + 30
+        while not is_done():
+            assert time.monotonic() < deadline, "nothing happened"
+            self._executor.spin_once(timeout_sec=0.1)
+
+    def close(self) -> None:
+        self.node.destroy_node()
+        self._executor.shutdown()
+        rclpy.try_shutdown()
+
+
+@pytest.fixture
+def ear():
+    ear = Ear()
+    yield ear
+    ear.close()
+
+
+def test_ctrl_c_ends_the_simulator_cleanly_and_soon():
+    simulator = Process("turtlesim.turtlesim_node", "--headless")
+    simulator.wait_for("Spawning turtle")
+    start = time.monotonic()
+    assert simulator.interrupt() == 0
+    assert time.monotonic() - start < 2
+    assert [LINE.fullmatch(line).groups() for line in simulator.output.splitlines()] == [
+        ("INFO", "Starting turtlesim with node name /turtlesim"),
+        ("INFO", "Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]"),
+    ]
+
+
+def test_ctrl_c_ends_it_with_a_browser_open_too():
+    simulator = Process("turtlesim.turtlesim_node", "--ros-args", "-r", "__node:=sim")
+    url = simulator.wait_for(r"The field is shown at (http://127\.0\.0\.1:\d+/)")[1]
+    with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
+        assert json.loads(browser.recv(timeout=10))["node"] == "/sim"
+        start = time.monotonic()
+        assert simulator.interrupt() == 0
+        assert time.monotonic() - start < 2
+    assert "Traceback" not in simulator.output
+
+
+def test_sigterm_ends_it_too():
+    simulator = Process("turtlesim.turtlesim_node")
+    simulator.wait_for("The field is shown")
+    simulator.popen.terminate()
+    assert simulator.join() == 0
+    assert "Traceback" not in simulator.output
+
+
+def test_the_page_drives_the_turtle_on_its_topic(ear):
+    simulator = Process("turtlesim.turtlesim_node")
+    try:
+        url = simulator.wait_for(r"The field is shown at (http://127\.0\.0\.1:\d+/)")[1]
+        poses = ear.listen(Pose, "/turtle1/pose")
+        commands = ear.listen(Twist, "/turtle1/cmd_vel")
+        ear.spin_until(lambda: poses)
+        with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
+            for _ in range(2):
+                browser.send('{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}')
+                ear.spin_until(lambda: poses[-1].linear_velocity == 2.0)
+                ear.spin_until(lambda: poses[-1].linear_velocity == 0.0)
+        assert poses[-1].x == pytest.approx(5.544445 + 4.0, abs=0.1)
+        assert [command.linear.x for command in commands][-1] == 2.0  # the first may be older than the match with this node
+    finally:
+        assert simulator.interrupt() == 0
+
+
+class Terminal:
+    """A pseudo-terminal with teleop on it."""
+
+    def __init__(self) -> None:
+        self.master, slave = pty.openpty()
+        self.before = termios.tcgetattr(self.master)
+        code = "import sys; from turtlesim.turtle_teleop_key import main; sys.exit(main())"
+        self.popen = subprocess.Popen([sys.executable, "-c", code], stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
+        self._slave = slave
+        self.output = ""
+
+    def read_until(self, text: str) -> None:
+        while text not in self.output:
+            self.output += os.read(self.master, 1024).decode("latin-1")
+
+    def close(self) -> None:
+        self.popen.kill()
+        self.popen.wait()
+        os.close(self.master)
+        os.close(self._slave)
+
+
+@pytest.fixture
+def terminal():
+    terminal = Terminal()
+    yield terminal
+    terminal.close()
+
+
+def test_teleop_sends_what_the_original_sent(ear, terminal):
+    commands = ear.listen(Twist, "/turtle1/cmd_vel")
+    banner, *events = TELEOP["events"]
+    terminal.read_until("to quit.\r\n")
+    assert terminal.output == banner["output"]
+    assert termios.tcgetattr(terminal.master)[3] & (termios.ICANON | termios.ECHO) == 0
+    ear.spin_until(lambda: ear.node.count_publishers("/turtle1/cmd_vel"))
+    ear.spin_until(lambda: any(info.node_name == "teleop_turtle" for info in ear.node.get_publishers_info_by_topic("/turtle1/cmd_vel")))
+    for event in events:
+        os.write(terminal.master, bytes.fromhex(event["sent"]))
+        wanted = len(commands) + len(event["cmd_vel"])
+        ear.spin_until(lambda wanted=wanted: len(commands) >= wanted)
+    assert terminal.popen.wait(20) == TELEOP["exit_code_after_q"] == 0
+    got = [[m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z] for m in commands]
+    expected = [command for event in events for command in event["cmd_vel"]]
+    assert (len(events), len(expected)) == (17, 5)
+    assert got == expected
+    assert termios.tcgetattr(terminal.master) == terminal.before
+
+
+@pytest.mark.parametrize(("end", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 0)])
+def test_the_terminal_is_put_back_after_a_signal(terminal, end, code):
+    terminal.read_until("to quit.\r\n")
+    terminal.popen.send_signal(end)
+    assert terminal.popen.wait(20) == code
+    assert termios.tcgetattr(terminal.master) == terminal.before
+    assert "Traceback" not in terminal.output
+
+
+def test_teleop_without_a_terminal_says_so():
+    teleop = Process("turtlesim.turtle_teleop_key")
+    assert teleop.join() == 1
+    assert teleop.output.splitlines()[0] == "Failed to get old console mode"
+    assert "terminal" in teleop.output.splitlines()[1]
+
+
+def test_teleop_ends_when_its_terminal_closes():
+    terminal = Terminal()
+    terminal.read_until("to quit.\r\n")
+    os.close(terminal._slave)
+    os.close(terminal.master)
+    assert terminal.popen.wait(20) == 0
