@@ -7,7 +7,6 @@ bulk are properties over their slot, because assigning a list to them converts i
 from __future__ import annotations
 
 import os
-from keyword import iskeyword
 from threading import RLock
 from typing import TYPE_CHECKING, Any, cast
 
@@ -50,7 +49,7 @@ class Message:
         return f"{package}.{kind}.{name}({arguments})"
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, self.__class__):
+        if getattr(other, "_TYPE_NAME", None) != self._TYPE_NAME:
             return False
         for field in self._DEFINITION.fields:
             equal = getattr(self, field.name) == getattr(other, field.name)
@@ -234,8 +233,6 @@ def _make_constructor(definition: MessageDefinition) -> Any:
     parameters = ["_self"]
     body = []
     for index, field in enumerate(definition.fields):
-        if iskeyword(field.name):
-            raise InterfaceError(f"{definition.full_name}: the field name '{field.name}' is a keyword of Python")
         fresh = _fresh_default(field, index, environment)
         if index == 0:
             parameters.append("*")

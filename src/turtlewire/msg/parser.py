@@ -6,6 +6,7 @@ actions, ``#`` starts a comment (not within quotes).
 
 from __future__ import annotations
 
+from keyword import iskeyword
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import InterfaceError
@@ -136,6 +137,8 @@ def _parse_statement(package: str, statement: str, fields: list[Field], constant
         return
     if not _is_identifier(name):
         raise ValueError(f"'{name}' is not a valid field name (lower case, digits, single underscores, a letter first)")
+    if iskeyword(name):
+        raise ValueError(f"'{name}' is a keyword of Python, and so cannot be a field name")
     fields.append(Field(name, type_, _parse_value(type_, value_text) if value_text else None))
 
 

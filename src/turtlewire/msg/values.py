@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["converter", "element_code", "scalar_default", "to_array", "to_numpy"]
 
+_LETTERS = ("bhilq", "BHILQ", "f", "d")  # NumPy's 64-bit integers have the letters l and L where array.array has q and Q
 _NUMPY_NAMES = {"float": "float32", "double": "float64"}
 
 
@@ -66,7 +67,7 @@ def converter(type_: AbstractType) -> Callable[[Any], Any] | None:
 
 
 def to_array(code: str, value: Iterable[Any]) -> array[Any]:
-    """Make an ``array.array`` of a sequence of numbers; one of the right letter is kept, buffers of the right layout are copied whole."""
+    """Make an ``array.array`` of numbers; one of the right letter is kept, buffers (any shape, row by row) are copied whole."""
     if type(value) is array and value.typecode == code:
         return value
     if isinstance(value, (list, tuple)):
@@ -76,10 +77,11 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
     except TypeError:
         return array(code, value)
     result = array(code)
-    if view.format in (code, f"<{code}") and view.itemsize == result.itemsize and view.c_contiguous:
-        result.frombytes(view.cast("B"))
+    same_kind = any(code in letters and view.format in letters for letters in _LETTERS)
+    if same_kind and view.itemsize == result.itemsize:
+        result.frombytes(view.cast("B") if view.c_contiguous else view.tobytes())
     else:
-        result.extend(view.tolist())
+        result.extend(value.ravel().tolist() if hasattr(value, "ravel") else view.tolist())
     return result
 
 

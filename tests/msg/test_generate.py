@@ -1,0 +1,166 @@
+"""A user's own interface package becomes Python modules: no compiler, no import hook."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from turtlewire.errors import InterfaceError
+from turtlewire.msg import registry
+from turtlewire.msg.generate import generate_package
+
+FILES = {
+    "package.xml": "<package format='3'><name>my_interfaces</name></package>",
+    "msg/Sphere.msg": "geometry_msgs/Point center\nfloat64 radius 1.5\n",
+    "msg/Everything.msg": """
+        # every primitive type, and what can be made of them
+        int32 LIMIT=12
+        string NAME="every # thing"
+        bool yes true
+        byte raw 7
+        char letter
+        int8 a
+        uint8 b
+        int16 c
+        uint16 d
+        int32 e
+        uint32 f
+        int64 g
+        uint64 h
+        float32 i
+        float64 j
+        string text "hello"
+        wstring wide
+        string<=5 short
+        wstring<=5 wide_short
+        Sphere[2] pair
+        Sphere[] many
+        Sphere[<=3] few
+        float64[] numbers [1.0, 2.0]
+        uint8[<=4] few_numbers
+        int16[3] three [1, 2, 3]
+        string<=4[<=2] names
+        bool[2] flags
+        byte[] blob
+        string[2] words ["a", "b"]
+        """,
+    "srv/AddSphere.srv": "Sphere sphere\n---\nbool success\n",
+    "action/Roll.action": "float32 distance\n---\nSphere where\n---\nfloat32 left\n",
+}
+
+
+@pytest.fixture
+def source(tmp_path, monkeypatch):
+    monkeypatch.setattr(registry, "_registered", {})
+    folder = tmp_path / "src" / "some_folder"
+    for name, text in FILES.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder
+
+
+@pytest.fixture
+def generated(source, tmp_path):
+    """The folder to put on PYTHONPATH, made by the command line."""
+    output = tmp_path / "out"
+    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(output)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(f"{output / 'my_interfaces'} is ready")
+    return output
+
+
+def test_the_modules_are_imported_like_any(generated, source):
+    for path in sorted(source.rglob("*"), reverse=True):  # the package does not need its sources any more
+        path.rmdir() if path.is_dir() else path.unlink()
+    program = """
+import sys
+from my_interfaces.msg import Sphere, Everything
+from my_interfaces.srv import AddSphere
+from my_interfaces.action import Roll
+from rosidl_runtime_py.utilities import get_message
+from turtlewire import msg
+
+assert get_message("my_interfaces/msg/Sphere") is Sphere is type(Roll.Result().where)
+print(Sphere(), AddSphere.Request(), Roll.Goal(distance=2.0), Everything.LIMIT, Everything.NAME)
+message = Everything(wide="äö", few=[Sphere()], blob=b"ab", short="abcde")
+again = msg.deserialize(Everything, msg.serialize(message))
+assert msg.serialize(again) == msg.serialize(message)
+print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw, again.pair[1].radius, again.blob)
+print(msg.interface_names()["my_interfaces"])
+"""
+    environment = {**os.environ, "PYTHONPATH": str(generated)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert done.stdout.splitlines() == [
+        (
+            "my_interfaces.msg.Sphere(center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), radius=1.5) "
+            "my_interfaces.srv.AddSphere_Request(sphere=my_interfaces.msg.Sphere("
+            "center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), radius=1.5)) "
+            "my_interfaces.action.Roll_Goal(distance=2.0) 12 every # thing"
+        ),
+        r"[1, 2, 3] [1.0, 2.0] ['a', 'b'] b'\x07' 1.5 [b'a', b'b']",
+        "{'msg': ['Everything', 'Sphere'], 'srv': ['AddSphere'], 'action': ['Roll']}",
+    ]
+
+
+def test_a_type_is_found_by_name_before_its_package_was_imported(generated):
+    program = "from turtlewire import msg; print(msg.get_message('my_interfaces/msg/Sphere')().radius)"
+    environment = {**os.environ, "PYTHONPATH": str(generated)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == "1.5\n"
+
+
+def test_stubs_satisfy_a_type_checker(generated, tmp_path):
+    pytest.importorskip("mypy", reason="the type checker comes with the lint group")
+    program = tmp_path / "user.py"
+    program.write_text(
+        "from my_interfaces.msg import Everything, Sphere\n"
+        "from my_interfaces.srv import AddSphere\n"
+        "from my_interfaces.action import Roll\n"
+        "everything = Everything(numbers=[1, 2.5], pair=[Sphere(), Sphere(radius=2.0)])\n"
+        "everything.numbers = [3.0]\n"
+        "first: float = everything.numbers[0]\n"
+        "where: Sphere = Roll.Result().where\n"
+        "request = AddSphere.Request(sphere=Sphere())\n"
+        "request.sphere.center.x = 1.0\n"
+        "limit: int = Everything.LIMIT\n"
+        "Sphere(radius='big')\n"
+        "Sphere().rdius\n"
+    )
+    root = Path(__file__).parents[2]
+    environment = {**os.environ, "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}"}
+    command = [sys.executable, "-m", "mypy", "--cache-dir", str(tmp_path / "cache"), "--follow-imports=silent", str(program)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, cwd=tmp_path)
+    errors = [line.partition("user.py:")[2] for line in done.stdout.splitlines() if "error" in line and "user.py" in line]
+    assert errors == [
+        '11: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  [arg-type]',
+        '12: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
+    ]
+
+
+def test_the_folder_names_a_package_without_package_xml(source, tmp_path, monkeypatch):
+    (source / "package.xml").unlink()
+    folder = generate_package(source, tmp_path / "here")
+    assert folder.name == "some_folder"
+    monkeypatch.syspath_prepend(str(tmp_path / "here"))
+    assert importlib.import_module("some_folder.msg").Sphere().radius == 1.5
+    assert generate_package(source, tmp_path / "here", "other_name").name == "other_name"
+
+
+def test_mistakes_end_the_command_with_a_line(source, tmp_path):
+    (source / "msg" / "Sphere.msg").write_text("floot64 radius\n")
+    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'\n"
+
+
+def test_a_folder_without_interfaces_is_an_error(tmp_path):
+    with pytest.raises(InterfaceError, match=r"no \.msg, \.srv or \.action files"):
+        generate_package(tmp_path, tmp_path / "out")

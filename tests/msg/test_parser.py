@@ -1,0 +1,151 @@
+"""The grammar of interface files."""
+
+from __future__ import annotations
+
+import pytest
+
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.parser import parse_action, parse_message, parse_service
+from turtlewire.msg.types import (
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamespacedType,
+    UnboundedSequence,
+    UnboundedString,
+    UnboundedWString,
+)
+
+
+def _field(line, name="X"):
+    (field,) = parse_message(f"demo_interfaces/msg/{name}", line).fields
+    return field
+
+
+@pytest.mark.parametrize(
+    ("text", "type_"),
+    [
+        ("bool", BasicType("boolean")),
+        ("byte", BasicType("octet")),
+        ("char", BasicType("uint8")),
+        ("float32", BasicType("float")),
+        ("float64", BasicType("double")),
+        *[(f"{sign}int{bits}", BasicType(f"{sign}int{bits}")) for sign in ("", "u") for bits in (8, 16, 32, 64)],
+        ("string", UnboundedString()),
+        ("wstring", UnboundedWString()),
+        ("string<=10", BoundedString(10)),
+        ("wstring<=10", BoundedWString(10)),
+        ("int32[]", UnboundedSequence(BasicType("int32"))),
+        ("int32[5]", Array(BasicType("int32"), 5)),
+        ("int32[<=5]", BoundedSequence(BasicType("int32"), 5)),
+        ("string<=4[<=3]", BoundedSequence(BoundedString(4), 3)),
+        ("Sphere", NamespacedType(("demo_interfaces", "msg"), "Sphere")),
+        ("geometry_msgs/Point[2]", Array(NamespacedType(("geometry_msgs", "msg"), "Point"), 2)),
+        ("geometry_msgs/msg/Point", NamespacedType(("geometry_msgs", "msg"), "Point")),
+    ],
+)
+def test_types(text, type_):
+    assert _field(f"{text} value").type == type_
+
+
+@pytest.mark.parametrize(
+    ("line", "default"),
+    [
+        ("int32 x", None),
+        ("int32 x -5  # a comment", -5),
+        ("uint8 x 0xff", 255),
+        ("float64 x 1", 1.0),
+        ("bool x true", True),
+        ("bool x False", False),
+        ("byte x 7", b"\x07"),
+        ("char x 65", 65),
+        ("string x plain words", "plain words"),
+        ('string x "with # and \\" and \\n"', 'with # and " and \n'),
+        ("string x 'it\"s'", 'it"s'),
+        ("wstring x 'ä'", "ä"),
+        ("int32[] x [1, 2, 3]", [1, 2, 3]),
+        ("int32[] x []", []),
+        ('string[2] x ["a, b", "c"]', ["a, b", "c"]),
+        ("float32[<=3] x [1.5]", [1.5]),
+        ("\tint32\tx\t3", 3),
+    ],
+)
+def test_defaults(line, default):
+    field = _field(line)
+    assert field.name == "x"
+    assert field.default == default
+    assert type(field.default) is type(default)
+
+
+def test_constants():
+    text = 'int32 LIMIT=12\nstring NAME = "a=b" # why\nfloat32 A_1=-0.5\nbyte OK=0\nbool YES=true\nuint8 x\n'
+    definition = parse_message("demo_interfaces/msg/X", text)
+    assert {constant.name: constant.value for constant in definition.constants} == {
+        "LIMIT": 12,
+        "NAME": "a=b",
+        "A_1": -0.5,
+        "OK": b"\x00",
+        "YES": True,
+    }
+    assert [field.name for field in definition.fields] == ["x"]
+
+
+def test_services_and_actions_have_parts():
+    service = parse_service("demo_interfaces/srv/Add", "int64 a\n---\nint64 LIMIT=3\nint64 sum\n")
+    assert [field.name for field in service.request.fields] == ["a"]
+    assert [field.name for field in service.response.fields] == ["sum"]
+    assert service.response.constants[0].value == 3
+    action = parse_action("demo_interfaces/action/Go", "---\nbool done\n---\nPoint where")
+    assert [len(part.fields) for part in (action.goal, action.result, action.feedback)] == [0, 1, 1]
+    assert action.feedback.fields[0].type == NamespacedType(("demo_interfaces", "msg"), "Point")
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("int33 x", "'int33' is not a type"),
+        ("int32", "'' is not a valid field name"),
+        ("int32 Name", "'Name' is not a valid field name"),
+        ("int32 a__b", "'a__b' is not a valid field name"),
+        ("int32 a_", "'a_' is not a valid field name"),
+        ("int32 _a", "'_a' is not a valid field name"),
+        ("int32 lower=3", "'lower' is not a valid constant name"),
+        ("int32[-1] x", "'-1' is not a size"),
+        ("int32[0] x", "'0' is not a size"),
+        ("string<=x y", "'x' is not a size"),
+        ("int8 x 200", "200 is outside of int8 (-128 to 127)"),
+        ("int8 x abc", "invalid literal for int()"),
+        ("float32 x abc", "could not convert string to float: 'abc'"),
+        ("bool x maybe", "'maybe' is not a bool"),
+        ("string<=2 x 'abc'", "'abc' is longer than string<2>"),
+        ("int32[] x 3", "'3' is not a list of values"),
+        ("int32[2] x [1]", "1 values do not fit int32[2]"),
+        ("int32[<=2] x [1, 2, 3]", "3 values do not fit sequence<int32, 2>"),
+        ("int32 from", "'from' is a keyword of Python, and so cannot be a field name"),
+        ("Point x 3", "demo_interfaces/Point cannot have a value"),
+        ("a/b/c/D x", "'a/b/c/D' is not a type"),
+        ("../Point x", "'../Point' is not a type"),
+    ],
+)
+def test_mistakes_are_named_with_their_line(line, reason):
+    with pytest.raises(InterfaceError) as caught:
+        parse_message("demo_interfaces/msg/X", f"# first\n{line}")
+    assert str(caught.value).startswith(f"demo_interfaces/msg/X, line 2: {reason}")
+
+
+def test_lines_of_later_parts_are_counted_from_the_top():
+    with pytest.raises(InterfaceError, match="demo_interfaces/action/Go_Feedback, line 6: 'oops' is not a type"):
+        parse_action("demo_interfaces/action/Go", "int32 a\n---\n\nint32 b\n---\noops x\n")
+
+
+def test_names_and_parts_are_checked():
+    with pytest.raises(InterfaceError, match="the name 'x' is used twice"):
+        parse_message("demo_interfaces/msg/X", "int32 x\nint8 x")
+    with pytest.raises(InterfaceError, match="'point' is not a valid interface name"):
+        parse_message("demo_interfaces/msg/point", "")
+    with pytest.raises(InterfaceError, match="found 0 lines with '---', expected 1"):
+        parse_service("demo_interfaces/srv/X", "int32 x")
+    with pytest.raises(InterfaceError, match="found 3 lines with '---', expected 2"):
+        parse_action("demo_interfaces/action/X", "---\n---\n---")
