@@ -7,7 +7,7 @@ import { FIELD_METRES, Playback, decodeFrame, poseOf } from "./frames.js";
 import { Panel } from "./panel.js";
 
 const PANEL_MS = 100;
-const DESCRIPTION_MS = 5000;
+const DESCRIPTION_MS = 2000;
 const byId = (id) => document.getElementById(id);
 
 const field = new Field(byId("ground"), byId("turtles"));
