@@ -1,0 +1,84 @@
+"""The service through which other nodes ask how a type is defined."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from turtlewire import msg
+from turtlewire.errors import InterfaceError
+
+from .qos import qos_profile_services_default
+
+if TYPE_CHECKING:
+    from type_description_interfaces.msg import IndividualTypeDescription, TypeSource
+
+    from .node import Node
+
+__all__ = ["START_TYPE_DESCRIPTION_SERVICE_PARAM", "TypeDescriptionService"]
+
+START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
+
+
+class TypeDescriptionService:
+    """Serves ``~/get_type_description`` of ``node``, unless the read-only parameter that it declares is false."""
+
+    def __init__(self, node: Node) -> None:
+        if not node.has_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM):
+            from rcl_interfaces.msg import ParameterDescriptor
+
+            descriptor = ParameterDescriptor(description="If enabled, start the ~/get_type_description service.", read_only=True)
+            node.declare_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM, True, descriptor)
+        if not node.get_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM).value:
+            return
+        from type_description_interfaces.srv import GetTypeDescription
+
+        name = f"{node.get_name()}/get_type_description"
+        node.create_service(GetTypeDescription, name, self._get_type_description, qos_profile=qos_profile_services_default)
+
+    def _get_type_description(self, request: Any, response: Any) -> Any:
+        from type_description_interfaces.msg import TypeDescription
+
+        from turtlewire.msg.type_hash import referenced_types
+
+        try:
+            expected = msg.type_hash(request.type_name)
+        except InterfaceError:
+            expected = None
+        if not request.type_hash.startswith("RIHS01_"):
+            response.failure_reason = "Failed to parse type hash"
+        elif request.type_hash != expected:
+            response.failure_reason = "Type not currently in use by this node"
+        else:
+            names = [request.type_name, *referenced_types(request.type_name)]
+            main, *referenced = (_describe(name) for name in names)
+            response.type_description = TypeDescription(type_description=main, referenced_type_descriptions=referenced)
+            if request.include_type_sources:
+                response.type_sources = [_source(name) for name in names]
+            response.successful = True
+        return response
+
+
+def _describe(type_name: str) -> IndividualTypeDescription:
+    from type_description_interfaces.msg import Field, FieldType, IndividualTypeDescription
+
+    from turtlewire.msg.registry import load_interface
+    from turtlewire.msg.type_hash import field_type_parts, members
+
+    fields = []
+    for name, type_ in members(load_interface(type_name)):
+        type_id, capacity, string_capacity, nested = field_type_parts(type_)
+        field_type = FieldType(type_id=type_id, capacity=capacity, string_capacity=string_capacity, nested_type_name=nested)
+        fields.append(Field(name=name, type=field_type))
+    return IndividualTypeDescription(type_name=type_name, fields=fields)
+
+
+def _source(type_name: str) -> TypeSource:
+    """The definition's text; parts of services and actions are implied by theirs and have none."""
+    from type_description_interfaces.msg import TypeSource
+
+    try:
+        path = msg.interface_path(type_name)
+    except InterfaceError:
+        return TypeSource(type_name=type_name, encoding="implicit")
+    with open(path, encoding="utf-8") as file:
+        return TypeSource(type_name=type_name, encoding=path.rpartition(".")[2], raw_file_contents=file.read())
