@@ -78,13 +78,16 @@ def read_stamp() -> dict[str, Any]:
 
 def fingerprint() -> str:
     """Hash of all that an editable installation does not follow by itself, the tools to compile with included."""
-    files = [ROOT / "pyproject.toml", *LEARNING.glob("setup.*"), *LEARNING.glob("package.xml")]
-    files += [path for path in (ROOT / "ros").glob("*") if path.is_file()]
-    files += [path for path in (ROOT / "native").rglob("*") if path.is_file() and path.suffix in {".hpp", ".cpp", ".txt", ".pyi"}]
-    digest = hashlib.sha256(str(can_compile()).encode())
+    ros, native = ROOT / "ros", ROOT / "native"
+    files = [ROOT / "pyproject.toml", native / "CMakeLists.txt", *LEARNING.glob("setup.*"), LEARNING / "package.xml"]
+    files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
+    files += [path for folder in ("core", "bindings") for path in (native / folder).glob("*.?pp")]
+    packages = sorted(path.parent.name for path in ros.glob("*/__init__.py"))
+    digest = hashlib.sha256(f"{can_compile()} {packages}".encode())
     for path in sorted(files):
-        digest.update(str(path.relative_to(ROOT)).encode())
-        digest.update(path.read_bytes())
+        if path.is_file():
+            digest.update(str(path.relative_to(ROOT)).encode())
+            digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
