@@ -1,0 +1,1 @@
+"""Measurements against rivals, as ratios of one run: ``scripts/bench``."""

@@ -1,0 +1,63 @@
+"""Run the benchmarks named on the command line, or all, and print one table for each.
+
+A benchmark is a module of this package with ``TITLE`` and ``rows()``, which yields :class:`benchmarks.figures.Row`.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import platform
+import sys
+from typing import TYPE_CHECKING
+
+import benchmarks
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from benchmarks.figures import Row
+
+
+def modules(wanted: list[str]) -> list[ModuleType]:
+    found = []
+    for info in pkgutil.iter_modules(benchmarks.__path__, "benchmarks."):
+        if info.ispkg or info.name.endswith("__main__"):
+            continue
+        module = importlib.import_module(info.name)
+        if hasattr(module, "rows") and (not wanted or info.name.removeprefix("benchmarks.") in wanted):
+            found.append(module)
+    return found
+
+
+def table(rows: list[Row]) -> str:
+    lines = [("what", "ours (min / median)", "rival", "rival (min / median)", "ratio (min / median)", "budget")]
+    for row in rows:
+        first = (row.what, row.ours.text())
+        if not row.rivals:
+            lines.append((*first, "", "", "", row.budget))
+        for name, rival in row.rivals.items():
+            ratio = f"{rival.minimum / row.ours.minimum:.3g}x / {rival.median / row.ours.median:.3g}x"
+            lines.append((*first, name, rival.text(), ratio, row.budget))
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    cells = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |" for line in lines]
+    cells.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    return "\n".join(cells)
+
+
+def main() -> int:
+    wanted = sys.argv[1:]
+    found = modules(wanted)
+    missing = set(wanted) - {module.__name__.removeprefix("benchmarks.") for module in found}
+    if missing:
+        print(f"no such benchmark: {', '.join(sorted(missing))}", file=sys.stderr)
+        return 2
+    print(f"Python {platform.python_version()}, {platform.machine()}, {platform.system()}")
+    for module in found:
+        print(f"\n{module.TITLE}\n", flush=True)
+        print(table(list(module.rows())), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
