@@ -9,9 +9,9 @@ import pytest
 
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
-from turtlewire.wire.base import Context, Node, Publisher, RequestId, Subscription, TypeId
+from turtlewire.wire.base import Context, EventKind, EventStatus, Node, Publisher, RequestId, Subscription, TypeId
 from turtlewire.wire.graph import DISCOVERY_TOPIC
-from turtlewire.wire.qos import Durability, History, QoS, Reliability
+from turtlewire.wire.qos import BEST_AVAILABLE_NS, Durability, History, Liveliness, QoS, Reliability
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18")
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
@@ -428,3 +428,101 @@ def test_an_unknown_middleware_is_named():
     with pytest.raises(WireError, match="'rmw_nonsense' is not available") as caught:
         open_context(middleware="rmw_nonsense")
     assert "rmw_cyclonedds_cpp" in caught.value.hint
+
+
+def wait_for_event(node: Node, event, expected) -> EventStatus:
+    """Take until ``expected(status)``; every wait must report the event, and nothing after it is taken."""
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(event)
+    while True:
+        assert wait_set.wait(LONG) == [event]
+        assert wait_set.wait(0) == [event]
+        status = event.take()
+        if expected(status):
+            break
+    assert event.take() is None
+    wait_set.detach(event)
+    wait_set.close()
+    return status
+
+
+def test_matched_events(node: Node, other: Node):
+    publisher = node.create_publisher("/chatter", STRING, QoS())
+    event = publisher.create_event(EventKind.MATCHED)
+    assert event.take() is None
+    subscription = other.create_subscription("/chatter", STRING, QoS())
+    assert wait_for_event(node, event, lambda _: True) == EventStatus(1, 1, 1, 1)
+    of_subscription = subscription.create_event(EventKind.MATCHED)
+    assert wait_for_event(other, of_subscription, lambda _: True) == EventStatus(1, 1, 1, 1)
+    subscription.close()
+    assert wait_for_event(node, event, lambda _: True) == EventStatus(1, 0, 0, -1)
+    other.create_subscription("/chatter", STRING, QoS())
+    assert wait_for_event(node, event, lambda _: True) == EventStatus(2, 1, 1, 1)
+
+
+def test_what_happened_before_the_event_was_created_is_reported(node: Node, other: Node):
+    publisher = node.create_publisher("/chatter", STRING, QoS())
+    subscription = other.create_subscription("/chatter", STRING, QoS())
+    connect(node, publisher, subscription)
+    event = publisher.create_event(EventKind.MATCHED)
+    assert wait_for_event(node, event, lambda _: True) == EventStatus(1, 1, 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested", "policy"),
+    [
+        (QoS(reliability=Reliability.BEST_EFFORT), QoS(), 16),
+        (QoS(), QoS(durability=Durability.TRANSIENT_LOCAL), 2),
+    ],
+)
+def test_incompatible_qos_events(node: Node, other: Node, offered: QoS, requested: QoS, policy: int):
+    publisher = node.create_publisher("/chatter", STRING, offered)
+    subscription = other.create_subscription("/chatter", STRING, requested)
+    of_publisher = publisher.create_event(EventKind.INCOMPATIBLE_QOS)
+    of_subscription = subscription.create_event(EventKind.INCOMPATIBLE_QOS)
+    assert wait_for_event(node, of_publisher, lambda _: True) == EventStatus(1, 1, last_policy_kind=policy)
+    assert wait_for_event(other, of_subscription, lambda _: True) == EventStatus(1, 1, last_policy_kind=policy)
+
+
+def test_events_and_messages_are_reported_by_one_wait_set(node: Node, other: Node):
+    subscription = node.create_subscription("/chatter", STRING, QoS())
+    event = subscription.create_event(EventKind.MATCHED)
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    connect(other, publisher, subscription)
+    publisher.publish(cdr("x"))
+    wait_set = node.context.create_wait_set()
+    wait_set.attach(subscription)
+    wait_set.attach(event)
+    seen: set = set()
+    while seen != {subscription, event}:
+        ready = wait_set.wait(LONG)
+        assert ready
+        seen.update(ready)
+    assert event.take() == EventStatus(1, 1, 1, 1)
+    assert wait_set.wait(LONG) == [subscription]
+
+
+def test_an_event_that_does_not_exist_is_refused(node: Node):
+    publisher = node.create_publisher("/chatter", STRING, QoS())
+    with pytest.raises(WireError, match="message lost"):
+        publisher.create_event(EventKind.MESSAGE_LOST)
+
+
+def test_best_available_qos_fits_who_is_there(node: Node, other: Node):
+    graph = node.context.graph
+    other.create_publisher("/scan", STRING, QoS(reliability=Reliability.BEST_EFFORT))
+    wait_until(node.context, lambda: "/scan" in graph.topic_names_and_types())
+    wanted = QoS(
+        reliability=Reliability.BEST_AVAILABLE,
+        durability=Durability.BEST_AVAILABLE,
+        liveliness=Liveliness.BEST_AVAILABLE,
+        deadline_ns=BEST_AVAILABLE_NS,
+        liveliness_lease_ns=BEST_AVAILABLE_NS,
+    )
+    subscription = node.create_subscription("/scan", STRING, wanted)
+    publisher = node.create_publisher("/new", STRING, wanted)
+    wait_until(node.context, lambda: subscription.publisher_count() == 1 and "/new" in graph.topic_names_and_types())
+    [chosen] = [endpoint.qos for endpoint in graph.endpoints() if endpoint.gid == subscription.gid]
+    assert (chosen.reliability, chosen.durability) == (Reliability.BEST_EFFORT, Durability.VOLATILE)
+    [chosen] = [endpoint.qos for endpoint in graph.endpoints() if endpoint.gid == publisher.gid]
+    assert (chosen.reliability, chosen.durability) == (Reliability.RELIABLE, Durability.TRANSIENT_LOCAL)

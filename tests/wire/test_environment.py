@@ -1,0 +1,112 @@
+"""The environment variables of discovery, and what Cyclone is told."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from turtlewire.errors import WireError
+from turtlewire.wire import environment, report
+from turtlewire.wire.cyclone.configuration import domain_configuration
+from turtlewire.wire.environment import Discovery, Range
+
+VARIABLES = ["ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY", "CYCLONEDDS_URI"]
+
+
+@pytest.fixture(autouse=True)
+def clean(monkeypatch: pytest.MonkeyPatch):
+    for variable in VARIABLES:
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setattr(report, "_said", set())
+
+
+def test_domain_id(monkeypatch: pytest.MonkeyPatch):
+    assert environment.domain_id() == 0
+    monkeypatch.setenv("ROS_DOMAIN_ID", "42")
+    assert environment.domain_id() == 42
+
+
+@pytest.mark.parametrize("text", ["233", "-1", "seven", "1.5", "٣"])
+def test_a_bad_domain_id_is_named(monkeypatch: pytest.MonkeyPatch, text: str):
+    monkeypatch.setenv("ROS_DOMAIN_ID", text)
+    with pytest.raises(WireError, match="ROS_DOMAIN_ID is not an integral number from 0 to 232") as caught:
+        environment.domain_id()
+    assert text in str(caught.value)
+
+
+def test_the_range_is_localhost_unless_said_otherwise(monkeypatch: pytest.MonkeyPatch):
+    assert environment.discovery() == Discovery(Range.LOCALHOST, ())
+    monkeypatch.setenv("ROS_STATIC_PEERS", "10.0.0.1; robot.local;")
+    for name in ("SUBNET", "OFF", "SYSTEM_DEFAULT", "LOCALHOST"):
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", name)
+        assert environment.discovery() == Discovery(Range[name], ("10.0.0.1", "robot.local"))
+
+
+def test_an_invalid_range_warns_once_and_is_localhost(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "UNIVERSE")
+    assert environment.discovery().range == Range.LOCALHOST
+    assert environment.discovery().range == Range.LOCALHOST
+    assert capsys.readouterr().err.count("UNIVERSE") == 1
+
+
+def test_localhost_only_is_honoured_and_deprecated(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    monkeypatch.setenv("ROS_LOCALHOST_ONLY", "1")
+    assert environment.discovery() == Discovery(Range.LOCALHOST, ())
+    assert "ROS_LOCALHOST_ONLY is deprecated" in capsys.readouterr().err
+    monkeypatch.setenv("ROS_LOCALHOST_ONLY", "0")
+    assert environment.discovery().range == Range.SUBNET
+
+
+def configuration(discovery: Discovery) -> ET.Element:
+    domain = ET.fromstring(domain_configuration(discovery)).find("Domain")
+    assert domain is not None
+    return domain
+
+
+def peers(domain: ET.Element) -> list[str | None]:
+    return [peer.get("address") for peer in domain.iter("Peer")]
+
+
+def test_configuration_of_each_range():
+    local = configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))
+    assert local.findtext("General/AllowMulticast") == "false"
+    assert local.findtext("Discovery/MaxAutoParticipantIndex") == "120"
+    assert peers(local) == ["localhost", "10.0.0.1"]
+    subnet = configuration(Discovery(Range.SUBNET, ("10.0.0.1",)))
+    assert subnet.findtext("General/AllowMulticast") is None
+    assert peers(subnet) == ["10.0.0.1"]
+    assert peers(configuration(Discovery(Range.SYSTEM_DEFAULT, ("10.0.0.1",)))) == []
+    off = configuration(Discovery(Range.OFF, ()))
+    assert off.findtext("General/AllowMulticast") == "false"
+    assert off.findtext("Discovery/Tag") == f"ros_discovery_off_{os.getpid()}"
+
+
+def test_the_users_configuration_comes_last(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("CYCLONEDDS_URI", "file:///my.xml")
+    assert domain_configuration(Discovery(Range.SUBNET, ())).endswith("</CycloneDDS>,file:///my.xml")
+
+
+def test_a_static_peer_must_be_an_address():
+    with pytest.raises(WireError, match="ROS_STATIC_PEERS: 'a\"/><b' is not an address"):
+        domain_configuration(Discovery(Range.SUBNET, ('a"/><b',)))
+
+
+@pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])
+def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
+    code = "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
+    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": str(1 + os.getpid() % 230)}
+    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=True)
+    assert (done.stdout, done.stderr) == ("1\n", "")
+
+
+def test_a_broken_configuration_of_the_user_is_one_clear_error():
+    code = "from turtlewire.wire import open_context; open_context()"
+    variables = os.environ | {"CYCLONEDDS_URI": "<Nonsense>"}
+    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 1
+    assert "WireError: join domain" in done.stderr

@@ -1,0 +1,159 @@
+"""Two real processes over loopback."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from turtlewire.wire import open_context
+from turtlewire.wire.base import Context, TypeId
+from turtlewire.wire.qos import Durability, QoS
+
+ECHO = Path(__file__).parent / "peers" / "echo.py"
+STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
+REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
+RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+LONG = 20_000_000_000
+
+
+@pytest.fixture
+def context():
+    opened = open_context(middleware="rmw_cyclonedds_cpp")
+    yield opened
+    opened.close()
+
+
+@contextmanager
+def echo_peer(**environment: str):
+    peer = subprocess.Popen([sys.executable, ECHO], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | environment)
+    try:
+        assert peer.stdout is not None
+        assert peer.stdout.readline() == "ready\n"
+        yield peer
+    finally:
+        peer.communicate()
+    assert peer.returncode in {0, -9}
+
+
+def message(number: int) -> bytes:
+    return b"\x00\x01\x00\x00" + number.to_bytes(4, "little") * 3
+
+
+def take_all(context: Context, entity, count: int) -> list:
+    wait_set = context.create_wait_set()
+    wait_set.attach(entity)
+    taken: list = []
+    while len(taken) < count:
+        assert wait_set.wait(LONG) == [entity]
+        taken += entity.take()
+    wait_set.close()
+    return taken
+
+
+def test_messages_go_both_ways(context: Context):
+    node = context.create_node("here")
+    publisher = node.create_publisher("/to_peer", STRING, QoS(depth=1000))
+    subscription = node.create_subscription("/from_peer", STRING, QoS(depth=1000))
+    with echo_peer():
+        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1, LONG)
+        sent = [message(number) for number in range(300)]
+        for data in sent:
+            publisher.publish(data)
+        assert [data for data, _ in take_all(context, subscription, len(sent))] == sent
+    assert context.graph.wait_for(lambda: publisher.subscription_count() == 0, LONG)
+
+
+def test_a_late_joiner_receives_the_latched_message(context: Context):
+    with echo_peer():
+        node = context.create_node("here")
+        subscription = node.create_subscription("/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL))
+        [(data, _)] = take_all(context, subscription, 1)
+        assert data[8:14] == b"hello\x00"
+
+
+def test_a_service_answers_across_processes(context: Context):
+    client = context.create_node("here").create_client("/peer/service", REQUEST, RESPONSE, QoS())
+    with echo_peer():
+        assert context.graph.wait_for(client.is_ready, LONG)
+        for number in range(20):
+            sequence_number = client.send_request(message(number))
+            assert take_all(context, client, 1) == [(sequence_number, message(number))]
+    assert context.graph.wait_for(lambda: not client.is_ready(), LONG)
+
+
+def test_the_first_request_of_a_new_client_is_always_answered(context: Context):
+    """The server may know of the request before it knows the client's end of the reply topic."""
+    with echo_peer():
+        for number in range(20):
+            client = context.create_node(f"here{number}").create_client("/peer/service", REQUEST, RESPONSE, QoS())
+            assert context.graph.wait_for(client.is_ready, LONG)
+            sequence_number = client.send_request(message(number))
+            assert take_all(context, client, 1) == [(sequence_number, message(number))]
+            client.close()
+
+
+def test_a_killed_peer_disappears_after_its_lease(context: Context):
+    with echo_peer(CYCLONEDDS_URI="<Discovery><LeaseDuration>1s</LeaseDuration></Discovery>") as peer:
+        graph = context.graph
+        assert graph.wait_for(lambda: [node.name for node in graph.nodes()] == ["echo"], LONG)
+        assert graph.wait_for(lambda: "/latched" in graph.topic_names_and_types(), LONG)
+        peer.kill()
+        assert graph.wait_for(lambda: graph.nodes() == [] and "/latched" not in graph.topic_names_and_types(), LONG)
+
+
+def test_a_peer_that_leaves_is_gone_at_once(context: Context):
+    graph = context.graph
+    with echo_peer():
+        assert graph.wait_for(lambda: len(graph.nodes()) == 1, LONG)
+    assert graph.wait_for(lambda: graph.nodes() == [], 2_000_000_000)
+
+
+def test_a_process_that_forgets_to_close_ends_and_says_goodbye(context: Context):
+    graph = context.graph
+    code = "from turtlewire.wire import open_context; open_context().create_node('forgetful'); input()"
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, text=True) as process:
+        assert graph.wait_for(lambda: len(graph.nodes()) == 1, LONG)
+        process.communicate("\n", timeout=20)
+    assert process.returncode == 0
+    assert graph.wait_for(lambda: graph.nodes() == [], 2_000_000_000)
+
+
+def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
+    code = (
+        "import os, warnings\n"
+        "from turtlewire.wire import open_context\n"
+        "context = open_context()\n"
+        "if os.fork() == 0:\n"
+        "    try:\n"
+        "        context.create_node('child')\n"
+        "    except Exception as error:\n"
+        "        print(error, flush=True)\n"
+        "else:\n"
+        "    os.wait()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True)
+    assert done.stdout == "create node child: the context was opened before this process was forked\n"
+    assert done.stderr == ""
+
+
+def test_a_process_with_discovery_off_is_not_seen(context: Context):
+    graph = context.graph
+    with echo_peer(ROS_AUTOMATIC_DISCOVERY_RANGE="OFF"), echo_peer():
+        assert graph.wait_for(lambda: len(graph.nodes()) == 1 and "/latched" in graph.topic_names_and_types(), LONG)
+        assert len([endpoint for endpoint in graph.endpoints() if endpoint.topic == "/latched"]) == 1
+
+
+def test_domains_do_not_see_each_other(context: Context):
+    other_domain = open_context(context.domain_id % 230 + 1, middleware="rmw_cyclonedds_cpp")
+    other_domain.create_node("elsewhere").create_publisher("/elsewhere", STRING, QoS())
+    with echo_peer():
+        graph = context.graph
+        assert graph.wait_for(lambda: "/latched" in graph.topic_names_and_types(), LONG)
+        assert "/elsewhere" not in graph.topic_names_and_types()
+        assert [node.name for node in other_domain.graph.nodes()] == ["elsewhere"]
+    other_domain.close()
