@@ -285,3 +285,15 @@ class TestMissingTurtles:
         assert find_missing(endpoints, "/", ["turtle1"]) == ("turtle9",)
         assert find_missing(endpoints, "/elsewhere", []) == ("turtle7",)
         assert find_missing(endpoints, "/", ["turtle9", "turtle1"]) == ()
+
+
+def test_mimic_does_what_the_other_does(world):
+    from turtlesim.mimic import MimicNode
+
+    world.call(Spawn, "/spawn", x=2.0, y=2.0, name="follower")
+    mimic = MimicNode(cli_args=["--ros-args", "-r", "input/pose:=/turtle1/pose", "-r", "output/cmd_vel:=/follower/cmd_vel"])
+    world.executor.add_node(mimic)
+    poses = world.listen(Pose, "/follower/pose")
+    world.talk("/turtle1/cmd_vel").publish(twist(1.0, 0.5))
+    world.spin_until(lambda: poses and (poses[-1].linear_velocity, poses[-1].angular_velocity) == (1.0, 0.5))
+    mimic.destroy_node()

@@ -1,0 +1,45 @@
+"""Makes one turtle do what another does: its poses come in on ``input/pose``, commands go out on ``output/cmd_vel``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from turtlesim.msg import Pose
+from turtlesim.turtle_endpoints import QUEUE_DEPTH
+
+__all__ = ["MimicNode", "main"]
+
+
+class MimicNode(Node):
+    """Sends the velocities of a turtle to another; remap its two topics to choose them. Options are those of a node."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__("turtle_mimic", **options)
+        self._twist = self.create_publisher(Twist, "output/cmd_vel", QUEUE_DEPTH)
+        self.create_subscription(Pose, "input/pose", self._on_pose, QUEUE_DEPTH)
+
+    def _on_pose(self, pose: Any) -> None:
+        message = Twist()
+        message.linear.x = pose.linear_velocity
+        message.angular.z = pose.angular_velocity
+        self._twist.publish(message)
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run until Ctrl-C."""
+    rclpy.init(args=args)
+    try:
+        with MimicNode() as node:
+            rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

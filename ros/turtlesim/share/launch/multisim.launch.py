@@ -1,0 +1,14 @@
+"""Two simulators, each in a namespace of its own."""
+
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    """Give the description to `ros2 launch turtlesim multisim.launch.py`."""
+    return LaunchDescription(
+        [
+            Node(package="turtlesim", executable="turtlesim_node", namespace=namespace, output="screen")
+            for namespace in ("turtlesim1", "turtlesim2")
+        ]
+    )
