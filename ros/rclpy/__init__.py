@@ -162,23 +162,24 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
     """Wait for one callback of ``node`` and run it.
 
     Args:
-        node: What to serve; it is in the executor for the time of this call.
+        node: What to serve; when it is in no executor, it is in this one for the time of the call.
         executor: None takes the global one.
         timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
     """
     executor = get_global_executor() if executor is None else executor
+    added = executor.add_node(node)
     try:
-        executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
     finally:
-        executor.remove_node(node)
+        if added:
+            executor.remove_node(node)
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
     """Run the callbacks of ``node`` until its context is shut down.
 
     Args:
-        node: What to serve; it is in the executor for the time of this call.
+        node: What to serve; when it is in no executor, it is in this one for the time of the call.
         executor: None takes the global one.
 
     Raises:
@@ -187,12 +188,13 @@ def spin(node: Node, executor: Executor | None = None) -> None:
         Exception: What a callback raised.
     """
     executor = get_global_executor() if executor is None else executor
+    added = executor.add_node(node)
     try:
-        executor.add_node(node)
         while executor.context.ok():
             executor.spin_once()
     finally:
-        executor.remove_node(node)
+        if added:
+            executor.remove_node(node)
 
 
 def spin_until_future_complete(
@@ -201,17 +203,18 @@ def spin_until_future_complete(
     """Run the callbacks of ``node`` until ``future`` is done, the time is over, or the context is shut down.
 
     Args:
-        node: What to serve; it is in the executor for the time of this call.
+        node: What to serve; when it is in no executor, it is in this one for the time of the call.
         future: What to wait for.
         executor: None takes the global one.
         timeout_sec: None or negative: without limit.
     """
     executor = get_global_executor() if executor is None else executor
+    added = executor.add_node(node)
     try:
-        executor.add_node(node)
         executor.spin_until_future_complete(future, timeout_sec)
     finally:
-        executor.remove_node(node)
+        if added:
+            executor.remove_node(node)
 
 
 def __getattr__(name: str) -> ModuleType | Any:

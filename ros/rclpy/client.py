@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .entity import Entity, Work
 from .task import Future
+from .wait_for_response import wait_for_response
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
 
@@ -87,17 +88,24 @@ class Client(Entity):
         return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
-        """Send a request and block until its response is here; another thread has to spin the node.
+        """Send a request and block until its response is here.
+
+        Another thread may spin the node; in a callback of the executor itself only responses are served meanwhile, nothing else.
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
             TimeoutError: No response came within ``timeout_sec``.
+            RuntimeError: The service is in the executor that is blocked by this call: it could never answer.
+            ExternalShutdownException, ShutdownException: The context or the executor was shut down.
         """
-        future = self.call_async(request)
-        if not future._wait(timeout_sec):
+        return self._block_for(self.call_async(request), timeout_sec)
+
+    def _block_for(self, future: Future, timeout_sec: float | None) -> Any:
+        """Block until ``future``, which follows from a request of this client, is done."""
+        try:
+            return wait_for_response(future, self, timeout_sec)
+        finally:
             self.remove_pending_request(future)
-            raise TimeoutError
-        return future.result()
 
     def remove_pending_request(self, future: Future) -> None:
         """Forget a request: its response will be ignored."""

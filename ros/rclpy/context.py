@@ -39,7 +39,7 @@ class Context:
         self._valid = False
         self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
-        self._graph_waits: set[threading.Event] = set()
+        self._waits: set[threading.Event] = set()
 
     def init(self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None) -> None:
         """Join a domain.
@@ -145,11 +145,11 @@ class Context:
         self._valid = False
         self.ended_by_signal = by_signal
         callbacks, self._callbacks = self._callbacks, []
-        graph_waits = list(self._graph_waits)
+        waits = list(self._waits)
 
         def tell() -> None:
-            for changed in graph_waits:
-                changed.set()
+            for wait in waits:
+                wait.set()
             for reference in callbacks:
                 callback = reference()
                 if callback is not None:
@@ -166,7 +166,7 @@ class Context:
         deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
         changed = threading.Event()
         with self._lock:
-            self._graph_waits.add(changed)
+            self._waits.add(changed)
         remove_listener = self.wire.graph.add_listener(changed.set)
         try:
             while True:
@@ -180,7 +180,7 @@ class Context:
         finally:
             remove_listener()
             with self._lock:
-                self._graph_waits.discard(changed)
+                self._waits.discard(changed)
 
     def on_shutdown(self, callback: Callable[[], None]) -> None:
         """Call ``callback()`` once when it shuts down, at once when it has been already; methods are held weakly.

@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 import threading
 import time
+import weakref
 from collections import deque
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
@@ -89,6 +90,9 @@ class Executor:
         self._running: dict[int, int] = {}
         self._idle = threading.Condition()
         self._waiting = False
+        self._spinning_thread: int | None = None
+        self._response_awaited: Future | None = None
+        self._blocked_waits: set[threading.Event] = set()
         self._is_shutdown = False
         self._context.on_shutdown(self.wake)
 
@@ -137,14 +141,17 @@ class Executor:
 
     def _attach(self, entity: Entity, node: Node) -> None:
         """Serve an entity of ``node``; nothing happens when the node is not here, or the entity is."""
-        import weakref
+        index = self._nodes.get(node)
+        if index is not None:
+            self._adopt(entity, index)
 
+    def _adopt(self, entity: Entity, node_index: int = -1) -> None:
+        """Serve an entity of the node with this number; those of no node come before all others."""
         with self._lock:
-            index = self._nodes.get(node)
-            if index is None or entity._executor is not None or entity._destroyed:
+            if entity._executor is not None or entity._destroyed:
                 return
             self._entities_made += 1
-            entity._rank = (-1 if entity._ORDER < 0 else index, entity._ORDER, self._entities_made)
+            entity._rank = (node_index, entity._ORDER, self._entities_made)
             entity._executor = weakref.ref(self)
         entity._attach(self)
 
@@ -232,11 +239,16 @@ class Executor:
 
     def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None = None) -> None:
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        outer, me = self._spinning_thread, threading.get_ident()
+        if outer is not None and outer != me:
+            raise RuntimeError("Executor is already spinning")
+        self._spinning_thread = me
         try:
-            ready = self._next(timeout_ns, condition)
+            self._run(*self._next(timeout_ns, condition))
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return
-        self._run(*ready)
+        finally:
+            self._spinning_thread = outer
 
     def _run(self, source: Entity | Task, work: Work | None) -> None:
         """Run what :meth:`_next` found; here or in another thread."""
@@ -263,6 +275,32 @@ class Executor:
             expired = remaining == 0
             self._collect(remaining)
 
+    def _serve_responses(self, future: Future, deadline: float | None, is_hopeless: Callable[[set[Entity]], bool]) -> None:
+        """In a callback of this executor: hand responses to their futures, and do nothing else, until ``future`` is done.
+
+        Args:
+            future: What the callback waits for.
+            deadline: On ``time.monotonic``; None: no limit.
+            is_hopeless: Asked with the entities that are held back meanwhile, whether one of them is what the callback waits for.
+
+        Raises:
+            RuntimeError: It is hopeless.
+        """
+        future._add_waiter(self.wake)
+        outer, self._response_awaited = self._response_awaited, future
+        try:
+            while not future.done() and (deadline is None or time.monotonic() < deadline):
+                if is_hopeless(self._paused):
+                    raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
+                remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
+                try:
+                    self._execute(*self._next(remaining, future.done))
+                except (TimeoutException, ConditionReachedException):
+                    continue
+        finally:
+            self._response_awaited = outer
+            self._resume_paused()
+
     def _check_alive(self) -> None:
         if self._is_shutdown:
             raise ShutdownException
@@ -271,8 +309,10 @@ class Executor:
 
     def _collect(self, timeout_ns: int | None) -> None:
         """Wait until something is ready, and line it up in ROS 2's order."""
-        with self._lock:
-            tasks, self._tasks = self._tasks, []
+        tasks: list[Task] = []
+        if self._response_awaited is None:
+            with self._lock:
+                tasks, self._tasks = self._tasks, []
         if tasks or self._notified:
             timeout_ns = 0
         else:
@@ -310,7 +350,7 @@ class Executor:
         if not entity._GATED:
             return entity._take()
         group = entity.callback_group
-        if not group.beginning_execution(entity):
+        if not self._may_run(entity) or not group.beginning_execution(entity):
             self._pause(entity)
             return None
         work = None
@@ -344,7 +384,7 @@ class Executor:
             self._resume(entity)
 
     def _may_run(self, entity: Entity) -> bool:
-        return entity.callback_group.can_execute(entity)
+        return self._response_awaited is None and entity.callback_group.can_execute(entity)
 
     def _resume(self, entity: Entity) -> None:
         with self._lock:
@@ -408,6 +448,8 @@ class Executor:
         """
         self._is_shutdown = True
         self.wake()
+        for blocked in list(self._blocked_waits):
+            blocked.set()
         me = threading.get_ident()
         timeout = None if timeout_sec is None or timeout_sec < 0 else timeout_sec
         with self._idle:
@@ -473,12 +515,6 @@ class MultiThreadedExecutor(Executor):
 
     def _may_run(self, entity: Entity) -> bool:
         return self._free_threads > 0 and super()._may_run(entity)
-
-    def _claim(self, entity: Entity) -> Work | None:
-        if entity._GATED and self._free_threads == 0:
-            self._pause(entity)
-            return None
-        return super()._claim(entity)
 
     def _run(self, source: Entity | Task, work: Work | None) -> None:
         if isinstance(source, Entity) and not source._GATED:

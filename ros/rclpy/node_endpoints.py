@@ -66,11 +66,17 @@ class NodeEndpoints:
         publisher_class: type[Publisher],
     ) -> Publisher:
         """See :meth:`rclpy.node.Node.create_publisher`."""
+        return self._own(Publisher, self.make_publisher(msg_type, topic, qos_profile, publisher_class))
+
+    def make_publisher(
+        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, publisher_class: type[Publisher] = Publisher
+    ) -> Publisher:
+        """A publisher that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         wire = self._node.wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
-        return self._own(Publisher, publisher_class(wire, msg_type, profile, self._node.context))
+        return publisher_class(wire, msg_type, profile, self._node.context)
 
     def create_subscription(
         self,
@@ -84,20 +90,36 @@ class NodeEndpoints:
         raw: bool,
     ) -> Subscription:
         """See :meth:`rclpy.node.Node.create_subscription`."""
+        return self._own(Subscription, self.make_subscription(msg_type, topic, callback, qos_profile, callback_group, raw))
+
+    def make_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        callback_group: CallbackGroup | None,
+        raw: bool = False,
+    ) -> Subscription:
+        """A subscription that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         wire = self._node.wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
         group = callback_group or self.default_callback_group
-        return self._own(Subscription, Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger()))
+        return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
 
     def create_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
         """See :meth:`rclpy.node.Node.create_client`."""
+        return self._own(Client, self.make_client(srv_type, srv_name, qos_profile, callback_group))
+
+    def make_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
+        """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
         wire = self._node.wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return self._own(Client, Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger()))
+        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger())
 
     def create_service(
         self,
@@ -108,11 +130,23 @@ class NodeEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Service:
         """See :meth:`rclpy.node.Node.create_service`."""
+        return self._own(Service, self.make_service(srv_type, srv_name, callback, qos_profile, callback_group))
+
+    def make_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+        service_class: type[Service] = Service,
+    ) -> Service:
+        """A service that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
         wire = self._node.wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return self._own(Service, Service(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger()))
+        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger())
 
     def create_timer(
         self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool
@@ -141,6 +175,13 @@ class NodeEndpoints:
         from .waitable import Waitable
 
         self._own(Waitable, waitable)
+
+    def remove_waitable(self, waitable: Waitable) -> None:
+        """See :meth:`rclpy.node.Node.remove_waitable`."""
+        executor = self._node.executor
+        if executor is not None:
+            executor._detach(waitable)
+        self._disown(waitable)
 
     def keep(self, resource: Any) -> None:
         """Destroy ``resource`` together with the node; it calls ``_on_destroy(itself)`` when it was destroyed before."""

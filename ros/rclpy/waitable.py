@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .entity import Entity
 
 if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
+    from .executors import Executor
+    from .task import Future
 
 __all__ = ["NumberOfEntities", "Waitable"]
 
@@ -47,3 +49,33 @@ class NumberOfEntities:
     def __repr__(self) -> str:
         counts = ", ".join(str(getattr(self, kind)) for kind in self.__slots__)
         return f"<{self.__class__.__name__}({counts})>"
+
+
+class Waitable(Entity):
+    """Something an executor serves that consists of several entities.
+
+    The executor serves the parts; to the outside they are one: they come and go together, and run before the other entities of a cycle.
+    """
+
+    _ORDER = -1
+
+    def __init__(self, callback_group: CallbackGroup) -> None:
+        super().__init__(callback_group)
+        self._parts: list[Entity] = []
+
+    def add_future(self, future: Future) -> None:
+        """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
+        executor = None if self._executor is None else self._executor()
+        future._set_executor(executor)
+
+    def _attach(self, executor: Executor) -> None:
+        for part in self._parts:
+            executor._adopt(part)
+
+    def _detach(self, executor: Executor) -> None:
+        for part in self._parts:
+            executor._detach(part)
+
+    def _close(self) -> None:
+        for part in self._parts:
+            part.destroy()

@@ -1,0 +1,266 @@
+"""Action clients."""
+
+from __future__ import annotations
+
+import os
+import threading
+import weakref
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.task import Future
+from rclpy.type_support import check_for_type_support
+from rclpy.waitable import Waitable
+
+from .goal_state import ACTIVE_STATES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.client import Client
+    from rclpy.node import Node
+
+__all__ = ["ActionClient", "ClientGoalHandle"]
+
+_DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
+
+
+class ClientGoalHandle:
+    """A goal that was sent: whether it was accepted, its state, and ways to cancel it and to get its result. Thread-safe."""
+
+    def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
+        self._action_client = action_client
+        self._goal_id = goal_id
+        self._goal_response = goal_response
+        self._status = 0
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ClientGoalHandle) and self._goal_id == other.goal_id
+
+    def __hash__(self) -> int:
+        return hash(bytes(self._goal_id.uuid))
+
+    def __repr__(self) -> str:
+        return f"ClientGoalHandle <id={bytes(self._goal_id.uuid).hex()}, accepted={self.accepted}, status={self.status}>"
+
+    @property
+    def goal_id(self) -> Any:
+        """Identifies the goal (``unique_identifier_msgs/msg/UUID``)."""
+        return self._goal_id
+
+    @property
+    def stamp(self) -> Any:
+        """When the server accepted it (``builtin_interfaces/msg/Time``)."""
+        return self._goal_response.stamp
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the server accepted it."""
+        return bool(self._goal_response.accepted)
+
+    @property
+    def status(self) -> int:
+        """The last known state, a number of ``action_msgs/msg/GoalStatus``."""
+        return self._status
+
+    def cancel_goal(self) -> Any:
+        """Ask the server to cancel it, and block for the answer (``CancelGoal.Response``); another thread has to spin."""
+        return self._action_client._cancel_goal(self)
+
+    def cancel_goal_async(self) -> Future:
+        """Ask the server to cancel it; a future of the answer (``CancelGoal.Response``)."""
+        return self._action_client._cancel_goal_async(self)
+
+    def get_result(self) -> Any:
+        """Block until it is finished; the response has ``status`` and ``result``. Another thread has to spin."""
+        return self._action_client._get_result(self)
+
+    def get_result_async(self) -> Future:
+        """A future of the response, which has ``status`` and ``result``."""
+        return self._action_client._get_result_async(self)
+
+
+class ActionClient(Waitable):
+    """Sends goals to an action server. Thread-safe.
+
+    Args:
+        node: The node that owns it.
+        action_type: The action class.
+        action_name: Name of the action.
+        callback_group: Of feedback callbacks; None takes the node's default.
+        goal_service_qos_profile: Quality of service of goal requests.
+        result_service_qos_profile: Quality of service of result requests.
+        cancel_service_qos_profile: Quality of service of cancel requests.
+        feedback_sub_qos_profile: Quality of service of feedback.
+        status_sub_qos_profile: Quality of service of the goals' states.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        *,
+        callback_group: CallbackGroup | None = None,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_sub_qos_profile: QoSProfile = _DEFAULT_FEEDBACK_QOS,
+        status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
+    ) -> None:
+        check_for_type_support(action_type)
+        super().__init__(callback_group or node.default_callback_group)
+        self._node = node
+        self._action_type = action_type
+        self._action_name = action_name
+        self._lock = threading.Lock()
+        self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = weakref.WeakValueDictionary()
+        self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
+        impl = action_type.Impl
+        self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_service_qos_profile)
+        self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile)
+        self._result_client = self._make_client(impl.GetResultService, "get_result", result_service_qos_profile)
+        subscribe = node._endpoints.make_subscription
+        name, group = f"{action_name}/_action", self.callback_group
+        self._feedback = subscribe(impl.FeedbackMessage, f"{name}/feedback", self._on_feedback, feedback_sub_qos_profile, group)
+        self._status = subscribe(impl.GoalStatusMessage, f"{name}/status", self._on_status, status_sub_qos_profile, group)
+        self._parts = [self._goal_client, self._cancel_client, self._result_client, self._feedback, self._status]
+        node.add_waitable(self)
+
+    def _make_client(self, service_type: Any, name: str, qos: QoSProfile) -> Client:
+        return self._node._endpoints.make_client(service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group)
+
+    def server_is_ready(self) -> bool:
+        """Whether an action server is there."""
+        return (
+            self._goal_client.service_is_ready()
+            and self._cancel_client.service_is_ready()
+            and self._result_client.service_is_ready()
+            and self._feedback.get_publisher_count() > 0
+            and self._status.get_publisher_count() > 0
+        )
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Block until an action server is there (no polling).
+
+        Args:
+            timeout_sec: None or negative waits until the context is shut down.
+
+        Returns:
+            Whether a server is there.
+        """
+        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        return self._node.context._wait_for_graph(self.server_is_ready, timeout_ns)
+
+    def send_goal_async(self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None) -> Future:
+        """Send a goal.
+
+        Args:
+            goal: The goal.
+            feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``).
+            goal_uuid: Identifies the goal; None takes a random one.
+
+        Returns:
+            A future of a :class:`ClientGoalHandle`.
+
+        Raises:
+            TypeError: ``goal`` is not a ``Goal`` of the action.
+        """
+        if not isinstance(goal, self._action_type.Goal):
+            raise TypeError
+        request = self._action_type.Impl.SendGoalService.Request(goal=goal, goal_id=goal_uuid or _random_uuid())
+        goal_id = bytes(request.goal_id.uuid)
+        if feedback_callback is not None:
+            self._feedback_callbacks[goal_id] = feedback_callback
+        future = Future()
+        response = self._goal_client.call_async(request)
+        response._add_waiter(lambda: self._on_goal_response(request.goal_id, response, future))
+        return future
+
+    def _on_goal_response(self, goal_id: Any, response: Future, future: Future) -> None:
+        self.add_future(future)
+        error = response.exception()
+        if error is not None:
+            future.set_exception(error)
+            return
+        if response.cancelled():
+            future.cancel()
+            return
+        handle = ClientGoalHandle(self, goal_id, response.result())
+        key = bytes(goal_id.uuid)
+        if handle.accepted:
+            with self._lock:
+                if key in self._goal_handles:
+                    future.set_exception(RuntimeError(f"Two goals were accepted with the same ID ({handle})"))
+                    return
+                self._goal_handles[key] = handle
+        else:
+            self._feedback_callbacks.pop(key, None)
+        future.set_result(handle)
+
+    def send_goal(self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None) -> Any:
+        """Send a goal and block until it is finished; another thread has to spin.
+
+        Returns:
+            The response with ``status`` and ``result``, or None when the goal was rejected.
+
+        Raises:
+            TypeError: ``goal`` is not a ``Goal`` of the action.
+        """
+        sent = self.send_goal_async(goal, feedback_callback, goal_uuid)
+        handle = self._block_for(sent)
+        return self._get_result(handle) if handle.accepted else None
+
+    def _block_for(self, future: Future) -> Any:
+        return self._goal_client._block_for(future, None)
+
+    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
+        return self._block_for(self._cancel_goal_async(goal_handle))
+
+    def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future:
+        if not isinstance(goal_handle, ClientGoalHandle):
+            raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
+        request = self._action_type.Impl.CancelGoalService.Request()
+        request.goal_info.goal_id = goal_handle.goal_id
+        return self._cancel_client.call_async(request)
+
+    def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
+        return self._block_for(self._get_result_async(goal_handle))
+
+    def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future:
+        if not isinstance(goal_handle, ClientGoalHandle):
+            raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
+        request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
+        response = self._result_client.call_async(request)
+        response._add_waiter(lambda: self._on_result(goal_handle, response))
+        return response
+
+    def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:
+        if response.done() and not response.cancelled() and response._exception is None:
+            goal_handle._status = response.result().status
+            self._feedback_callbacks.pop(bytes(goal_handle.goal_id.uuid), None)
+
+    def _on_feedback(self, message: Any) -> Any:
+        callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))
+        return None if callback is None else callback(message)
+
+    def _on_status(self, message: Any) -> None:
+        for state in message.status_list:
+            key = bytes(state.goal_info.goal_id.uuid)
+            handle = self._goal_handles.get(key)
+            if handle is not None:
+                handle._status = state.status
+            if state.status not in ACTIVE_STATES:
+                with self._lock:
+                    self._goal_handles.pop(key, None)
+
+
+def _random_uuid() -> Any:
+    """A random UUID, version 4."""
+    from turtlewire.msg import get_message
+
+    value = bytearray(os.urandom(16))
+    value[6] = value[6] & 0x0F | 0x40
+    value[8] = value[8] & 0x3F | 0x80
+    return get_message("unique_identifier_msgs/msg/UUID")(uuid=value)

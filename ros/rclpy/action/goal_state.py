@@ -1,0 +1,58 @@
+"""The states of a goal, and which event leads from one to the next."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from rclpy._rclpy_pybind11 import RCLError
+
+__all__ = ["ACTIVE_STATES", "GoalEvent", "next_state", "state_name"]
+
+# the numbers of action_msgs/msg/GoalStatus
+_ACCEPTED, _EXECUTING, _CANCELING, _SUCCEEDED, _CANCELED, _ABORTED = 1, 2, 3, 4, 5, 6
+_NAMES = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
+
+#: In these a goal is not finished.
+ACTIVE_STATES = frozenset({_ACCEPTED, _EXECUTING, _CANCELING})
+
+
+class GoalEvent(Enum):
+    """What can happen to a goal."""
+
+    EXECUTE = 1
+    CANCEL_GOAL = 2
+    SUCCEED = 3
+    ABORT = 4
+    CANCELED = 5
+
+
+_TRANSITIONS = {
+    (_ACCEPTED, GoalEvent.EXECUTE): _EXECUTING,
+    (_ACCEPTED, GoalEvent.CANCEL_GOAL): _CANCELING,
+    (_EXECUTING, GoalEvent.CANCEL_GOAL): _CANCELING,
+    (_EXECUTING, GoalEvent.SUCCEED): _SUCCEEDED,
+    (_EXECUTING, GoalEvent.ABORT): _ABORTED,
+    (_CANCELING, GoalEvent.SUCCEED): _SUCCEEDED,
+    (_CANCELING, GoalEvent.ABORT): _ABORTED,
+    (_CANCELING, GoalEvent.CANCELED): _CANCELED,
+}
+
+
+def state_name(state: int) -> str:
+    """For example ``EXECUTING``."""
+    return _NAMES[state]
+
+
+def next_state(state: int, event: GoalEvent) -> int:
+    """The state that ``event`` leads to.
+
+    Raises:
+        RCLError: It is not possible in this state.
+    """
+    following = _TRANSITIONS.get((state, event))
+    if following is None:
+        raise RCLError(
+            f"Failed to update goal state: goal_handle attempted invalid transition from state {state_name(state)} "
+            f"with event {event.name}, at ./src/rcl_action/goal_handle.c:95"
+        )
+    return following

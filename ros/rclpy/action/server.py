@@ -1,0 +1,415 @@
+"""Action servers."""
+
+from __future__ import annotations
+
+import threading
+from enum import Enum
+from functools import partial
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.service import Service
+from rclpy.task import Future
+from rclpy.timer import Timer
+from rclpy.type_support import check_for_type_support
+from rclpy.waitable import Waitable
+
+from .goal_state import ACTIVE_STATES, GoalEvent, next_state
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.node import Node
+    from turtlewire.wire.base import RequestId
+
+__all__ = ["ActionServer", "CancelResponse", "GoalEvent", "GoalResponse", "ServerGoalHandle"]
+
+_DEFAULT_RESULT_TIMEOUT_S = 900
+_DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
+
+
+class GoalResponse(Enum):
+    """What a goal callback decides."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(Enum):
+    """What a cancel callback decides."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class ServerGoalHandle:
+    """A goal that the server has accepted. Thread-safe."""
+
+    def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:
+        self._action_server = action_server
+        self._goal_info = goal_info
+        self._goal_request = goal_request
+        self._status = 1
+        self._lock = threading.Lock()
+        self._finished_ns: int | None = None
+        self._result = Future()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
+
+    def __hash__(self) -> int:
+        return hash(bytes(self.goal_id.uuid))
+
+    @property
+    def request(self) -> Any:
+        """The goal, as the client sent it."""
+        return self._goal_request
+
+    @property
+    def goal_id(self) -> Any:
+        """Identifies the goal (``unique_identifier_msgs/msg/UUID``)."""
+        return self._goal_info.goal_id
+
+    @property
+    def is_active(self) -> bool:
+        """Whether it is not finished."""
+        return self._status in ACTIVE_STATES
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        """Whether a client wants it cancelled, and the cancel callback agreed."""
+        return self._status == 3
+
+    @property
+    def status(self) -> int:
+        """A number of ``action_msgs/msg/GoalStatus``."""
+        return self._status
+
+    def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
+        """Have the goal executed by ``execute_callback``, or by that of the server."""
+        if not self.is_cancel_requested:
+            self._update_state(GoalEvent.EXECUTE)
+        self._action_server.notify_execute(self, execute_callback)
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Send feedback.
+
+        Raises:
+            TypeError: ``feedback`` is not a ``Feedback`` of the action.
+        """
+        self._action_server._publish_feedback(self.goal_id, feedback)
+
+    def succeed(self) -> None:
+        """The goal is reached; RCLError when it is finished already."""
+        self._update_state(GoalEvent.SUCCEED)
+
+    def abort(self) -> None:
+        """The goal is given up; RCLError when it is finished already."""
+        self._update_state(GoalEvent.ABORT)
+
+    def canceled(self) -> None:
+        """The goal is cancelled as a client wanted; RCLError when none did."""
+        self._update_state(GoalEvent.CANCELED)
+
+    def destroy(self) -> None:
+        """Forget the goal."""
+        self._action_server._forget(self)
+
+    def _update_state(self, event: GoalEvent) -> None:
+        with self._lock:
+            self._status = next_state(self._status, event)
+            if self._status not in ACTIVE_STATES:
+                self._finished_ns = self._action_server._now_ns()
+        self._action_server._publish_status()
+        if not self.is_active:
+            self._action_server.notify_goal_done()
+
+
+class _DeferredService(Service):
+    """A service whose callback gets the id of the request, and answers it when it wants to."""
+
+    def _answer(self, header: RequestId, request: Any) -> Any:
+        return self.callback(header, request)
+
+
+def default_goal_callback(goal_request: Any) -> GoalResponse:  # noqa: ARG001 - the signature of a goal callback
+    """Accept."""
+    return GoalResponse.ACCEPT
+
+
+def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
+    """Execute the goal at once."""
+    goal_handle.execute()
+
+
+def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001 - likewise
+    """Reject."""
+    return CancelResponse.REJECT
+
+
+class ActionServer(Waitable):
+    """Executes goals of an action.
+
+    Args:
+        node: The node that offers the action.
+        action_type: The action class.
+        action_name: Name of the action.
+        execute_callback: Called with a :class:`ServerGoalHandle`, returns the result; may be ``async``.
+        callback_group: Of the other callbacks; None takes the node's default. Executions run beside all groups.
+        goal_callback: Called with the goal, decides whether it is accepted (default: yes).
+        handle_accepted_callback: Called with the handle of an accepted goal (default: executes it).
+        cancel_callback: Called with the handle of a goal that a client wants cancelled, decides whether it may (default: no).
+        goal_service_qos_profile: Quality of service of goal requests.
+        result_service_qos_profile: Quality of service of result requests.
+        cancel_service_qos_profile: Quality of service of cancel requests.
+        feedback_pub_qos_profile: Quality of service of feedback.
+        status_pub_qos_profile: Quality of service of the goals' states.
+        result_timeout: Seconds for which the result of a finished goal is kept; negative: for ever.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        execute_callback: Callable[[ServerGoalHandle], Any],
+        *,
+        callback_group: CallbackGroup | None = None,
+        goal_callback: Callable[[Any], Any] | None = default_goal_callback,
+        handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = default_handle_accepted_callback,
+        cancel_callback: Callable[[ServerGoalHandle], Any] | None = default_cancel_callback,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_pub_qos_profile: QoSProfile = _DEFAULT_FEEDBACK_QOS,
+        status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
+        result_timeout: float = _DEFAULT_RESULT_TIMEOUT_S,
+    ) -> None:
+        check_for_type_support(action_type)
+        super().__init__(callback_group or node.default_callback_group)
+        self._node = node
+        self._action_type = action_type
+        self._action_name = action_name
+        self._logger = node.get_logger().get_child("action_server")
+        self._lock = threading.Lock()
+        self._goal_handles: dict[bytes, ServerGoalHandle] = {}
+        self._result_timeout_ns = int(result_timeout * 1_000_000_000)
+        self.register_goal_callback(goal_callback)
+        self.register_handle_accepted_callback(handle_accepted_callback)
+        self.register_cancel_callback(cancel_callback)
+        self.register_execute_callback(execute_callback)
+        self._make_endpoints(
+            goal_service_qos_profile,
+            result_service_qos_profile,
+            cancel_service_qos_profile,
+            feedback_pub_qos_profile,
+            status_pub_qos_profile,
+        )
+        node.add_waitable(self)
+
+    def _make_endpoints(
+        self, goal_qos: QoSProfile, result_qos: QoSProfile, cancel_qos: QoSProfile, feedback_qos: QoSProfile, status_qos: QoSProfile
+    ) -> None:
+        impl = self._action_type.Impl
+        self._goal_service = self._make_service(impl.SendGoalService, "send_goal", self._on_goal, goal_qos)
+        self._cancel_service = self._make_service(impl.CancelGoalService, "cancel_goal", self._on_cancel, cancel_qos)
+        self._result_service = self._make_service(impl.GetResultService, "get_result", self._on_result, result_qos)
+        endpoints = self._node._endpoints
+        self._feedback_publisher = endpoints.make_publisher(impl.FeedbackMessage, f"{self._action_name}/_action/feedback", feedback_qos)
+        self._status_publisher = endpoints.make_publisher(impl.GoalStatusMessage, f"{self._action_name}/_action/status", status_qos)
+        clock = self._node.get_clock()
+        self._expiry = Timer(self._expire_goals, self.callback_group, 0, clock, context=self._node.context, autostart=False)
+        self._parts = [self._goal_service, self._cancel_service, self._result_service, self._expiry]
+
+    def _make_service(self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile) -> Service:
+        full_name = f"{self._action_name}/_action/{name}"
+        return self._node._endpoints.make_service(service_type, full_name, callback, qos, self.callback_group, _DeferredService)
+
+    @property
+    def action_type(self) -> Any:
+        """The action class."""
+        return self._action_type
+
+    def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
+        """Replace the goal callback; None takes the default."""
+        self._goal_callback = goal_callback or default_goal_callback
+
+    def register_handle_accepted_callback(self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+        """Replace the callback for accepted goals; None takes the default."""
+        self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+
+    def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+        """Replace the cancel callback; None takes the default."""
+        self._cancel_callback = cancel_callback or default_cancel_callback
+
+    def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any]) -> None:
+        """Replace the execute callback.
+
+        Raises:
+            TypeError: It cannot be called.
+        """
+        if not callable(execute_callback):
+            raise TypeError("Failed to register goal execution callback: not callable")
+        self._execute_callback = execute_callback
+
+    # Goals
+
+    async def _on_goal(self, header: RequestId, request: Any) -> None:
+        impl = self._action_type.Impl
+        goal_id = bytes(request.goal_id.uuid)
+        accepted = goal_id not in self._goal_handles and await self._is_accepted(request.goal)
+        response = impl.SendGoalService.Response(accepted=accepted)
+        if accepted:
+            response.stamp = self._node.get_clock().now().to_msg()
+            goal_info = _message("action_msgs/msg/GoalInfo")(goal_id=request.goal_id, stamp=response.stamp)
+            goal_handle = ServerGoalHandle(self, goal_info, request.goal)
+            with self._lock:
+                self._goal_handles[goal_id] = goal_handle
+        self._goal_service.send_response(response, header)
+        if accepted:
+            self._publish_status()
+            await _outcome(self._handle_accepted_callback(goal_handle))
+
+    async def _is_accepted(self, goal: Any) -> bool:
+        decision = await _outcome(self._goal_callback(goal))
+        if not isinstance(decision, GoalResponse):
+            self._logger.warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
+        return decision is GoalResponse.ACCEPT
+
+    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+        """Have a goal executed on the executor, by ``execute_callback`` or by that of the server."""
+        executor = self._node.executor
+        if executor is None:
+            raise RuntimeError(f"The node {self._node.get_name()} is in no executor that could execute the goal")
+        executor.create_task(self._execute_goal, execute_callback or self._execute_callback, goal_handle)
+
+    async def _execute_goal(self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle) -> None:
+        goal_id = goal_handle.goal_id.uuid
+        try:
+            result = await _outcome(execute_callback(goal_handle))
+        except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
+            result = self._action_type.Result()
+            self._logger.error(f"Error raised in execute callback: {error}")
+            import traceback
+
+            traceback.print_exc()
+        if goal_handle.is_active:
+            self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_id}")
+            goal_handle.abort()
+        response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
+        goal_handle._result.set_result(response)
+
+    def notify_goal_done(self) -> None:
+        """A goal has finished: see to it that its result is dropped in time."""
+        self._schedule_expiry()
+
+    # Results
+
+    def _on_result(self, header: RequestId, request: Any) -> None:
+        goal_handle = self._goal_handles.get(bytes(request.goal_id.uuid))
+        if goal_handle is None:
+            self._result_service.send_response(self._action_type.Impl.GetResultService.Response(), header)
+        else:
+            goal_handle._result.add_done_callback(partial(self._send_result, header))
+
+    def _send_result(self, header: RequestId, result: Future) -> None:
+        if not self._destroyed:
+            self._result_service.send_response(result.result(), header)
+
+    def _schedule_expiry(self) -> None:
+        if self._result_timeout_ns < 0 or self._destroyed:
+            return
+        with self._lock:
+            finished = [handle._finished_ns for handle in self._goal_handles.values() if handle._finished_ns is not None]
+        if finished:
+            self._expiry.timer_period_ns = max(0, min(finished) + self._result_timeout_ns - self._now_ns())
+            self._expiry.reset()
+        else:
+            self._expiry.cancel()
+
+    def _expire_goals(self) -> None:
+        limit_ns = self._now_ns() - self._result_timeout_ns
+        with self._lock:
+            for goal_id, handle in list(self._goal_handles.items()):
+                if handle._finished_ns is not None and handle._finished_ns <= limit_ns:
+                    del self._goal_handles[goal_id]
+        self._schedule_expiry()
+
+    def _forget(self, goal_handle: ServerGoalHandle) -> None:
+        with self._lock:
+            self._goal_handles.pop(bytes(goal_handle.goal_id.uuid), None)
+
+    # Cancelling
+
+    async def _on_cancel(self, header: RequestId, request: Any) -> None:
+        response = self._action_type.Impl.CancelGoalService.Response()
+        wanted, response.return_code = self._goals_to_cancel(request.goal_info)
+        for goal_handle in wanted:
+            if await _outcome(self._cancel_callback(goal_handle)) is not CancelResponse.ACCEPT or not goal_handle.is_active:
+                continue
+            if not goal_handle.is_cancel_requested:
+                goal_handle._update_state(GoalEvent.CANCEL_GOAL)
+            response.goals_canceling.append(goal_handle._goal_info)
+        if wanted and not response.goals_canceling:
+            response.return_code = response.ERROR_REJECTED
+        self._cancel_service.send_response(response, header)
+
+    def _goals_to_cancel(self, wanted: Any) -> tuple[list[ServerGoalHandle], int]:
+        """Active goals that a cancel request means, and the code of its response.
+
+        No id and no stamp mean all goals, a stamp all that were accepted until then, an id that goal; both are joined.
+        """
+        response = self._action_type.Impl.CancelGoalService.Response
+        goal_id = bytes(wanted.goal_id.uuid)
+        stamp = (wanted.stamp.sec, wanted.stamp.nanosec)
+        with self._lock:
+            goals = dict(self._goal_handles)
+        if any(goal_id) and stamp == (0, 0):
+            goal = goals.get(goal_id)
+            if goal is None:
+                return [], response.ERROR_UNKNOWN_GOAL_ID
+            return ([goal], response.ERROR_NONE) if goal.is_active else ([], response.ERROR_GOAL_TERMINATED)
+        found = []
+        for key, goal in goals.items():
+            accepted = (goal._goal_info.stamp.sec, goal._goal_info.stamp.nanosec)
+            if goal.is_active and (stamp == (0, 0) or accepted <= stamp or key == goal_id):
+                found.append(goal)
+        return found, response.ERROR_NONE
+
+    # Publishing
+
+    def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
+        if not isinstance(feedback, self._action_type.Feedback):
+            raise TypeError
+        if not self._destroyed:
+            self._feedback_publisher.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
+
+    def _publish_status(self) -> None:
+        if self._destroyed:
+            return
+        goal_status = _message("action_msgs/msg/GoalStatus")
+        with self._lock:
+            goals = list(self._goal_handles.values())
+        states = [goal_status(goal_info=goal._goal_info, status=goal.status) for goal in goals]
+        self._status_publisher.publish(self._action_type.Impl.GoalStatusMessage(status_list=states))
+
+    def _now_ns(self) -> int:
+        return self._node.get_clock().now().nanoseconds
+
+    def _close(self) -> None:
+        super()._close()
+        self._feedback_publisher.destroy()
+        self._status_publisher.destroy()
+
+
+async def _outcome(outcome: Any) -> Any:
+    """What a callback returned, or what its coroutine returns."""
+    return await outcome if isinstance(outcome, CoroutineType) else outcome
+
+
+def _message(name: str) -> Any:
+    from turtlewire.msg import get_message
+
+    return get_message(name)

@@ -1,0 +1,90 @@
+"""Blocking for a response, without the deadlocks that lie in wait there."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, Any
+
+from .service import Service
+
+if TYPE_CHECKING:
+    from .client import Client
+    from .entity import Entity
+    from .executors import Executor
+    from .task import Future
+
+__all__ = ["wait_for_response"]
+
+#: After this time a wait that nobody seems to end is logged.
+_PATIENCE_S = 1.0
+
+
+def wait_for_response(future: Future, client: Client, timeout_sec: float | None) -> Any:
+    """Block until ``future`` is done.
+
+    Outside of the executor's thread this waits for whoever spins, and says so in the log when nobody does. In a callback of a
+    single-threaded executor it serves the responses itself, since nobody else can.
+
+    Raises:
+        TimeoutError: The time was over before.
+        RuntimeError: The service is in the executor that is blocked.
+        ExternalShutdownException, ShutdownException: The context or the executor was shut down.
+    """
+    deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+    executor = None if client._executor is None else client._executor()
+    if executor is not None and executor._spinning_thread == threading.get_ident():
+        executor._serve_responses(future, deadline, lambda held_back: _is_served_by(client, held_back))
+    else:
+        _wait_for_other_thread(future, client, executor, deadline)
+    if not future.done():
+        raise TimeoutError
+    return future.result()
+
+
+def _is_served_by(client: Client, entities: set[Entity]) -> bool:
+    name = client._wire.service
+    return any(isinstance(entity, Service) and entity._wire.service == name for entity in entities)
+
+
+def _wait_for_other_thread(future: Future, client: Client, executor: Executor | None, deadline: float | None) -> None:
+    done = threading.Event()
+    future._add_waiter(done.set)
+    context = client._context
+    context._waits.add(done)
+    if executor is not None:
+        executor._blocked_waits.add(done)
+    try:
+        if not _wait(done, deadline, _PATIENCE_S) and (executor is None or executor._spinning_thread is None):
+            client._logger.warning(
+                f"Waiting for a response of service '{client._wire.service}', but nobody spins the node that calls it: "
+                "spin it in another thread, or use call_async() and spin_until_future_complete()"
+            )
+        while not future.done() and context.ok() and not (executor is not None and executor._is_shutdown) and not _is_over(deadline):
+            done.clear()
+            if not future.done():
+                _wait(done, deadline)
+    finally:
+        context._waits.discard(done)
+        if executor is not None:
+            executor._blocked_waits.discard(done)
+    if not future.done():
+        _raise_if_ended(client, executor)
+
+
+def _wait(done: threading.Event, deadline: float | None, at_most: float | None = None) -> bool:
+    remaining = None if deadline is None else max(0.0, deadline - time.monotonic())
+    return done.wait(at_most if remaining is None else min(remaining, at_most or remaining))
+
+
+def _is_over(deadline: float | None) -> bool:
+    return deadline is not None and time.monotonic() >= deadline
+
+
+def _raise_if_ended(client: Client, executor: Executor | None) -> None:
+    from .executors import ExternalShutdownException, ShutdownException
+
+    if not client._context.ok():
+        raise ExternalShutdownException
+    if executor is not None and executor._is_shutdown:
+        raise ShutdownException
