@@ -27,6 +27,7 @@ from .service import Service
 from .subscription import Subscription
 from .time_source import TimeSource
 from .timer import Rate, Timer
+from .type_description_service import TypeDescriptionService
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -111,6 +112,7 @@ class Node:
         self._time_source.attach_clock(self._clock)
         if start_parameter_services:
             self._parameter_service = ParameterService(self)
+        self._type_description_service = TypeDescriptionService(self)
         if enable_logger_service:
             from .logging_service import LoggingService
 
