@@ -1,0 +1,221 @@
+"""Parameters between two nodes: services, client, events; and the other services of a node."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from rcl_interfaces.msg import LoggerLevel, ParameterDescriptor
+from rcl_interfaces.msg import Parameter as ParameterMsg
+from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels, SetParameters
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl import log_levels
+from rclpy.node import Node
+from rclpy.parameter import Parameter, parameter_value_to_python
+from rclpy.parameter_client import AsyncParameterClient
+from rclpy.parameter_event_handler import ParameterEventHandler
+from type_description_interfaces.srv import GetTypeDescription
+
+from turtlewire import msg
+
+GOLDEN = Path(__file__).parent.parent / "golden"
+
+
+@pytest.fixture
+def context(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+@pytest.fixture
+def world(context):
+    """Two nodes, `/ns/server` and `/ns/asker`, and the executor that serves both."""
+    executor = SingleThreadedExecutor(context=context)
+    server = Node("server", namespace="/ns", context=context, enable_logger_service=True)
+    asker = Node("asker", namespace="/ns", context=context, start_parameter_services=False)
+    executor.add_node(server)
+    executor.add_node(asker)
+    yield World(executor, server, asker)
+    executor.shutdown()
+    server.destroy_node()
+    asker.destroy_node()
+
+
+class World:
+    def __init__(self, executor, server, asker):
+        self.executor, self.server, self.asker = executor, server, asker
+
+    def result(self, future):
+        self.executor.spin_until_future_complete(future, timeout_sec=20)
+        assert future.done()
+        return future.result()
+
+    def spin_until(self, condition):
+        for _ in range(200):
+            if condition():
+                return
+            self.executor.spin_once(timeout_sec=0.1)
+        raise AssertionError("it did not come true")
+
+    def ask(self, service_type, name, request):
+        client = self.asker.create_client(service_type, name)
+        assert client.wait_for_service(timeout_sec=20)
+        return self.result(client.call_async(request))
+
+
+@pytest.fixture
+def client(world):
+    client = AsyncParameterClient(world.asker, "server")
+    assert client.wait_for_services(timeout_sec=20)
+    assert client.services_are_ready()
+    return client
+
+
+def test_get(world, client):
+    world.server.declare_parameters("", [("a", 1), ("b", "x"), ("unset", Parameter.Type.INTEGER)])
+    response = world.result(client.get_parameters(["a", "b"]))
+    assert [parameter_value_to_python(value) for value in response.values] == [1, "x"]
+    assert world.result(client.get_parameters(["a", "nope"])).values == []
+    assert world.result(client.get_parameters(["unset"])).values == []
+
+
+def test_types_lists_descriptions(world, client):
+    world.server.declare_parameter("group.a", 1, ParameterDescriptor(description="text"))
+    assert list(world.result(client.get_parameter_types(["group.a", "use_sim_time"])).types) == [2, 1]
+    assert list(world.result(client.get_parameter_types(["group.a", "nope"])).types) == []
+    listed = world.result(client.list_parameters(["group"], 0)).result
+    assert (listed.names, listed.prefixes) == (["group.a"], ["group"])
+    assert sorted(world.result(client.list_parameters()).result.names) == ["group.a", "start_type_description_service", "use_sim_time"]
+    described = world.result(client.describe_parameters(["group.a", "nope"])).descriptors
+    assert [(each.name, each.type, each.description) for each in described] == [("group.a", 2, "text"), ("", 0, "")]
+
+
+def test_set(world, client):
+    world.server.declare_parameters("", [("a", 1), ("b", 1)])
+    done = []
+    results = world.result(
+        client.set_parameters([Parameter("a", value=2), Parameter("b", value="x").to_parameter_msg()], callback=done.append)
+    ).results
+    assert [(each.successful, each.reason) for each in results] == [
+        (True, ""),
+        (False, "Wrong parameter type, expected 'Type.INTEGER' got 'Type.STRING'"),
+    ]
+    world.spin_until(lambda: len(done) == 1)
+    result = world.result(client.set_parameters_atomically([Parameter("a", value=3), Parameter("nope", value=1)])).result
+    assert (result.successful, result.reason) == (False, "Invalid access to undeclared parameter(s): []")
+    assert world.server.get_parameter("a").value == 2
+
+
+def test_delete(world, client):
+    world.server.declare_parameter("a", 1, ParameterDescriptor(dynamic_typing=True))
+    (result,) = world.result(client.delete_parameters(["a"])).results
+    assert result.successful
+    assert not world.server.has_parameter("a")
+    (result,) = world.result(client.delete_parameters(["use_sim_time"])).results
+    assert result.reason == "Static parameter cannot be undeclared"
+
+
+def test_load_files(world, client, tmp_path):
+    world.server.declare_parameters("", [("a", 1), ("b.c", 1.0)])
+    path = tmp_path / "f.yaml"
+    path.write_text("server:\n  ros__parameters:\n    a: 5\n    b: {c: 2.5}\n")
+    assert [each.successful for each in world.result(client.load_parameter_file(str(path))).results] == [True, True]
+    assert (world.server.get_parameter("a").value, world.server.get_parameter("b.c").value) == (5, 2.5)
+    assert world.result(client.load_parameter_file_atomically(str(path))).result.successful
+
+
+def test_an_unknown_type_number_is_answered_with_an_error(world):
+    """What a broken peer might send: the node says no, and lives."""
+    request = SetParameters.Request(parameters=[ParameterMsg(name="use_sim_time", value=ParameterValue(type=77))])
+    (result,) = world.ask(SetParameters, "server/set_parameters", request).results
+    assert not result.successful
+    assert "77" in result.reason
+
+
+def test_parameter_events(world):
+    handler = ParameterEventHandler(world.asker)
+    calls = []
+    world.server.declare_parameter("a", 0)
+    one = handler.add_parameter_callback("a", "server", lambda parameter: calls.append(("a", parameter.value.integer_value)))
+    handler.add_parameter_callback("a", "/other", lambda parameter: calls.append("other node"))
+    everything = handler.add_parameter_event_callback(lambda event: calls.append(event.node))
+    world.server.set_parameters([Parameter("a", value=1)])
+    world.spin_until(lambda: ("a", 1) in calls)
+    handler.remove_parameter_callback(one)
+    handler.remove_parameter_event_callback(everything)
+    calls.clear()
+    done = []
+    handler.add_parameter_callback("a", "/ns/server", done.append)
+    world.server.set_parameters([Parameter("a", value=2)])
+    world.spin_until(lambda: done)
+    assert calls == []
+    for remove, handle in ((handler.remove_parameter_callback, one), (handler.remove_parameter_event_callback, everything)):
+        with pytest.raises(RuntimeError, match="^Callback doesn't exist$"):
+            remove(handle)
+    handler.destroy()
+
+
+def test_logger_levels(world):
+    log_levels.reset()
+    try:
+        request = SetLoggerLevels.Request(levels=[LoggerLevel(name="ns.server", level=10), LoggerLevel(name="x", level=11)])
+        results = world.ask(SetLoggerLevels, "server/set_logger_levels", request).results
+        assert [each.successful for each in results] == [True, False]
+        response = world.ask(GetLoggerLevels, "server/get_logger_levels", GetLoggerLevels.Request(names=["ns.server", "x"]))
+        assert [(each.name, each.level) for each in response.levels] == [("ns.server", 10), ("x", 0)]
+    finally:
+        log_levels.reset()
+
+
+@pytest.mark.parametrize("type_name", ["geometry_msgs/msg/TransformStamped", "turtlesim/srv/Spawn"])
+def test_type_descriptions(world, type_name):
+    request = GetTypeDescription.Request(type_name=type_name, type_hash=msg.type_hash(type_name), include_type_sources=True)
+    response = world.ask(GetTypeDescription, "server/get_type_description", request)
+    assert response.successful
+    assert response.type_description.type_description.type_name == type_name
+    described = {each.type_name: each for each in response.type_description.referenced_type_descriptions}
+    assert list(described) == sorted(described)
+    fields = json.loads((GOLDEN / "wire" / "interface_fields.json").read_text())
+    for name, description in described.items():
+        if name in fields and fields[name]:
+            assert [field.name for field in description.fields] == list(fields[name])
+    assert response.type_sources[0].encoding == type_name.split("/")[1]
+    assert response.type_sources[0].raw_file_contents
+
+
+def test_unknown_type_descriptions(world):
+    for type_name, type_hash, why in (
+        ("geometry_msgs/msg/Twist", "nonsense", "Failed to parse type hash"),
+        ("geometry_msgs/msg/Twist", msg.type_hash("geometry_msgs/msg/Pose"), "Type not currently in use by this node"),
+        ("no_msgs/msg/Nope", msg.type_hash("geometry_msgs/msg/Pose"), "Type not currently in use by this node"),
+    ):
+        request = GetTypeDescription.Request(type_name=type_name, type_hash=type_hash)
+        response = world.ask(GetTypeDescription, "server/get_type_description", request)
+        assert (response.successful, response.failure_reason) == (False, why)
+
+
+def test_overrides_of_the_command_line_and_the_constructor(context):
+    words = ["--ros-args", "-r", "__node:=renamed", "-p", "renamed:a:=5", "-p", "b:=6", "-p", "c:=[1, 2]"]
+    node = Node(
+        "original",
+        context=context,
+        cli_args=words,
+        parameter_overrides=[Parameter("b", value=60)],
+        automatically_declare_parameters_from_overrides=True,
+    )
+    assert {name: node.get_parameter(name).value for name in "abc"} == {"a": 5, "b": 60, "c": [1, 2]}
+    node.destroy_node()
+
+
+def test_the_type_description_service_can_be_left_out(context):
+    node = Node("quiet", context=context, cli_args=["--ros-args", "-p", "start_type_description_service:=false"])
+    assert node.get_parameter("start_type_description_service").value is False
+    names = [name for name, _ in node.get_service_names_and_types_by_node("quiet", "/")]
+    assert "/quiet/get_parameters" in names
+    assert "/quiet/get_type_description" not in names
+    node.destroy_node()
