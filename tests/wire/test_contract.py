@@ -414,6 +414,28 @@ def test_close_from_the_reader_thread_returns(node: Node, other: Node):
     assert done.wait(20)
 
 
+@pytest.mark.parametrize("data", [b"", b"\x00\x01", b"\x00\x01\x00\x00", b"\x00\x00\x00\x00abcd", b"\x00\x07\x00\x00abcd", b"hello world!"])
+def test_bytes_that_are_no_message_are_refused(node: Node, data: bytes):
+    publisher = node.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    with pytest.raises(WireError, match=r"/chatter.*no message"):
+        publisher.publish(data)
+    late = node.create_subscription("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    publisher.publish(cdr("x"))
+    assert take_all(node, late, 1) == [cdr("x")]
+
+
+def test_two_types_on_one_topic_keep_apart(node: Node, other: Node):
+    number = TypeId("std_msgs/msg/Int32", "RIHS01_" + "3" * 64)
+    strings = node.create_subscription("/mixed", STRING, QoS())
+    numbers = node.create_subscription("/mixed", number, QoS())
+    publisher = other.create_publisher("/mixed", number, QoS())
+    connect(other, publisher, numbers)
+    publisher.publish(cdr("x"))
+    assert take_all(node, numbers, 1) == [cdr("x")]
+    assert strings.take() == []
+    wait_until(node.context, lambda: len(node.context.graph.topic_names_and_types().get("/mixed", [])) == 2)
+
+
 def test_topics_without_ros_prefix(node: Node, other: Node):
     bare = QoS(avoid_ros_namespace_conventions=True)
     subscription = node.create_subscription("/bare", STRING, bare)

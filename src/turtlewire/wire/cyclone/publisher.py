@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, Publisher
+from turtlewire.wire.encapsulation import require_message
 
 from . import library as dds
 from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_matched
@@ -42,6 +43,7 @@ class CyclonePublisher(Endpoint, Publisher):
 
     def publish(self, cdr: bytes) -> None:
         """See :meth:`Publisher.publish`."""
+        require_message(cdr, self.topic)
         size = len(cdr)
         if size & 3:  # Cyclone sends multiples of four bytes
             cdr += b"\x00" * (-size & 3)
@@ -51,7 +53,7 @@ class CyclonePublisher(Endpoint, Publisher):
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
             serdata = dds.serdata_from_bytes(self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size)
         if not serdata:
-            raise WireError(f"publish on {self.topic}: not a serialized message (header {cdr[:4].hex(' ')}, expected 00 01 00 00)")
+            raise WireError(f"publish on {self.topic}: Cyclone DDS refuses the message")
         code = dds.write_serdata(self.handle, serdata)
         if code < 0:
             self._refused(code)

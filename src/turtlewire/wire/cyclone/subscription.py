@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.wire.base import EventKind, MessageInfo, Subscription
+from turtlewire.wire.encapsulation import LITTLE_ENDIAN
 from turtlewire.wire.report import call_guarded, warn_once
 
 from . import library as dds
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = ["CycloneSubscription", "deliver_to"]
 
-_LITTLE_ENDIAN = b"\x00\x01"
 _BATCH = 32
 _KNOWN_PUBLISHERS = 1000
 
@@ -87,7 +87,7 @@ class CycloneSubscription(Endpoint, Subscription):
                 size = dds.serdata_size(serdata)
                 data = bytes(size)  # new, and nobody else's yet: filled in place
                 dds.serdata_to_bytes(serdata, 0, size, data)
-                if data[:2] == _LITTLE_ENDIAN:
+                if data[:2] == LITTLE_ENDIAN:
                     publisher = info.publication_handle
                     gid = self._gids.get(publisher) or self._gid_of(publisher)
                     messages.append((data, MessageInfo(info.source_timestamp, now, gid)))

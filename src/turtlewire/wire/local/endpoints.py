@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import WireError
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, Entity, EventKind, MessageInfo, Publisher, Subscription
+from turtlewire.wire.encapsulation import require_message
 from turtlewire.wire.events import StatusEvent
 from turtlewire.wire.qos import Durability, History
 from turtlewire.wire.report import call_guarded
@@ -97,6 +98,7 @@ class LocalPublisher(LocalEndpoint, Publisher):
 
     def publish(self, cdr: bytes) -> None:
         """See :meth:`Publisher.publish`."""
+        require_message(cdr, self.topic)
         now = time.time_ns()
         message = (cdr, MessageInfo(now, now, self.gid))
         with self.bus.lock:
