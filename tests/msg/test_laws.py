@@ -179,6 +179,36 @@ def test_every_type_that_rosbags_knows_has_its_bytes_many_times(all_messages, me
     _run_rosbags(all_messages, messages, MANY)
 
 
+@pytest.mark.parametrize("size", [1024, 1025, 1026, 1031, 5000])
+@pytest.mark.parametrize(
+    ("name", "fill"),
+    [
+        ("sensor_msgs/msg/LaserScan", lambda m, n: {"ranges": [1.5] * n, "intensities": [2.5] * n}),
+        ("sensor_msgs/msg/JointState", lambda m, n: {"position": [1.5] * n, "velocity": [1.0], "effort": [2.5] * n}),
+        ("sensor_msgs/msg/PointCloud2", lambda m, n: {"data": bytes(range(250)) * (n // 250) + bytes(n % 250), "is_dense": True}),
+        (
+            "trajectory_msgs/msg/JointTrajectory",
+            lambda m, n: {"points": [m("trajectory_msgs/msg/JointTrajectoryPoint")(positions=[0.5] * n, effort=[1.0]) for _ in range(3)]},
+        ),
+        (
+            "visualization_msgs/msg/MarkerArray",
+            lambda m, n: {
+                "markers": [
+                    m("visualization_msgs/msg/Marker")(mesh_file=m("visualization_msgs/msg/MeshFile")(data=bytes(n)), text="ab", ns="x" * i)
+                    for i in range(4)
+                ]
+            },
+        ),
+    ],
+)
+def test_large_sequences_have_the_bytes_of_rosbags(name, fill, size):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    message = msg.get_message(name)(**fill(msg.get_message, size))
+    ours = msg.serialize(message)
+    assert bytes(store.serialize_cdr(_rosbags_message(store, name, message), name))[: len(ours)] == ours
+    assert msg.serialize(msg.deserialize(type(message), ours)) == ours
+
+
 def test_rosbags_knows_the_same_fields_constants_and_hashes(all_messages):
     store = get_typestore(Stores.ROS2_JAZZY)
     hashed = 0

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.msg.registry import load_message
 from turtlewire.msg.types import (
     TYPE_CODES,
+    AbstractNestedType,
     AbstractSequence,
     AbstractString,
     AbstractWString,
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
 
 __all__ = ["make_encoder"]
+
+LARGE = 1024
+"""Sequences of more numbers than this are copied once, into the result; ``done`` collects what is to be joined there."""
 
 HEADER = b"\x00\x01\x00\x00"
 """Encapsulation: plain CDR, little endian, no options."""
@@ -89,6 +93,18 @@ def swapped(values: Any) -> Any:
     return values
 
 
+def _has_numbers(definition: MessageDefinition) -> bool:
+    """Whether there is a sequence of numbers in it at any depth."""
+    for field in definition.fields:
+        type_ = field.type
+        if isinstance(type_, AbstractSequence) and element_code(type_):
+            return True
+        nested = type_.value_type if isinstance(type_, AbstractNestedType) else type_
+        if isinstance(nested, NamespacedType) and _has_numbers(load_message(nested.full_name)):
+            return True
+    return False
+
+
 class _Encoder:
     """Writes the source of one encoding function."""
 
@@ -105,6 +121,7 @@ class _Encoder:
         self.names = 0
         self.modulus = 8
         self.remainder = 0
+        self.has_numbers = False
         self.terminator = False  # a string's NUL that the next padding brings along
         self.started = False  # whether `out` exists
         self.format = ""
@@ -112,12 +129,16 @@ class _Encoder:
 
     def compile(self, definition: MessageDefinition) -> Callable[[Any], bytes]:
         """Generate and compile the function."""
+        self.has_numbers = _has_numbers(definition)
+        if self.has_numbers:
+            self.line("done = []; shift = 0")
         self.message(definition, "m")
         if not self.started:
             self.line(f"return {self.packed()}")
         else:
             self.flush()
-            self.line("return bytes(out) + b'\\0'" if self.terminator else "return bytes(out)")
+            self.finish_string()
+            self.line("return b''.join((*done, out)) if done else bytes(out)" if self.has_numbers else "return bytes(out)")
         source = "def encode(m):\n" + "\n".join(self.lines)
         exec(compile(source, f"<encoder of {definition.full_name}>", "exec"), self.environment)  # noqa: S102 - our own source
         encode: Callable[[Any], bytes] = self.environment["encode"]
@@ -185,7 +206,9 @@ class _Encoder:
         size = SIZES[code]
         if size == 8 and not (self.modulus == 8 and self.remainder == 0):
             self.line(f"if {values}: {self.padding(8)}")
-        self.append(values if sys.byteorder == "little" or size == 1 else f"swapped({values})")
+        content = values if sys.byteorder == "little" or size == 1 else f"swapped({values})"
+        self.line(f"if len({values}) <= {LARGE}: out += {content}")
+        self.line(f"else: done += (out, {content}); shift += len(out) + len({values}) * {size}; out = bytearray()")
         self.forget_down_to(min(size, 4))
 
     def bytes(self, values: str) -> None:
@@ -267,7 +290,8 @@ class _Encoder:
     def padding(self, size: int) -> str:
         kind, tables = ("nul_pad", _NUL_PADS) if self.terminator else ("pad", _PADS)
         self.environment[f"{kind}{size}"] = tables[size]
-        return f"out += {kind}{size}[len(out) & {size - 1}]"
+        length = "len(out) + shift" if self.has_numbers else "len(out)"
+        return f"out += {kind}{size}[{length} & {size - 1}]"
 
     def advance(self, size: int) -> None:
         self.remainder = (self.remainder + size) % self.modulus
