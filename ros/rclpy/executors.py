@@ -153,14 +153,14 @@ class Executor:
             self._entities_made += 1
             entity._rank = (node_index, entity._ORDER, self._entities_made)
             entity._executor = weakref.ref(self)
-        entity._attach(self)
+            entity._attach(self)
 
     def _detach(self, entity: Entity) -> None:
         """Serve an entity no longer."""
         with self._lock:
             entity._executor = None
             self._paused.discard(entity)
-        entity._detach(self)
+            entity._detach(self)
 
     # What entities call
 
@@ -362,9 +362,9 @@ class Executor:
         return work
 
     def _pause(self, entity: Entity) -> None:
-        with self._lock:
+        with self._lock:  # a thread that ends its callback may resume it at any moment: not in the middle of this
             self._paused.add(entity)
-        entity._pause(self)
+            entity._pause(self)
         if self._may_run(entity):  # it became free before we were in the list
             self._resume(entity)
 
@@ -391,7 +391,7 @@ class Executor:
             if entity not in self._paused:
                 return
             self._paused.discard(entity)
-        entity._resume(self)
+            entity._resume(self)
         self.wake()
 
     # Running
