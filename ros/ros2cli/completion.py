@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["executables", "interface_packages", "interfaces", "packages"]
+__all__ = [
+    "action_names",
+    "action_types",
+    "executables",
+    "interface_packages",
+    "interfaces",
+    "node_names",
+    "packages",
+    "service_names",
+    "service_types",
+    "topic_names",
+    "topic_types",
+]
 
 
 def packages(**_: Any) -> list[str]:
@@ -39,3 +51,49 @@ def interfaces(**_: Any) -> list[str]:
     return sorted(
         f"{package}/{kind}/{name}" for package, kinds in msg.interface_names().items() for kind, names in kinds.items() for name in names
     )
+
+
+def topic_names(**_: Any) -> list[str]:
+    """Names of the topics there are now."""
+    return [name for name, _ in _ask("topics")]
+
+
+def service_names(**_: Any) -> list[str]:
+    """Names of the services there are now."""
+    return [name for name, _ in _ask("services")]
+
+
+def action_names(**_: Any) -> list[str]:
+    """Names of the actions there are now."""
+    return [name for name, _ in _ask("actions")]
+
+
+def node_names(**_: Any) -> list[str]:
+    """Full names of the nodes there are now."""
+    return _ask("node_names")
+
+
+def topic_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Type of the topic on the command line, or all messages."""
+    types = dict(_ask("topics")).get(getattr(parsed_args, "topic_name", None))
+    return types or [name for name in interfaces() if "/msg/" in name]
+
+
+def service_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Type of the service on the command line, or all services."""
+    types = dict(_ask("services")).get(getattr(parsed_args, "service_name", None))
+    return types or [name for name in interfaces() if "/srv/" in name]
+
+
+def action_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Type of the action on the command line, or all actions."""
+    types = dict(_ask("actions")).get(getattr(parsed_args, "action_name", None))
+    return types or [name for name in interfaces() if "/action/" in name]
+
+
+def _ask(question: str) -> Any:
+    from ros2cli import graph
+    from ros2cli.discovery import GraphNode
+
+    with GraphNode() as known:
+        return getattr(graph, question)(known)

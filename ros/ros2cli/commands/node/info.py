@@ -1,0 +1,53 @@
+"""``ros2 node info``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import node_names
+from ros2cli.discovery import GraphNode, add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    node = parser.add_argument("node_name", help="Full name of the node, for example /turtlesim")
+    node.completer = node_names  # type: ignore[attr-defined]
+    parser.add_argument("--include-hidden", action="store_true", help="Also topics and services with a part that begins with an underscore")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print what the node has, kind by kind."""
+    from ros2cli import graph as ask
+    from ros2cli.suggestion import did_you_mean
+
+    name, hidden = args.node_name, args.include_hidden
+    with GraphNode(args.spin_time) as graph:
+        known = ask.node_names(graph, hidden=True)
+        if name not in known:
+            return f"Unable to find node '{name}'{did_you_mean(name, known)}"
+        if known.count(name) > 1:
+            print(
+                f'There are {known.count(name)} nodes in the graph with the exact name "{name}". '
+                "You are seeing information about only one of them.",
+                file=sys.stderr,
+            )
+        print(name)
+        _print_section("Subscribers", ask.subscribers(graph, name, hidden=hidden))
+        _print_section("Publishers", ask.publishers(graph, name, hidden=hidden))
+        _print_section("Service Servers", ask.service_servers(graph, name, hidden=hidden))
+        _print_section("Service Clients", ask.service_clients(graph, name, hidden=hidden))
+        _print_section("Action Servers", ask.action_servers(graph, name))
+        _print_section("Action Clients", ask.action_clients(graph, name))
+    return None
+
+
+def _print_section(title: str, found: list[tuple[str, list[str]]]) -> None:
+    print(f"  {title}:")
+    print("\n".join(f"    {name}: {', '.join(types)}" for name, types in found))

@@ -1,0 +1,64 @@
+"""``ros2 service call``."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import service_names, service_types
+from ros2cli.values import positive_float, read_values
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ros2cli.direct_node import DirectNode
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
+    name.completer = service_names  # type: ignore[attr-defined]
+    kind = parser.add_argument("service_type", help="Type of the service, for example turtlesim/srv/Spawn")
+    kind.completer = service_types  # type: ignore[attr-defined]
+    values = parser.add_mutually_exclusive_group()
+    values.add_argument("values", nargs="?", default="{}", help="Values of the request as YAML, for example '{x: 1.0}'")
+    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
+    parser.add_argument("-r", "--rate", metavar="N", type=positive_float, help="Call again and again, N times a second")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Call, and print the response."""
+    from rosidl_runtime_py import set_message_fields
+    from rosidl_runtime_py.utilities import get_service
+
+    values = read_values(sys.stdin.read() if args.stdin else args.values)
+    try:
+        service_class = get_service(args.service_type)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError("The passed service type is invalid") from None
+    request = service_class.Request()
+    try:
+        set_message_fields(request, values)
+    except Exception as error:  # noqa: BLE001  any value may be wrong in any way
+        return f"Failed to populate field: {error}"
+    from ros2cli.direct_node import DirectNode
+
+    with DirectNode(args) as direct:
+        client = direct.node.create_client(service_class, args.service_name)
+        if not client.service_is_ready():
+            print("waiting for service to become available...")
+            client.wait_for_service()
+        while True:
+            _call(direct, client, request)
+            if args.rate is None:
+                return None
+            time.sleep(1.0 / args.rate)
+
+
+def _call(direct: DirectNode, client: Any, request: Any) -> None:
+    print(f"requester: making request: {request!r}\n")
+    response = direct.result(client.call_async(request))
+    print(f"response:\n{response!r}\n")

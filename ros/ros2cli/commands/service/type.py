@@ -1,0 +1,31 @@
+"""``ros2 service type``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import service_names
+from ros2cli.discovery import GraphNode, add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    service = parser.add_argument("service_name", help="Name of the service, for example /spawn")
+    service.completer = service_names  # type: ignore[attr-defined]
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the type; status 1 when there is no such service."""
+    from ros2cli.graph import services
+
+    with GraphNode(args.spin_time) as graph:
+        types = dict(services(graph, hidden=True)).get(args.service_name, [])
+    for name in types:
+        print(name)
+    return 0 if types else 1

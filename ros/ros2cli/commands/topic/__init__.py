@@ -1,0 +1,27 @@
+"""``ros2 topic``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["VERBS", "add_arguments"]
+
+VERBS = {
+    "bw": "Show the bandwidth of a topic",
+    "delay": "Show the delay of a topic, by the stamps in its headers",
+    "echo": "Show the messages of a topic",
+    "find": "List the topics of a type",
+    "hz": "Show the rate of a topic",
+    "info": "Show who publishes and subscribes to a topic",
+    "list": "List the topics",
+    "pub": "Publish messages to a topic",
+    "type": "Show the type of a topic",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define what all verbs share."""
+    parser.add_argument("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with an underscore")

@@ -1,0 +1,41 @@
+"""``ros2 topic bw``."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from ros2cli.commands.topic.statistics import Sizes
+from ros2cli.completion import topic_names
+from ros2cli.discovery import add_spin_arguments
+from ros2cli.qos_options import matching_publishers
+from ros2cli.values import positive_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
+    topic.completer = topic_names  # type: ignore[attr-defined]
+    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=100, help="How many messages count")
+    add_spin_arguments(parser)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the bandwidth every second, while messages come."""
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.topic_type import type_of_topic
+
+    with DirectNode(args) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        kind = type_of_topic(direct.graph, topic, blocking=True)
+        sizes = Sizes(args.window)
+        qos = matching_publishers(direct.graph, topic)
+        print(f"Subscribed to [{topic}]")
+        direct.node.create_subscription(kind, topic, lambda cdr: sizes.add(time.monotonic(), len(cdr)), qos, raw=True)
+        direct.node.create_timer(1.0, lambda: print(end=sizes.report(time.monotonic())))
+        direct.spin()

@@ -1,0 +1,46 @@
+"""``ros2 topic delay``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.commands.topic.statistics import Delays
+from ros2cli.completion import topic_names
+from ros2cli.discovery import add_spin_arguments
+from ros2cli.qos_options import matching_publishers
+from ros2cli.values import positive_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    topic = parser.add_argument("topic_name", help="Name of a topic whose messages have a header")
+    topic.completer = topic_names  # type: ignore[attr-defined]
+    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=10000, help="How many messages count")
+    add_spin_arguments(parser)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the delay every second, while messages come."""
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.topic_type import type_of_topic
+
+    with DirectNode(args) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        kind = type_of_topic(direct.graph, topic, blocking=True)
+        if "header" not in kind.get_fields_and_field_types():
+            raise RuntimeError("msg does not have header")
+        delays = Delays(args.window)
+        clock = direct.node.get_clock()
+
+        def note(message: Any) -> None:
+            stamp = message.header.stamp
+            delays.add((clock.now().nanoseconds - (stamp.sec * 1_000_000_000 + stamp.nanosec)) / 1e9)
+
+        direct.node.create_subscription(kind, topic, note, matching_publishers(direct.graph, topic))
+        direct.node.create_timer(1.0, lambda: print(end=delays.report()))
+        direct.spin()

@@ -1,0 +1,160 @@
+"""``ros2 topic echo``."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import topic_names, topic_types
+from ros2cli.discovery import add_spin_arguments
+from ros2cli.qos_options import add_qos_arguments, asked_for, matching_publishers, with_options
+from ros2cli.values import positive_float, unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable
+
+    from ros2cli.direct_node import DirectNode
+
+__all__ = ["add_arguments", "main", "make_filter"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_spin_arguments(parser)
+    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
+    topic.completer = topic_names  # type: ignore[attr-defined]
+    kind = parser.add_argument("message_type", nargs="?", help="Type of the messages; by default that of the topic")
+    kind.completer = topic_types  # type: ignore[attr-defined]
+    add_qos_arguments(parser)
+    parser.add_argument("--csv", action="store_true", help="One line of comma-separated values for each message")
+    parser.add_argument("--field", metavar="FIELD", help="Only this field, for example pose.position.x")
+    parser.add_argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings")
+    parser.add_argument("-l", "--truncate-length", type=unsigned_int, default=128, help="Length to which arrays and strings are shortened")
+    parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
+    parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
+    parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
+    parser.add_argument("--lost-messages", action="store_true", help="Accepted for compatibility: lost messages are reported by default")
+    parser.add_argument("--no-lost-messages", action="store_true", help="Do not report lost messages")
+    parser.add_argument("--raw", action="store_true", help="Show the bytes of the messages")
+    parser.add_argument("--filter", dest="filter_expr", metavar="FILTER-EXPR", help="Only messages m for which this Python expression is true")
+    parser.add_argument("--once", action="store_true", help="End after the first message")
+    parser.add_argument("--timeout", metavar="N", type=positive_float, help="End after N seconds without messages")
+    parser.add_argument("-i", "--include-message-info", action="store_true", help="Show when a message was sent and received")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the messages until there is an end."""
+    from rclpy.task import Future
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.topic_type import message_class, type_of_topic
+
+    if args.message_type is not None:
+        message_class(args.message_type)  # refused before anything is started
+    keep = make_filter(args.filter_expr)
+    with DirectNode(args) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        kind = type_of_topic(direct.graph, topic) if args.message_type is None else message_class(args.message_type)
+        if kind is None:
+            raise RuntimeError("Could not determine the type for the passed topic")
+        _check_field(kind, args.field)
+        qos = with_options(args, "sensor_data") if asked_for(args) else matching_publishers(direct.graph, topic)
+        end = Future()
+        printer = _Printer(args, keep, end)
+        direct.node.create_subscription(kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args))
+        printer.end_after_silence(direct)
+        direct.result(end)
+    return None
+
+
+class _Printer:
+    """Shows messages as the options say."""
+
+    def __init__(self, args: argparse.Namespace, keep: Callable[[Any], bool] | None, end: Any) -> None:
+        self._args = args
+        self._keep = keep
+        self._end = end
+        self._timer: Any = None
+
+    def end_after_silence(self, direct: DirectNode) -> None:
+        """Apply ``--timeout``."""
+        if self._args.timeout is not None:
+            self._timer = direct.node.create_timer(self._args.timeout, self._finish)
+
+    def _finish(self) -> None:
+        if not self._end.done():
+            self._end.set_result(None)
+
+    def show(self, message: Any, info: dict[str, Any]) -> None:
+        """Print one message."""
+        if self._end.done() or (self._keep is not None and not self._keep(message)):
+            return
+        if self._timer is not None:
+            self._timer.reset()
+        if self._args.include_message_info:
+            print(info)
+        value = _field(message, self._args.field)
+        self._print(value)
+        if self._args.once:
+            self._finish()
+
+    def _print(self, value: Any) -> None:
+        args = self._args
+        length = None if args.full_length else args.truncate_length
+        if args.raw or not hasattr(value, "SLOT_TYPES"):
+            print(value, end="\n" if args.csv else "\n---\n")
+        elif args.csv:
+            from rosidl_runtime_py import message_to_csv
+
+            print(message_to_csv(value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str))
+        else:
+            from rosidl_runtime_py import message_to_yaml
+
+            text = message_to_yaml(value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str, flow_style=args.flow_style)
+            print(text, end="---\n")
+
+
+def _field(message: Any, path: str | None) -> Any:
+    """A field of a message: names joined by dots, with indices in brackets.
+
+    Raises:
+        RuntimeError: There is none.
+    """
+    for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path or ""):
+        try:
+            message = getattr(message, name) if name else message[int(index)]
+        except (AttributeError, IndexError, TypeError) as error:
+            raise RuntimeError(f"Invalid field '{path}': {error}") from error
+    return message
+
+
+def _check_field(kind: Any, path: str | None) -> None:
+    """Refuse a field that no message of the type has, before the first one arrives."""
+    if path is not None and "[" not in path:
+        _field(kind(), path)
+
+
+def make_filter(expression: str | None) -> Callable[[Any], bool] | None:
+    """A predicate over messages from a Python expression in ``m``.
+
+    Raises:
+        RuntimeError: It is no expression.
+    """
+    if expression is None:
+        return None
+    try:
+        code = compile(expression, "<filter>", "eval")
+    except SyntaxError as error:
+        raise RuntimeError(f"Invalid filter expression '{expression}': {error}") from error
+    return lambda message: bool(eval(code, {}, {"m": message}))  # noqa: S307  the user's own expression
+
+
+def _lost(args: argparse.Namespace) -> Any:
+    if args.no_lost_messages:
+        return None
+    from rclpy.event_handler import SubscriptionEventCallbacks
+
+    def report(status: Any) -> None:
+        print(f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}", end="---\n")
+
+    return SubscriptionEventCallbacks(message_lost=report)

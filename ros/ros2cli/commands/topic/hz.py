@@ -1,0 +1,50 @@
+"""``ros2 topic hz``."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.commands.topic.statistics import Intervals
+from ros2cli.completion import topic_names
+from ros2cli.discovery import add_spin_arguments
+from ros2cli.qos_options import matching_publishers
+from ros2cli.values import positive_int
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
+    topic.completer = topic_names  # type: ignore[attr-defined]
+    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=10000, help="How many messages count")
+    parser.add_argument("--filter", dest="filter_expr", metavar="EXPR", help="Only messages m for which this Python expression is true")
+    parser.add_argument("--wall-time", action="store_true", help="Use the wall clock with simulated time too")
+    add_spin_arguments(parser)
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the rate every second, while messages come."""
+    from ros2cli.commands.topic.echo import make_filter
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.topic_type import type_of_topic
+
+    keep = make_filter(args.filter_expr)
+    with DirectNode(args) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        kind = type_of_topic(direct.graph, topic, blocking=True)
+        intervals = Intervals(args.window)
+        clock = direct.node.get_clock()
+
+        def note(message: Any) -> None:
+            if keep is None or keep(message):
+                intervals.add(time.monotonic_ns() if args.wall_time or not args.use_sim_time else clock.now().nanoseconds)
+
+        qos = matching_publishers(direct.graph, topic)
+        direct.node.create_subscription(kind, topic, note, qos, raw=keep is None)
+        direct.node.create_timer(1.0, lambda: print(end=intervals.report()))
+        direct.spin()

@@ -1,0 +1,51 @@
+"""``ros2 topic list``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.discovery import GraphNode, add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ros2cli.graph import NamesAndTypes
+    from turtlewire.wire.base import Graph
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
+    parser.add_argument("-c", "--count-topics", action="store_true", help="Only show how many there are")
+    parser.add_argument("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with an underscore")
+    parser.add_argument("-v", "--verbose", action="store_true", help="Show how many publish and subscribe")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print names, or what was asked for."""
+    from ros2cli.graph import topics
+
+    with GraphNode(args.spin_time) as graph:
+        found = topics(graph, hidden=args.include_hidden_topics)
+        if args.count_topics:
+            print(len(found))
+        elif args.verbose:
+            _print_verbose(graph, found)
+        else:
+            for name, types in found:
+                print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+
+
+def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
+    from ros2cli.graph import endpoints_of_topic
+
+    for title, kind, word in (("Published", "publisher", "publisher"), ("Subscribed", "subscription", "subscriber")):
+        print(f"{title} topics:")
+        for name, types in found:
+            count = len(endpoints_of_topic(graph, name, kind))
+            if count:
+                print(f" * {name} [{', '.join(types)}] {count} {word}{'' if count == 1 else 's'}")
+        print()

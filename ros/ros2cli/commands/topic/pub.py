@@ -1,0 +1,108 @@
+"""``ros2 topic pub``."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import topic_names, topic_types
+from ros2cli.discovery import add_spin_arguments
+from ros2cli.qos_options import add_qos_arguments, with_options
+from ros2cli.values import positive_float, positive_int, read_values, unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ros2cli.direct_node import DirectNode
+
+__all__ = ["add_arguments", "main"]
+
+_SAY_WAITING_EVERY_NS = 1_000_000_000
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    topic = parser.add_argument("topic_name", help="Name of the topic, for example /turtle1/cmd_vel")
+    topic.completer = topic_names  # type: ignore[attr-defined]
+    kind = parser.add_argument("message_type", help="Type of the messages, for example geometry_msgs/msg/Twist")
+    kind.completer = topic_types  # type: ignore[attr-defined]
+    values = parser.add_mutually_exclusive_group()
+    values.add_argument("values", nargs="?", default="{}", help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'")
+    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
+    parser.add_argument("-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second")
+    parser.add_argument("-p", "--print", metavar="N", type=positive_int, default=1, help="Show only every Nth message")
+    times = parser.add_mutually_exclusive_group()
+    times.add_argument("-1", "--once", action="store_true", help="Publish one message")
+    times.add_argument("-t", "--times", type=positive_int, default=0, help="Publish so many messages")
+    wait_help = "Wait for so many subscriptions; by default for one with --once and --times"
+    parser.add_argument("-w", "--wait-matching-subscriptions", type=unsigned_int, help=wait_help)
+    parser.add_argument("--max-wait-time-secs", type=positive_float, help="Wait at most so long for subscriptions")
+    parser.add_argument("--keep-alive", metavar="N", type=positive_float, default=0.1, help="Stay for N seconds after the last message")
+    parser.add_argument("-n", "--node-name", help="Name of the publishing node")
+    add_qos_arguments(parser)
+    add_spin_arguments(parser)
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Publish."""
+    from rosidl_runtime_py import set_message_fields
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.topic_type import message_class
+
+    message = message_class(args.message_type)()
+    values = read_values(sys.stdin.read() if args.stdin else args.values)
+    try:
+        stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+    except Exception as error:  # noqa: BLE001  any value may be wrong in any way
+        return f"Failed to populate field: {error}"
+    times = 1 if args.once else args.times
+    with DirectNode(args, name=args.node_name) as direct:
+        publisher = direct.node.create_publisher(type(message), args.topic_name, with_options(args, "default"))
+        wanted = args.wait_matching_subscriptions
+        message_or_none = _wait_for_subscriptions(direct, publisher, (1 if times else 0) if wanted is None else wanted, args.max_wait_time_secs)
+        if message_or_none is not None:
+            return message_or_none
+        print("publisher: beginning loop")
+        _publish(args, direct, publisher, message, stamps, times)
+        if times:
+            time.sleep(args.keep_alive)
+    return None
+
+
+def _wait_for_subscriptions(direct: DirectNode, publisher: Any, wanted: int, limit: float | None) -> str | None:
+    """Wait; a text when the time is over."""
+    deadline = None if limit is None else time.monotonic() + limit
+    while publisher.get_subscription_count() < wanted:
+        print(f"Waiting for at least {wanted} matching subscription(s)...")
+        rest = _SAY_WAITING_EVERY_NS if deadline is None else min(_SAY_WAITING_EVERY_NS, int((deadline - time.monotonic()) * 1e9))
+        if rest <= 0:
+            return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {publisher.get_subscription_count()} subscribers"
+        direct.graph.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
+    return None
+
+
+def _publish(args: argparse.Namespace, direct: DirectNode, publisher: Any, message: Any, stamps: list[Any], times: int) -> None:
+    from rclpy.task import Future
+
+    count = 0
+    end = Future()
+
+    def publish_next() -> None:
+        nonlocal count
+        if end.done():
+            return
+        now = direct.node.get_clock().now().to_msg()
+        for stamp in stamps:
+            stamp.sec, stamp.nanosec = now.sec, now.nanosec
+        count += 1
+        if count % args.print == 0:
+            print(f"publishing #{count}: {message!r}\n")
+        publisher.publish(message)
+        if count == times:
+            end.set_result(None)
+
+    publish_next()
+    timer = direct.node.create_timer(1.0 / args.rate, publish_next)
+    direct.result(end)
+    direct.node.destroy_timer(timer)

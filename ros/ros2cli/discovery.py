@@ -1,0 +1,105 @@
+"""Taking part in the domain just long enough to know who is there."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+    from types import TracebackType
+
+    from turtlewire.wire.base import Graph
+
+__all__ = ["GraphNode", "add_spin_arguments", "add_strategy_arguments", "wait_until_discovered"]
+
+# Measured beside 50 nodes on two cores: the last participant answers 70 ms after the first question, with gaps of up to 40 ms.
+_LEAST_S = 0.15
+_QUIET_S = 0.02
+_SPIN_S = 0.5
+
+_NODE_TOPICS = (
+    ("/rosout", "rcl_interfaces/msg/Log", "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac", 10_000_000_000),
+    ("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204", 0),
+)
+
+
+def add_spin_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of all verbs that take part in a domain."""
+    parser.add_argument("--spin-time", type=float, default=None, help="Seconds to wait for discovery; by default until all is known")
+    parser.add_argument("-s", "--use-sim-time", action="store_true", help="Take the time from /clock")
+
+
+def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of verbs that only look at the graph."""
+    add_spin_arguments(parser)
+    parser.add_argument("--no-daemon", action="store_true", help="Accepted for compatibility: there is no daemon")
+
+
+def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
+    """Wait until the graph is known.
+
+    That is when all that the known participants announced has arrived, nothing new came for a while, and everyone had the time to
+    answer. When something that was announced does not arrive, the wait ends after half a second without news.
+
+    Args:
+        graph: The graph.
+        spin_time: Wait exactly so many seconds instead.
+    """
+    changed = threading.Event()
+    stop_listening = graph.add_listener(changed.set)
+    started = last_change = time.monotonic()
+    try:
+        while True:
+            now = time.monotonic()
+            if spin_time is not None:
+                rest = started + spin_time - now
+            elif graph.is_complete():
+                rest = max(started + _LEAST_S, last_change + _QUIET_S) - now
+            else:
+                rest = last_change + _SPIN_S - now
+            if rest <= 0:
+                return
+            if changed.wait(rest):
+                changed.clear()
+                last_change = time.monotonic()
+    finally:
+        stop_listening()
+
+
+class GraphNode:
+    """A hidden node that looks at the graph; a context manager. Lighter than a node of rclpy, since it sends and receives nothing.
+
+    Args:
+        spin_time: Seconds to wait for discovery; None waits until all is known.
+    """
+
+    def __init__(self, spin_time: float | None = None) -> None:
+        from turtlewire.wire import open_context
+        from turtlewire.wire.base import TypeId
+        from turtlewire.wire.qos import Durability, QoS
+
+        self._context = open_context()
+        self.name = f"_ros2cli_{os.getpid()}"
+        node = self._context.create_node(self.name)
+        # Every node has these; without them the lists of an empty domain would differ from those of ROS 2.
+        for topic, type_name, type_hash, lifespan in _NODE_TOPICS:
+            durability = Durability.TRANSIENT_LOCAL if lifespan else Durability.VOLATILE
+            node.create_publisher(topic, TypeId(type_name, type_hash), QoS(depth=1000, durability=durability, lifespan_ns=lifespan))
+        self._spin_time = spin_time
+
+    @property
+    def graph(self) -> Graph:
+        """The graph."""
+        return self._context.graph
+
+    def __enter__(self) -> Graph:
+        """Wait for discovery; return the graph."""
+        wait_until_discovered(self.graph, self._spin_time)
+        return self.graph
+
+    def __exit__(self, _type: type[BaseException] | None, _error: BaseException | None, _traceback: TracebackType | None) -> None:
+        """Leave the domain."""
+        self._context.close()

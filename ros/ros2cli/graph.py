@@ -1,0 +1,147 @@
+"""Questions to the graph, as the verbs ask them. Names and types come as ``(name, [types])`` pairs, sorted by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire import names
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from turtlewire.wire.base import EndpointInfo, Graph
+
+__all__ = [
+    "NamesAndTypes",
+    "action_clients",
+    "action_nodes",
+    "action_servers",
+    "actions",
+    "endpoints_of_topic",
+    "is_hidden_node",
+    "node_exists",
+    "node_names",
+    "publishers",
+    "service_clients",
+    "service_servers",
+    "services",
+    "subscribers",
+    "topics",
+]
+
+NamesAndTypes = list[tuple[str, list[str]]]
+
+_FEEDBACK = "/_action/feedback"
+_FEEDBACK_TYPE = "_FeedbackMessage"
+
+
+def topics(graph: Graph, *, hidden: bool = False) -> NamesAndTypes:
+    """All topics."""
+    return _visible(graph.topic_names_and_types().items(), hidden=hidden)
+
+
+def services(graph: Graph, *, hidden: bool = False) -> NamesAndTypes:
+    """All services."""
+    return _visible(graph.service_names_and_types().items(), hidden=hidden)
+
+
+def actions(graph: Graph) -> NamesAndTypes:
+    """All actions, by their feedback topics."""
+    return _actions(graph.topic_names_and_types().items())
+
+
+def node_names(graph: Graph, *, hidden: bool = False) -> list[str]:
+    """Full names of all nodes, sorted; nodes of one name are listed each."""
+    found = [names.fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
+    return sorted(name for name in found if hidden or not is_hidden_node(name))
+
+
+def is_hidden_node(full_name: str) -> bool:
+    """Whether the last part of the name begins with an underscore."""
+    return full_name.rpartition("/")[2].startswith("_")
+
+
+def node_exists(graph: Graph, full_name: str) -> bool:
+    """Whether a node of the name is known."""
+    return full_name in node_names(graph, hidden=True)
+
+
+def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo]:
+    """The publishers (``kind`` "publisher") or subscriptions ("subscription") of a topic."""
+    return [endpoint for endpoint in graph.endpoints() if endpoint.topic == topic and endpoint.kind == kind]
+
+
+def publishers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
+    """Topics that a node publishes."""
+    return _of_node(graph, full_name, "publisher", _topic, hidden=hidden)
+
+
+def subscribers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
+    """Topics that a node subscribes to."""
+    return _of_node(graph, full_name, "subscription", _topic, hidden=hidden)
+
+
+def service_servers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
+    """Services that a node offers: it reads the requests."""
+    return _of_node(graph, full_name, "subscription", _service, hidden=hidden)
+
+
+def service_clients(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
+    """Services that a node may call: it writes the requests."""
+    return _of_node(graph, full_name, "publisher", _service, hidden=hidden)
+
+
+def action_servers(graph: Graph, full_name: str) -> NamesAndTypes:
+    """Actions that a node offers: it publishes the feedback."""
+    return _actions(publishers(graph, full_name, hidden=True))
+
+
+def action_clients(graph: Graph, full_name: str) -> NamesAndTypes:
+    """Actions that a node may start: it subscribes to the feedback."""
+    return _actions(subscribers(graph, full_name, hidden=True))
+
+
+def action_nodes(graph: Graph, action: str, kind: str) -> NamesAndTypes:
+    """The nodes that publish ("publisher": servers) or subscribe to ("subscription": clients) the feedback of an action."""
+    found = []
+    for endpoint in endpoints_of_topic(graph, f"{action}{_FEEDBACK}", kind):
+        if endpoint.node is not None:
+            name = names.fully_qualified_node_name(endpoint.node.name, endpoint.node.namespace)
+            found.append((name, [endpoint.type_name.removesuffix(_FEEDBACK_TYPE)]))
+    return sorted(found)
+
+
+def _of_node(
+    graph: Graph, full_name: str, kind: str, name_and_type: Callable[[EndpointInfo], tuple[str, str] | None], *, hidden: bool
+) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for endpoint in graph.endpoints():
+        node = endpoint.node
+        if endpoint.kind != kind or node is None or names.fully_qualified_node_name(node.name, node.namespace) != full_name:
+            continue
+        pair = name_and_type(endpoint)
+        if pair is not None:
+            found.setdefault(pair[0], set()).add(pair[1])
+    return _visible(((name, sorted(types)) for name, types in found.items()), hidden=hidden)
+
+
+def _topic(endpoint: EndpointInfo) -> tuple[str, str] | None:
+    return (endpoint.topic, endpoint.type_name) if endpoint.topic.startswith("/") else None
+
+
+def _service(endpoint: EndpointInfo) -> tuple[str, str] | None:
+    service = names.service_from_dds(endpoint.topic)
+    is_request = endpoint.topic.startswith("rq/")
+    return (service, names.service_type(endpoint.type_name)) if service is not None and is_request else None
+
+
+def _actions(feedback_topics: Iterable[tuple[str, list[str]]]) -> NamesAndTypes:
+    return sorted(
+        (name.removesuffix(_FEEDBACK), [kind.removesuffix(_FEEDBACK_TYPE) for kind in types])
+        for name, types in feedback_topics
+        if name.endswith(_FEEDBACK)
+    )
+
+
+def _visible(pairs: Iterable[tuple[str, list[str]]], *, hidden: bool) -> NamesAndTypes:
+    return sorted((name, types) for name, types in pairs if hidden or not names.is_hidden(name))

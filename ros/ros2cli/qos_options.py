@@ -1,0 +1,95 @@
+"""QoS on the command line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.values import positive_float, unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from rclpy.qos import QoSProfile
+    from turtlewire.wire.base import Graph
+
+__all__ = ["add_qos_arguments", "asked_for", "matching_publishers", "with_options"]
+
+_PROFILES = (
+    *("unknown", "default", "system_default", "sensor_data", "services_default", "parameters"),
+    *("parameter_events", "action_status_default", "best_available"),
+)
+_HISTORY = ("system_default", "keep_last", "keep_all", "unknown")
+_RELIABILITY = ("system_default", "reliable", "best_effort", "unknown", "best_available")
+_DURABILITY = ("system_default", "transient_local", "volatile", "unknown", "best_available")
+_LIVELINESS = ("system_default", "automatic", "manual_by_topic", "unknown", "best_available")
+
+
+def add_qos_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the options."""
+    parser.add_argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with")
+    parser.add_argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue")
+    parser.add_argument("--qos-history", choices=_HISTORY, help="What the queue keeps")
+    parser.add_argument("--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again")
+    parser.add_argument("--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages")
+    parser.add_argument("--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive")
+    parser.add_argument("--qos-liveliness-lease-duration-seconds", type=positive_float, help="How long it counts as alive without saying so")
+
+
+def asked_for(args: argparse.Namespace) -> bool:
+    """Whether any of the options was given."""
+    return any(value is not None for name, value in vars(args).items() if name.startswith("qos_"))
+
+
+def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
+    """The profile that the options describe.
+
+    Args:
+        args: The command line.
+        default: Name of the profile when none is given.
+    """
+    from rclpy import qos
+    from rclpy.duration import Duration
+
+    chosen = qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or default)
+    profile = qos.QoSProfile(**{name: getattr(chosen, name) for name in ("history", "depth", "reliability", "durability", "liveliness")})
+    kinds = {"history": qos.HistoryPolicy, "reliability": qos.ReliabilityPolicy, "durability": qos.DurabilityPolicy}
+    for name, kind in {**kinds, "liveliness": qos.LivelinessPolicy}.items():
+        text = getattr(args, f"qos_{name}")
+        if text is not None:
+            setattr(profile, name, kind.get_from_short_key(text))
+    if args.qos_depth is not None:
+        profile.depth = args.qos_depth
+    elif args.qos_durability == "transient_local" and profile.depth == 0:
+        profile.depth = 1
+    lease = args.qos_liveliness_lease_duration_seconds
+    if lease is not None:
+        profile.liveliness_lease_duration = Duration(seconds=lease)
+    return profile
+
+
+def matching_publishers(graph: Graph, topic: str) -> QoSProfile:
+    """A profile that matches all publishers of a topic, as strict as they allow."""
+    from rclpy import qos
+    from ros2cli.graph import endpoints_of_topic
+    from turtlewire.wire.qos import Durability, Reliability
+
+    profile = qos.QoSPresetProfiles.get_from_short_key("sensor_data")
+    profile = qos.QoSProfile(history=profile.history, depth=10, reliability=profile.reliability, durability=profile.durability)
+    ends = endpoints_of_topic(graph, topic, "publisher")
+    if not ends:
+        return profile
+    reliable = sum(end.qos.reliability == Reliability.RELIABLE for end in ends)
+    if reliable == len(ends):
+        profile.reliability = qos.ReliabilityPolicy.RELIABLE
+    elif reliable:
+        _say_fallback("QoSReliabilityPolicy.RELIABLE", "QoSReliabilityPolicy.BEST_EFFORT")
+    latched = sum(end.qos.durability == Durability.TRANSIENT_LOCAL for end in ends)
+    if latched == len(ends):
+        profile.durability = qos.DurabilityPolicy.TRANSIENT_LOCAL
+    elif latched:
+        _say_fallback("QoSDurabilityPolicy.TRANSIENT_LOCAL", "QoSDurabilityPolicy.VOLATILE")
+    return profile
+
+
+def _say_fallback(offered: str, used: str) -> None:
+    print(f"Some, but not all, publishers are offering {offered}. Falling back to {used} as it will connect to all publishers")

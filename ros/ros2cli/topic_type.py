@@ -1,0 +1,53 @@
+"""The message class of a topic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from turtlewire.wire.base import Graph
+
+__all__ = ["message_class", "type_of_topic"]
+
+
+def message_class(type_name: str) -> Any:
+    """The class of a message.
+
+    Raises:
+        RuntimeError: There is none of that name.
+    """
+    from rosidl_runtime_py.utilities import get_message
+
+    try:
+        return get_message(type_name)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError("The passed message type is invalid") from None
+
+
+def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
+    """The message class of a topic that somebody publishes or subscribes to.
+
+    Args:
+        graph: The graph.
+        topic: Full name of the topic.
+        blocking: Wait for the topic to appear.
+
+    Returns:
+        The class, or None when nobody knows the topic.
+
+    Raises:
+        RuntimeError: The topic has several types, or one that is not known here.
+    """
+    types = graph.topic_names_and_types().get(topic, [])
+    if not types:
+        print(f"WARNING: topic [{topic}] does not appear to be published yet")
+        if not blocking:
+            return None
+        graph.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))
+        types = graph.topic_names_and_types()[topic]
+    if len(types) > 1:
+        raise RuntimeError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
+    try:
+        return message_class(types[0])
+    except RuntimeError:
+        raise RuntimeError(f"The message type '{types[0]}' is invalid") from None
