@@ -8,9 +8,10 @@ import socket
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from demo import FOLLOWER, LEADER, VENV, Launch
+from demo import FOLLOWER, LEADER, Launch
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.errors import TransformException
@@ -49,8 +50,9 @@ def check(started: float) -> int:
     """
     os.environ |= {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
-    log = VENV / "log" / f"demo-check-{os.getpid()}.txt"
-    log.parent.mkdir(exist_ok=True)
+    log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    print(f"[demo] checking in ROS domain {os.environ['ROS_DOMAIN_ID']}; what the processes say goes to {log}", flush=True)
     with log.open("wb") as output:
         launch = Launch(output.fileno())
         try:
@@ -62,7 +64,7 @@ def check(started: float) -> int:
         finally:
             launch.stop()
     if problem:
-        print(f"[demo] {problem}; what the processes said is in {log}", file=sys.stderr)
+        print(f"[demo] failed: {problem}", file=sys.stderr)
         return 1
     log.unlink()
     return 0
@@ -72,6 +74,7 @@ def judge(observer: Observer, launch: Launch) -> str:
     """Drive, wait and compare; the reason why it does not work, or an empty string."""
     try:
         observer.wait_for_first_movement(launch)
+        print(f"[demo] {FOLLOWER} moves: driving {LEADER} through a square", flush=True)
         for forward, turn, duration in SQUARE:
             observer.drive(forward, turn, duration, launch)
         observer.drive(0.0, 0.0, REST_S, launch)

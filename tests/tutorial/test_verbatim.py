@@ -1,0 +1,65 @@
+"""The tutorial's listings, unchanged, in a package of that name: four processes over Cyclone DDS behave as they did on a real ROS 2."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import signal
+import sys
+import time
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+
+HERE = Path(__file__).parent
+ROS2 = Path(sys.executable).parent / "ros2"
+VERBATIM = HERE / "verbatim" / "learning_tf2_py"
+GOLDEN = HERE.parent / "golden" / "tutorial" / "main"
+LISTINGS = {
+    "learning_tf2_py/turtle_tf2_broadcaster.py": "c3f2063ce831a95193191752eba4c8d7227d6ce85de754019467be162ae0f8ab",
+    "learning_tf2_py/turtle_tf2_listener.py": "092ec3f9d2a181b4bccb2c851a05054db6fbc6e86449b9ecee8acefc55117892",
+    "launch/turtle_tf2_demo.launch.py": "6b4c39bd73a786080deff6e04930817069a525fa61bf7d0b57344021e7bb8017",
+}
+COULD_NOT = r"^\[turtle_tf2_listener-4\] \[INFO\] \[(\d+\.\d+)\] \[listener\]: (Could not retrieve transform: .*)$"
+SPAWN = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
+
+
+def normalised(text):
+    """Lines without times, process ids and paths."""
+    text = re.sub(r"\[\d{10}\.\d{9}\]", "[TIME]", text)
+    text = re.sub(r"\[pid \d+\]|pid \[\d+\]", "PID", text)
+    text = re.sub(r"below \S+", "below LOGS", text)
+    return set(text.splitlines())
+
+
+def test_the_listings_are_the_tutorial_s_to_the_byte():
+    for name, digest in LISTINGS.items():
+        assert hashlib.sha256((VERBATIM / name).read_bytes()).hexdigest() == digest, name
+
+
+def test_it_reports_the_missing_turtle_then_follows_it_and_stops_at_ctrl_c(run, workspace, turtles):
+    launch = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=workspace(VERBATIM))
+
+    reports = launch.wait_for(COULD_NOT, count=25)
+    golden = (GOLDEN / "launch.stdout.txt").read_text()
+    assert {report[2] for report in reports} == {line[2] for line in re.finditer(COULD_NOT, golden, re.MULTILINE)}
+    stamps = [float(report[1]) for report in reports]
+    assert 0.09 < median(later - earlier for earlier, later in pairwise(stamps)) < 0.11
+    launch.wait_for(re.escape(f'ros2 service call /spawn turtlesim/srv/Spawn "{SPAWN}"'))
+    assert launch.text.count("ros2 service call /spawn") == 1
+
+    spawn = run(ROS2, "service", "call", "/spawn", "turtlesim/srv/Spawn", SPAWN)
+    assert spawn.wait() == 0, spawn.text
+    assert spawn.text.split() == (GOLDEN / "spawn.stdout.txt").read_text().split()
+    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
+
+    interrupted = time.monotonic()
+    launch.signal_group(signal.SIGINT)
+    assert launch.wait(10) == 0
+    assert time.monotonic() - interrupted < 5.0  # measured: 0.3 s on an idle machine
+    assert launch.survivors() == []
+    assert "Traceback" not in launch.text
+    assert launch.text.count("process has finished cleanly") == 4
+    ours = {line for line in normalised(launch.text) - normalised(golden) if "has finished cleanly" not in line}
+    assert all(line.startswith("[turtlesim_node-1] [INFO] [TIME] [sim]: ") for line in ours), ours
+    assert len(ours) <= 2, ours  # the page's address, and the command to type
