@@ -11,6 +11,8 @@ from turtlewire.wire import names
 from .callback_groups import MutuallyExclusiveCallbackGroup
 from .client import Client
 from .entity import Entity
+from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
+from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 from .guard_condition import GuardCondition
 from .publisher import Publisher
@@ -61,12 +63,15 @@ class NodeEndpoints:
         topic: str,
         qos_profile: QoSProfile | int,
         callback_group: CallbackGroup | None,
-        event_callbacks: Any,
+        event_callbacks: PublisherEventCallbacks | None,
         qos_overriding_options: QoSOverridingOptions | None,
         publisher_class: type[Publisher],
     ) -> Publisher:
         """See :meth:`rclpy.node.Node.create_publisher`."""
-        return self._own(Publisher, self.make_publisher(msg_type, topic, qos_profile, publisher_class))
+        profile = self._overridden("publisher", topic, qos_profile, qos_overriding_options)
+        publisher = self.make_publisher(msg_type, topic, profile, publisher_class)
+        self._own_events(publisher, event_callbacks or PublisherEventCallbacks(), callback_group)
+        return self._own(Publisher, publisher)
 
     def make_publisher(
         self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, publisher_class: type[Publisher] = Publisher
@@ -85,12 +90,15 @@ class NodeEndpoints:
         callback: Callable[..., Any],
         qos_profile: QoSProfile | int,
         callback_group: CallbackGroup | None,
-        event_callbacks: Any,
+        event_callbacks: SubscriptionEventCallbacks | None,
         qos_overriding_options: QoSOverridingOptions | None,
         raw: bool,
     ) -> Subscription:
         """See :meth:`rclpy.node.Node.create_subscription`."""
-        return self._own(Subscription, self.make_subscription(msg_type, topic, callback, qos_profile, callback_group, raw))
+        profile = self._overridden("subscription", topic, qos_profile, qos_overriding_options)
+        subscription = self.make_subscription(msg_type, topic, callback, profile, callback_group, raw)
+        self._own_events(subscription, event_callbacks or SubscriptionEventCallbacks(), callback_group)
+        return self._own(Subscription, subscription)
 
     def make_subscription(
         self,
@@ -108,6 +116,54 @@ class NodeEndpoints:
         wire = self._node.wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
+
+    def _overridden(
+        self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None
+    ) -> QoSProfile:
+        """The profile with what parameters say, where ``options`` lets them."""
+        profile = validate_qos(qos_profile)
+        if options is None:
+            return profile
+        import copy
+
+        from .qos_overriding_options import declare_qos_parameters
+
+        profile = copy.copy(profile)
+        declare_qos_parameters(kind, self._node, self.resolve_topic(topic), profile, options)
+        return profile
+
+    def _own_events(
+        self,
+        endpoint: Publisher | Subscription,
+        event_callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
+        callback_group: CallbackGroup | None,
+    ) -> None:
+        endpoint.event_handlers = event_callbacks.create_event_handlers(
+            callback_group or self.default_callback_group, endpoint._wire, endpoint.topic, self._node.get_logger()
+        )
+        for handler in endpoint.event_handlers:
+            self._own(EventHandler, handler)
+
+    def _with_overrides(
+        self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None
+    ) -> QoSProfile | int:
+        if options is None:
+            return qos_profile
+        from .qos_overriding_options import declare_qos_parameters
+
+        profile = QoSProfile.from_wire(validate_qos(qos_profile).to_wire())  # the caller's own profile stays as it is
+        declare_qos_parameters(kind, self._node, self.resolve_topic(topic), profile, options)
+        return profile
+
+    def _handle_events(
+        self,
+        endpoint: Publisher | Subscription,
+        callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
+        callback_group: CallbackGroup | None,
+    ) -> None:
+        group = callback_group or self.default_callback_group
+        handlers = callbacks.create_event_handlers(group, endpoint._wire, endpoint.topic, self._node.get_logger())
+        endpoint.event_handlers = [self._own(EventHandler, handler) for handler in handlers]
 
     def create_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
         """See :meth:`rclpy.node.Node.create_client`."""

@@ -104,6 +104,8 @@ class Publisher:
         if self._destroyed:
             return
         self._destroyed = True
+        for handler in self.event_handlers:
+            handler.destroy()
         self._wire.close()
         if self._on_destroy is not None:
             self._on_destroy(self)

@@ -103,6 +103,8 @@ class Subscription(Entity):
         return None
 
     def _close(self) -> None:
+        for handler in self.event_handlers:
+            handler.destroy()
         self._wire.close()
 
 
