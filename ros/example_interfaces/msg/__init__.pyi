@@ -16,25 +16,25 @@ __all__ = [
     "Float32MultiArray",
     "Float64",
     "Float64MultiArray",
+    "Int8",
+    "Int8MultiArray",
     "Int16",
     "Int16MultiArray",
     "Int32",
     "Int32MultiArray",
     "Int64",
     "Int64MultiArray",
-    "Int8",
-    "Int8MultiArray",
     "MultiArrayDimension",
     "MultiArrayLayout",
     "String",
+    "UInt8",
+    "UInt8MultiArray",
     "UInt16",
     "UInt16MultiArray",
     "UInt32",
     "UInt32MultiArray",
     "UInt64",
     "UInt64MultiArray",
-    "UInt8",
-    "UInt8MultiArray",
     "WString",
 ]
 
@@ -82,6 +82,18 @@ class Float64MultiArray(Message):
     def data(self, value: Iterable[float]) -> None: ...
     def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
 
+class Int8(Message):
+    data: int
+    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
+
+class Int8MultiArray(Message):
+    layout: MultiArrayLayout
+    @property
+    def data(self) -> array.array[int]: ...
+    @data.setter
+    def data(self, value: Iterable[int]) -> None: ...
+    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+
 class Int16(Message):
     data: int
     def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
@@ -118,18 +130,6 @@ class Int64MultiArray(Message):
     def data(self, value: Iterable[int]) -> None: ...
     def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
 
-class Int8(Message):
-    data: int
-    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
-
-class Int8MultiArray(Message):
-    layout: MultiArrayLayout
-    @property
-    def data(self) -> array.array[int]: ...
-    @data.setter
-    def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
-
 class MultiArrayDimension(Message):
     label: str
     size: int
@@ -144,6 +144,18 @@ class MultiArrayLayout(Message):
 class String(Message):
     data: str
     def __init__(self, *, data: str = ..., check_fields: bool = ...) -> None: ...
+
+class UInt8(Message):
+    data: int
+    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
+
+class UInt8MultiArray(Message):
+    layout: MultiArrayLayout
+    @property
+    def data(self) -> array.array[int]: ...
+    @data.setter
+    def data(self, value: Iterable[int]) -> None: ...
+    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
 
 class UInt16(Message):
     data: int
@@ -174,18 +186,6 @@ class UInt64(Message):
     def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
 
 class UInt64MultiArray(Message):
-    layout: MultiArrayLayout
-    @property
-    def data(self) -> array.array[int]: ...
-    @data.setter
-    def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
-
-class UInt8(Message):
-    data: int
-    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
-
-class UInt8MultiArray(Message):
     layout: MultiArrayLayout
     @property
     def data(self) -> array.array[int]: ...

@@ -19,25 +19,25 @@ __all__ = [
     "Float64",
     "Float64MultiArray",
     "Header",
+    "Int8",
+    "Int8MultiArray",
     "Int16",
     "Int16MultiArray",
     "Int32",
     "Int32MultiArray",
     "Int64",
     "Int64MultiArray",
-    "Int8",
-    "Int8MultiArray",
     "MultiArrayDimension",
     "MultiArrayLayout",
     "String",
+    "UInt8",
+    "UInt8MultiArray",
     "UInt16",
     "UInt16MultiArray",
     "UInt32",
     "UInt32MultiArray",
     "UInt64",
     "UInt64MultiArray",
-    "UInt8",
-    "UInt8MultiArray",
 ]
 
 class Bool(Message):
@@ -96,6 +96,18 @@ class Header(Message):
     frame_id: str
     def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., frame_id: str = ..., check_fields: bool = ...) -> None: ...
 
+class Int8(Message):
+    data: int
+    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
+
+class Int8MultiArray(Message):
+    layout: MultiArrayLayout
+    @property
+    def data(self) -> array.array[int]: ...
+    @data.setter
+    def data(self, value: Iterable[int]) -> None: ...
+    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+
 class Int16(Message):
     data: int
     def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
@@ -132,18 +144,6 @@ class Int64MultiArray(Message):
     def data(self, value: Iterable[int]) -> None: ...
     def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
 
-class Int8(Message):
-    data: int
-    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
-
-class Int8MultiArray(Message):
-    layout: MultiArrayLayout
-    @property
-    def data(self) -> array.array[int]: ...
-    @data.setter
-    def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
-
 class MultiArrayDimension(Message):
     label: str
     size: int
@@ -158,6 +158,18 @@ class MultiArrayLayout(Message):
 class String(Message):
     data: str
     def __init__(self, *, data: str = ..., check_fields: bool = ...) -> None: ...
+
+class UInt8(Message):
+    data: int
+    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
+
+class UInt8MultiArray(Message):
+    layout: MultiArrayLayout
+    @property
+    def data(self) -> array.array[int]: ...
+    @data.setter
+    def data(self, value: Iterable[int]) -> None: ...
+    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
 
 class UInt16(Message):
     data: int
@@ -188,18 +200,6 @@ class UInt64(Message):
     def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
 
 class UInt64MultiArray(Message):
-    layout: MultiArrayLayout
-    @property
-    def data(self) -> array.array[int]: ...
-    @data.setter
-    def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
-
-class UInt8(Message):
-    data: int
-    def __init__(self, *, data: int = ..., check_fields: bool = ...) -> None: ...
-
-class UInt8MultiArray(Message):
     layout: MultiArrayLayout
     @property
     def data(self) -> array.array[int]: ...

@@ -6,6 +6,7 @@ definitions, which the classes are made of at first access.
 
 from __future__ import annotations
 
+import re
 from shutil import copyfile
 from typing import TYPE_CHECKING
 
@@ -71,7 +72,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
 def write_modules(package: str, source: Path, folder: Path) -> None:
     """Write ``msg``, ``srv`` and ``action`` modules with their stubs into ``folder``, for the definitions in ``source``."""
     for kind in KINDS:
-        names = interfaces_in(str(source))[kind]
+        names = sorted(interfaces_in(str(source))[kind], key=_natural_order)
         if not names:
             continue
         module = folder / kind
@@ -79,6 +80,11 @@ def write_modules(package: str, source: Path, folder: Path) -> None:
         listed = "".join(f'    "{name}",\n' for name in names)
         (module / "__init__.py").write_text(_MODULE.format(package=package, kind=kind, names=listed), encoding="utf-8")
         (module / "__init__.pyi").write_text(module_stub(package, kind, names), encoding="utf-8")
+
+
+def _natural_order(name: str) -> list[tuple[int, str]]:
+    """Sorts Int8 before Int16, as linters want ``__all__``."""
+    return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
 
 
 def package_name(source: Path) -> str:
