@@ -149,12 +149,12 @@ std::string BufferObject::set(std::string_view parent, std::string_view child, S
   return verdict == Verdict::accepted ? "" : explain(Refusal{verdict, parent, child, authority, stamp, pose});
 }
 
-long BufferObject::add(const std::vector<ReceivedTransform>& transforms, std::string_view authority, bool is_static) {
+long BufferObject::add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static) {
   long accepted = 0;
   const std::scoped_lock lock(shared.mutex);
   const SourceId sender = shared.buffer.sender(authority);
   for (const ReceivedTransform& r : transforms) {
-    accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose, sender, is_static) == Verdict::accepted;
+    accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
   }
   if (accepted > 0) shared.wake_waiters();
   return accepted;

@@ -41,7 +41,7 @@ class BufferObject {
   std::string set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
                   std::string_view authority, bool is_static);
   // Adds those of one message; the number accepted.
-  long add(const std::vector<ReceivedTransform>& transforms, std::string_view authority, bool is_static);
+  long add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static);
   void call_listeners();
   void wake();
 

@@ -178,7 +178,7 @@ class Bytes {
 
 PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<3> signature("ingest", 1, {"cdr", "static", "authority"});
-  thread_local std::vector<ReceivedTransform> transforms;
+  thread_local TfMessage message;
   Values<3> v;
   bool is_static = false;
   std::string_view authority = "default_authority";
@@ -188,9 +188,9 @@ PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, P
       !flag_of(v[1], is_static) || (v[2] != nullptr && !text_of(v[2], authority, "authority"))) {
     return nullptr;
   }
-  const std::string fault = decode_tf_message(bytes.data(), bytes.size(), transforms);
+  const std::string fault = message.decode(bytes.data(), bytes.size());
   if (!fault.empty()) return raise_cdr_error(fault);
-  const long accepted = buffer->add(transforms, authority, is_static);
+  const long accepted = buffer->add(message.transforms(), authority, is_static);
   if (accepted > 0) buffer->call_listeners();
   return PyLong_FromLong(accepted);
 }
@@ -212,7 +212,7 @@ nb::list frame_strings(BufferObject& self) {
   {
     const std::scoped_lock lock(self.shared.mutex);
     const Names& frames = self.shared.buffer.frames();
-    for (FrameId id = 1; id < frames.size(); ++id) names.push_back(frames[id]);
+    for (FrameId id = 1; id < frames.size(); ++id) names.emplace_back(frames[id]);
   }
   nb::list list;
   for (const std::string& name : names) list.append(name);

@@ -20,13 +20,14 @@ void add_time(Stamp stamp, Stamp& earliest) {
 
 // ---------------------------------------------------------------- in
 
+Buffer::Buffer(Stamp keep) : keep_(keep) {
+  links_.push_back(std::make_unique<Link>());
+  last_link_ = links_.front().get();
+}
+
 FrameId Buffer::frame(std::string_view name) {
   const FrameId id = frames_.intern(name);
-  while (links_.size() < frames_.size()) {
-    links_.emplace_back();
-    sender_.push_back(0);
-    follower_.push_back(0);
-  }
+  if (links_.size() < frames_.size()) links_.push_back(std::make_unique<Link>());
   return id;
 }
 
@@ -36,8 +37,8 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
                     bool is_static) {
   parent = without_slash(parent);
   child = without_slash(child);
-  FrameId child_id = predicted(follower_[last_child_], child);
-  FrameId parent_id = child_id != 0 ? predicted(links_[child_id].parent(), parent) : 0;
+  FrameId child_id = predicted(last_link_->follower, child);
+  FrameId parent_id = child_id != 0 ? predicted(links_[child_id]->parent(), parent) : 0;
   if (parent_id == 0) [[unlikely]] {
     if (child == parent) return Verdict::self_transform;
     if (child.empty()) return Verdict::no_child_frame;
@@ -45,36 +46,34 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
     if (child == frames_[0] || parent == frames_[0]) return Verdict::reserved_name;
     if (!is_frame_name(child) || !is_frame_name(parent)) return Verdict::bad_name;
   }
-  Sample sample{{pose.translation, through_matrix(pose.rotation)}, parent_id, source};
+  Sample sample{{pose.translation, canonical(pose.rotation)}, parent_id, source};
   if (has_nan(pose.translation) || has_nan(sample.pose.rotation)) return Verdict::nan_value;
   if (parent_id == 0) [[unlikely]] {
     child_id = frame(child);
     parent_id = sample.parent = frame(parent);
-    follower_[last_child_] = child_id;
+    last_link_->follower = child_id;
   }
-  last_child_ = child_id;
-
-  Link& link = links_[child_id];
+  Link& link = *links_[child_id];
+  last_link_ = &link;
   const std::uint64_t shape = link.shape();
+  bool added = true;
   if (is_static) {
     if (!link.is_static() || link.static_pose() != sample.pose) ++version_;
     link.become(LinkKind::static_link);
     link.set_static(parent_id, sample.pose);
   } else {
     link.become(LinkKind::dynamic_link);
-    if (link.insert(stamp, sample, keep_) == InsertStatus::too_old) {
-      if (link.shape() != shape) ++version_;
-      return Verdict::old_data;
-    }
+    added = link.insert(stamp, sample, keep_) != InsertStatus::too_old;
   }
   if (link.shape() != shape) [[unlikely]]
     ++version_;
-  sender_[child_id] = source;
+  if (!added) return Verdict::old_data;
+  link.sender = source;
   return Verdict::accepted;
 }
 
 void Buffer::clear() {
-  for (Link& link : links_) link.clear();
+  for (const auto& link : links_) link->clear();
   ++version_;
 }
 
@@ -108,9 +107,9 @@ const Path& Buffer::path(FrameId target, FrameId source) {
 
 // The frames from `frame` to its root. False if a walk up this line can end otherwise than at the root.
 bool Buffer::ancestors(FrameId frame, std::vector<FrameId>& line) const {
-  for (;; frame = links_[frame].parent()) {
+  for (;; frame = links_[frame]->parent()) {
     line.push_back(frame);
-    const Link& link = links_[frame];
+    const Link& link = *links_[frame];
     if (link.kind() == LinkKind::none) return true;
     if (!link.has_data() || link.reparented() || link.has_infinity() || line.size() > kMaxGraphDepth) return false;
   }
@@ -141,8 +140,8 @@ void Buffer::build(Path& path) const {
   }
   from_source.pop_back();
   from_target.pop_back();
-  for (const FrameId frame : from_source) add_step(path.up, links_[frame]);
-  for (const FrameId frame : from_target) add_step(path.down, links_[frame]);
+  for (const FrameId frame : from_source) add_step(path.up, *links_[frame]);
+  for (const FrameId frame : from_target) add_step(path.down, *links_[frame]);
   if (path.down.size() == 1 && path.down.front().link == nullptr) {
     const Pose target_from_top = inverse(path.down.front().fixed);
     path.down.clear();
@@ -184,8 +183,8 @@ Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Fail
   std::vector<std::pair<Stamp, FrameId>> line;  // of the source: newest stamp and parent of each link
   int depth = 0;
   Stamp earliest = 0;
-  for (FrameId frame = source; links_[frame].has_data();) {
-    const Link& link = links_[frame];
+  for (FrameId frame = source; links_[frame]->has_data();) {
+    const Link& link = *links_[frame];
     add_time(link.newest(), earliest);
     line.emplace_back(link.newest(), link.parent());
     frame = link.parent();
@@ -197,8 +196,8 @@ Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Fail
   }
   depth = 0;
   earliest = 0;
-  for (FrameId frame = target; links_[frame].has_data();) {
-    const Link& link = links_[frame];
+  for (FrameId frame = target; links_[frame]->has_data();) {
+    const Link& link = *links_[frame];
     add_time(link.newest(), earliest);
     frame = link.parent();
     const auto meeting =
@@ -229,7 +228,7 @@ struct Buffer::Climb {
 
   // Reads the link above `frame`; false if that has no data at t.
   bool read(Reading& reading) {
-    reading = buffer.links_[frame].read(t);
+    reading = buffer.links_[frame]->read(t);
     stopped = reading.status;
     return reading.status == ReadStatus::ok;
   }
@@ -247,7 +246,7 @@ Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_
   }
   Reading reading;
   Climb up{*this, t, source};
-  for (int depth = 0; links_[up.frame].kind() != LinkKind::none && up.read(reading);) {
+  for (int depth = 0; links_[up.frame]->kind() != LinkKind::none && up.read(reading);) {
     if (up.frame == target) {
       if (target_from_source != nullptr) {
         *target_from_source = {up.top_from_start.translation, canonical(up.top_from_start.rotation)};
@@ -258,7 +257,7 @@ Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_
     if (++depth > kMaxGraphDepth) return fail_loop(failure);
   }
   Climb down{*this, t, target};
-  for (int depth = 0; down.frame != up.frame && links_[down.frame].kind() != LinkKind::none;) {
+  for (int depth = 0; down.frame != up.frame && links_[down.frame]->kind() != LinkKind::none;) {
     if (!down.read(reading)) return fail_reading(down, target, source, failure);
     if (down.frame == source) break;
     down.step(reading);
@@ -287,8 +286,8 @@ Status Buffer::fail_loop(Failure* failure) const {
 Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure) const {
   if (failure != nullptr) {
     failure->status = Status::not_connected;
-    failure->target = frames_[target];
-    failure->source = frames_[source];
+    failure->target = name(target);
+    failure->source = name(source);
   }
   return Status::not_connected;
 }
@@ -298,12 +297,12 @@ Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source, 
                         : climb.stopped == ReadStatus::past ? Status::past
                                                             : Status::no_data;
   if (failure != nullptr) {
-    const Link& link = links_[climb.frame];
+    const Link& link = *links_[climb.frame];
     failure->status = status;
-    failure->target = frames_[target];
-    failure->source = frames_[source];
-    failure->link_child = frames_[climb.frame];
-    failure->link_parent = frames_[link.parent()];
+    failure->target = name(target);
+    failure->source = name(source);
+    failure->link_child = name(climb.frame);
+    failure->link_parent = name(link.parent());
     failure->emptied = !link.has_data();
     failure->requested = climb.t;
     failure->oldest = link.oldest();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,7 +20,7 @@ inline constexpr int kMaxGraphDepth = 1000;  // tf2 takes more hops for a loop
 
 class Buffer {
  public:
-  explicit Buffer(Stamp keep) : keep_(keep) {}
+  explicit Buffer(Stamp keep);
 
   Stamp keep() const { return keep_; }
 
@@ -51,7 +50,7 @@ class Buffer {
   Status can_transform(const Path& path, Stamp t, Failure* failure) const;
   Status latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const;
   // The newest stamp of the link above a frame; 0 if there is none.
-  Stamp newest(FrameId frame) const { return links_[frame].newest(); }
+  Stamp newest(FrameId frame) const { return links_[frame]->newest(); }
 
   std::string frames_as_string() const;
   std::string frames_as_yaml(double now) const;
@@ -70,15 +69,14 @@ class Buffer {
   Status fail_connection(FrameId first, FrameId second, Failure* failure) const;
   Status fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const;
   std::string dot_edge(FrameId child, const Link& link, double now) const;
+  std::string name(FrameId id) const;
   std::string sender_of(FrameId child) const;
 
   Stamp keep_;
   Names frames_{"NO_PARENT"};
   Names senders_{"no recorded authority"};
-  std::deque<Link> links_{1};         // by child frame; a deque, because paths point into it
-  std::vector<SourceId> sender_{0};   // of the last accepted sample, by child frame
-  std::vector<FrameId> follower_{0};  // the child that came after this one last time: saves hashing its name
-  FrameId last_child_ = 0;
+  std::vector<std::unique_ptr<Link>> links_;  // by child frame; paths point to them
+  Link* last_link_;                           // of the sample before this one
   std::uint64_t version_ = 1;
   std::unordered_map<std::uint64_t, std::unique_ptr<Path>> paths_;
   std::uint64_t path_epoch_ = 0;

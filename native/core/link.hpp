@@ -25,6 +25,9 @@ struct Reading {
 
 class Link {
  public:
+  SourceId sender = 0;   // of the last accepted sample
+  FrameId follower = 0;  // the child that came after this one last time: saves hashing its name
+
   // Beyond this many values of one stamp only the first, the last and the count are kept: memory stays bounded.
   static constexpr std::size_t kMostPerStamp = 1000;
 

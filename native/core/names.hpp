@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace turtlewire {
 
@@ -16,7 +17,7 @@ class Names {
   explicit Names(std::string_view zeroth) { intern(zeroth); }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(names_.size()); }
-  const std::string& operator[](std::uint32_t id) const { return names_[id]; }
+  std::string_view operator[](std::uint32_t id) const { return names_[id]; }
 
   std::optional<std::uint32_t> find(std::string_view name) const {
     const auto it = ids_.find(name);
@@ -26,12 +27,13 @@ class Names {
 
   std::uint32_t intern(std::string_view name) {
     if (const auto known = find(name)) return *known;
-    names_.emplace_back(name);
+    names_.push_back(texts_.emplace_back(name));
     return ids_.emplace(names_.back(), size() - 1).first->second;
   }
 
  private:
-  std::deque<std::string> names_;
+  std::deque<std::string> texts_;  // a deque, because the two below point into it
+  std::vector<std::string_view> names_;
   std::unordered_map<std::string_view, std::uint32_t> ids_;
 };
 

@@ -69,39 +69,14 @@ inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinit
 // tf2 stores a rotation by way of its 3x3 matrix. That normalises any length and picks one of q and -q: the sign that
 // makes w positive if the trace is, else the sign that makes the largest of x, y, z positive. Duplicates are compared
 // after it and a half turn interpolates by its sign, so the steps and their order are tf2's.
-inline Quat through_matrix(const Quat& q) {
-  const double s = 2.0 / dot(q, q);
-  const double xs = q.x * s, ys = q.y * s, zs = q.z * s;
-  const double wx = q.w * xs, wy = q.w * ys, wz = q.w * zs;
-  const double xx = q.x * xs, xy = q.x * ys, xz = q.x * zs;
-  const double yy = q.y * ys, yz = q.y * zs, zz = q.z * zs;
-  const double m00 = 1.0 - (yy + zz), m11 = 1.0 - (xx + zz), m22 = 1.0 - (xx + yy);
-  const double trace = m00 + m11 + m22;
-  if (trace > 0.0) {
-    const double root = std::sqrt(trace + 1.0);
-    const double f = 0.5 / root;
-    return {((yz + wx) - (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f, ((xy + wz) - (xy - wz)) * f, root * 0.5};
-  }
-  if (m00 >= m11 && m00 >= m22) {
-    const double root = std::sqrt(m00 - m11 - m22 + 1.0);
-    const double f = 0.5 / root;
-    return {root * 0.5, ((xy + wz) + (xy - wz)) * f, ((xz - wy) + (xz + wy)) * f, ((yz + wx) - (yz - wx)) * f};
-  }
-  if (m11 >= m22) {
-    const double root = std::sqrt(m11 - m22 - m00 + 1.0);
-    const double f = 0.5 / root;
-    return {((xy - wz) + (xy + wz)) * f, root * 0.5, ((yz + wx) + (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f};
-  }
-  const double root = std::sqrt(m22 - m00 - m11 + 1.0);
-  const double f = 0.5 / root;
-  return {((xz + wy) + (xz - wy)) * f, ((yz - wx) + (yz + wx)) * f, root * 0.5, ((xy + wz) - (xy - wz)) * f};
-}
+Quat through_matrix(const Quat& q);
 
-// What through_matrix gives for a quaternion that is unit but for rounding: one Newton step and the same choice of
-// sign.
+// What through_matrix gives, but for rounding, at a fraction of the cost for a quaternion that is nearly unit: one
+// Newton step, and the same choice of sign. As with tf2, q, -q and 2q give the same to the last bit.
+Quat canonical_of_any_length(const Quat& q);
 inline Quat canonical(const Quat& q) {
   const double norm2 = dot(q, q);
-  if (!(std::fabs(norm2 - 1.0) < 1e-8)) return through_matrix(q);
+  if (!(std::fabs(norm2 - 1.0) < 1e-8)) return canonical_of_any_length(q);
   double leading = q.w;
   if (!(4.0 * q.w * q.w > norm2)) {
     const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;

@@ -20,14 +20,16 @@ double rate(const Link& link) {
 
 }  // namespace
 
-std::string Buffer::sender_of(FrameId child) const { return senders_[sender_[child]]; }
+std::string Buffer::name(FrameId id) const { return std::string(frames_[id]); }
+
+std::string Buffer::sender_of(FrameId child) const { return std::string(senders_[links_[child]->sender]); }
 
 std::string Buffer::frames_as_string() const {
   std::string text;
   for (FrameId id = 1; id < links_.size(); ++id) {
-    const Link& link = links_[id];
+    const Link& link = *links_[id];
     if (link.kind() == LinkKind::none) continue;
-    text += "Frame " + frames_[id] + " exists with parent " + frames_[link.parent()] + ".\n";
+    text += "Frame " + name(id) + " exists with parent " + name(link.parent()) + ".\n";
   }
   return text;
 }
@@ -36,10 +38,10 @@ std::string Buffer::frames_as_yaml(double now) const {
   if (links_.size() == 1) return "[]";
   std::string text;
   for (FrameId id = 1; id < links_.size(); ++id) {
-    const Link& link = links_[id];
+    const Link& link = *links_[id];
     if (!link.has_data()) continue;
-    text += frames_[id] + ": \n";
-    text += "  parent: '" + frames_[link.parent()] + "'\n";
+    text += name(id) + ": \n";
+    text += "  parent: '" + name(link.parent()) + "'\n";
     text += "  broadcaster: '" + sender_of(id) + "'\n";
     text += "  rate: " + decimals(rate(link), 3) + "\n";
     text += "  most_recent_transform: " + decimals(seconds(link.newest()), 6) + "\n";
@@ -51,7 +53,8 @@ std::string Buffer::frames_as_yaml(double now) const {
 }
 
 std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const {
-  std::string text = "\"" + frames_[link.parent()] + "\" -> \"" + frames_[child] + "\"[label=\"";
+  std::string text("\"");
+  text.append(frames_[link.parent()]).append("\" -> \"").append(frames_[child]).append("\"[label=\"");
   text += "Broadcaster: " + sender_of(child) + "\\n";
   text += "Average rate: " + decimals(rate(link), 3) + " Hz\\n";
   text += "Most recent transform: " + decimals(seconds(link.newest()), 6) + " ";
@@ -64,13 +67,13 @@ std::string Buffer::frames_as_dot(double now) const {
   std::string text = "digraph G {\n";
   if (links_.size() == 1) text += "\"no tf data recieved\"";
   for (FrameId id = 1; id < links_.size(); ++id) {
-    if (links_[id].kind() != LinkKind::none) text += dot_edge(id, links_[id], now);
+    if (links_[id]->kind() != LinkKind::none) text += dot_edge(id, *links_[id], now);
   }
   for (FrameId id = 1; id < links_.size(); ++id) {
-    if (links_[id].has_data()) continue;
+    if (links_[id]->has_data()) continue;
     text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
     if (now > 0.0) text += "\"Recorded at time: " + decimals(now, 6) + "\"[ shape=plaintext ] ;\n";
-    text += "}->\"" + frames_[id] + "\";\n";
+    text += "}->\"" + name(id) + "\";\n";
   }
   return text + "}";
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +13,26 @@
 
 namespace turtlewire {
 
+// One transform of a message, still in the bytes.
 struct ReceivedTransform {
   Stamp stamp;
-  std::string_view parent, child;  // into the bytes
-  Pose pose;
+  std::string_view parent, child;
+  const unsigned char* numbers;
+  bool swapped;  // the numbers have the other byte order
+
+  Pose pose() const;
 };
 
-// Replaces `transforms` by those of the message. Returns what is wrong with the bytes; empty if nothing is.
-std::string decode_tf_message(const unsigned char* bytes, std::size_t size, std::vector<ReceivedTransform>& transforms);
+// A TFMessage taken apart; its transforms point into the bytes given. Reusing one saves memory allocations.
+class TfMessage {
+ public:
+  // Returns what is wrong with the bytes; empty if nothing is.
+  std::string decode(const unsigned char* bytes, std::size_t size);
+  std::span<const ReceivedTransform> transforms() const { return {places_.data(), count_}; }
+
+ private:
+  std::vector<ReceivedTransform> places_;  // never shrinks
+  std::size_t count_ = 0;
+};
 
 }  // namespace turtlewire
