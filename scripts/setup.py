@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import html.parser
 import json
 import os
 import re
@@ -11,10 +10,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import tempfile
 import time
-import urllib.parse
-import urllib.request
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -85,7 +81,7 @@ def fingerprint() -> str:
     packages = sorted(path.parent.name for path in ros.glob("*/__init__.py"))
     digest = hashlib.sha256(f"{can_compile()} {packages}".encode())
     for path in sorted(files):
-        if path.is_file():
+        if path.is_file() and "__pycache__" not in path.parts:
             digest.update(str(path.relative_to(ROOT)).encode())
             digest.update(path.read_bytes())
     return digest.hexdigest()
@@ -118,7 +114,7 @@ def make_venv() -> None:
 
 
 def ensure_pip() -> None:
-    """Get a pip that is new enough into .venv: the one bundled with Python, or one that this Python has, or one fetched from the index."""
+    """Get a pip that is new enough into .venv: the one bundled with Python, or the one that this Python has."""
     if pip_version() is None:
         run_python("-m", "ensurepip")
     if (version := pip_version()) is not None:
@@ -129,9 +125,7 @@ def ensure_pip() -> None:
     if outer.returncode == 0 and version_of(outer.stdout) >= (22, 3):
         checked([sys.executable, "-m", "pip", "--python", str(PYTHON), "install", "-q", "pip"])
         return
-    with tempfile.TemporaryDirectory() as folder:
-        wheel = fetch_pip(Path(folder))
-        checked([str(PYTHON), str(wheel / "pip"), "install", "-q", str(wheel)])
+    raise SetupError("this Python has no pip of 22.3 or newer; install it (Debian: `apt install python3-pip`) and try again")
 
 
 def pip_version() -> tuple[int, ...] | None:
@@ -144,41 +138,6 @@ def version_of(text: str) -> tuple[int, ...]:
     """The first two numbers of ``pip 25.1.1 from …``."""
     numbers = re.search(r"(\d+)\.(\d+)", text)
     return (int(numbers[1]), int(numbers[2])) if numbers else (0, 0)
-
-
-class WheelLinks(html.parser.HTMLParser):
-    """Collects the wheels of a package index's page; HTML is what every mirror serves."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.links: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Keep the links to final releases of pip."""
-        href = dict(attrs).get("href") or ""
-        if tag == "a" and re.search(r"/pip-\d+(\.\d+)*-py3-none-any\.whl#sha256=[0-9a-f]{64}$", href):
-            self.links.append(href)
-
-
-def fetch_pip(folder: Path) -> Path:
-    """Download the newest pip into ``folder`` and check its hash."""
-    index = os.environ.get("PIP_INDEX_URL", "https://pypi.org/simple").rstrip("/") + "/pip/"
-    say("this Python has no pip: fetching it from the package index")
-    try:
-        with urllib.request.urlopen(index) as page:
-            links = WheelLinks()
-            links.feed(page.read().decode())
-        newest = max(links.links, key=lambda link: [int(n) for n in re.findall(r"\d+", link.rpartition("/pip-")[2].partition("-py3")[0])])
-        url, _, expected = urllib.parse.urljoin(index, newest).partition("#sha256=")
-        with urllib.request.urlopen(url) as answer:
-            data = answer.read()
-    except (OSError, ValueError) as error:
-        raise SetupError(f"could not fetch pip ({error}); is the network there? `apt install python3-pip` would do as well") from error
-    if hashlib.sha256(data).hexdigest() != expected:
-        raise SetupError("the pip that was fetched does not have the hash that the index says")
-    wheel = folder / url.rpartition("/")[2]
-    wheel.write_bytes(data)
-    return wheel
 
 
 def install(extras: Sequence[str]) -> None:
