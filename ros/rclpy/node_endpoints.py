@@ -12,7 +12,6 @@ from .callback_groups import MutuallyExclusiveCallbackGroup
 from .client import Client
 from .entity import Entity
 from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
-from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 from .guard_condition import GuardCondition
 from .publisher import Publisher
@@ -143,27 +142,6 @@ class NodeEndpoints:
         )
         for handler in endpoint.event_handlers:
             self._own(EventHandler, handler)
-
-    def _with_overrides(
-        self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None
-    ) -> QoSProfile | int:
-        if options is None:
-            return qos_profile
-        from .qos_overriding_options import declare_qos_parameters
-
-        profile = QoSProfile.from_wire(validate_qos(qos_profile).to_wire())  # the caller's own profile stays as it is
-        declare_qos_parameters(kind, self._node, self.resolve_topic(topic), profile, options)
-        return profile
-
-    def _handle_events(
-        self,
-        endpoint: Publisher | Subscription,
-        callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
-        callback_group: CallbackGroup | None,
-    ) -> None:
-        group = callback_group or self.default_callback_group
-        handlers = callbacks.create_event_handlers(group, endpoint._wire, endpoint.topic, self._node.get_logger())
-        endpoint.event_handlers = [self._own(EventHandler, handler) for handler in handlers]
 
     def create_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
         """See :meth:`rclpy.node.Node.create_client`."""

@@ -1,0 +1,294 @@
+"""Events of an endpoint's QoS: what a program can be told of, and ROS 2's default warnings about endpoints that do not match."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire.errors import WireError
+from turtlewire.wire.base import EventKind, EventStatus
+
+from ._rclpy_pybind11 import UnsupportedEventTypeError
+from .entity import Entity, Work
+from .qos import QoSPolicyKind, qos_policy_name_from_kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire import base
+
+    from .callback_groups import CallbackGroup
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+
+__all__ = [
+    "EventHandler",
+    "PublisherEventCallbacks",
+    "QoSDeadlineOfferedInfo",
+    "QoSDeadlineRequestedInfo",
+    "QoSLivelinessChangedInfo",
+    "QoSLivelinessLostInfo",
+    "QoSMessageLostInfo",
+    "QoSOfferedIncompatibleQoSInfo",
+    "QoSPublisherEventType",
+    "QoSPublisherMatchedInfo",
+    "QoSRequestedIncompatibleQoSInfo",
+    "QoSSubscriptionEventType",
+    "QoSSubscriptionMatchedInfo",
+    "SubscriptionEventCallbacks",
+    "UnsupportedEventTypeError",
+]
+
+
+class QoSPublisherEventType(IntEnum):
+    """The events of a publisher."""
+
+    RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
+    RCL_PUBLISHER_LIVELINESS_LOST = 1
+    RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS = 2
+    RCL_PUBLISHER_INCOMPATIBLE_TYPE = 3
+    RCL_PUBLISHER_MATCHED = 4
+
+
+class QoSSubscriptionEventType(IntEnum):
+    """The events of a subscription."""
+
+    RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
+    RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
+    RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS = 2
+    RCL_SUBSCRIPTION_MESSAGE_LOST = 3
+    RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE = 4
+    RCL_SUBSCRIPTION_MATCHED = 5
+
+
+class QoSDeadlineRequestedInfo(NamedTuple):
+    """Messages did not come in time, or were not sent in time; counted in all and since the last event, as in the other infos."""
+
+    total_count: int
+    total_count_change: int
+
+
+class QoSLivelinessLostInfo(NamedTuple):
+    """The publisher did not say in time that it is alive."""
+
+    total_count: int
+    total_count_change: int
+
+
+class QoSMessageLostInfo(NamedTuple):
+    """Messages were lost."""
+
+    total_count: int
+    total_count_change: int
+
+
+class QoSLivelinessChangedInfo(NamedTuple):
+    """The number of matching publishers that are alive changed."""
+
+    alive_count: int
+    not_alive_count: int
+    alive_count_change: int
+    not_alive_count_change: int
+
+
+class QoSRequestedIncompatibleQoSInfo(NamedTuple):
+    """Endpoints of the topic do not match because of their QoS."""
+
+    total_count: int
+    total_count_change: int
+    last_policy_kind: QoSPolicyKind
+
+
+class QoSSubscriptionMatchedInfo(NamedTuple):
+    """The number of matching endpoints changed."""
+
+    total_count: int
+    total_count_change: int
+    current_count: int
+    current_count_change: int
+
+
+QoSDeadlineOfferedInfo = QoSDeadlineRequestedInfo
+QoSOfferedIncompatibleQoSInfo = QoSRequestedIncompatibleQoSInfo
+QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo
+
+_INFOS: dict[EventKind, Callable[[EventStatus], Any]] = {
+    EventKind.DEADLINE_MISSED: lambda status: QoSDeadlineRequestedInfo(*status[:2]),
+    EventKind.LIVELINESS_LOST: lambda status: QoSLivelinessLostInfo(*status[:2]),
+    EventKind.MESSAGE_LOST: lambda status: QoSMessageLostInfo(*status[:2]),
+    EventKind.LIVELINESS_CHANGED: lambda status: QoSLivelinessChangedInfo(
+        status.current_count, status.total_count, status.current_count_change, status.total_count_change
+    ),
+    EventKind.INCOMPATIBLE_QOS: lambda status: QoSRequestedIncompatibleQoSInfo(*status[:2], QoSPolicyKind(status.last_policy_kind)),
+    EventKind.MATCHED: lambda status: QoSSubscriptionMatchedInfo(*status[:4]),
+}
+
+
+class EventHandler(Entity):
+    """Calls ``callback(info)`` on the executor when the event happened.
+
+    Raises:
+        UnsupportedEventTypeError: The middleware cannot report it.
+    """
+
+    _ORDER = -1
+
+    def __init__(
+        self,
+        *,
+        callback_group: CallbackGroup,
+        callback: Callable[[Any], Any],
+        event_type: EventKind,
+        endpoint: base.Publisher | base.Subscription,
+    ) -> None:
+        super().__init__(callback_group)
+        self.callback = callback
+        self.event_type = event_type
+        try:
+            self._wire = endpoint.create_event(event_type)
+        except WireError as error:
+            raise UnsupportedEventTypeError(str(error)) from error
+
+    def _attach(self, executor: Executor) -> None:
+        executor._watch(self._wire, self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._unwatch(self._wire)
+
+    def _take(self) -> Work | None:
+        status = self._wire.take()
+        return None if status is None else (self.callback, (_INFOS[self.event_type](status),))
+
+    def _close(self) -> None:
+        self._wire.close()
+
+
+class _EventCallbacks:
+    """What publishers and subscriptions have in common."""
+
+    #: How ROS 2 warns of an endpoint that does not match.
+    _WARNING = ""
+
+    incompatible_qos: Callable[[Any], None] | None
+    incompatible_type: Callable[[Any], None] | None
+    use_default_callbacks: bool
+
+    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+        raise NotImplementedError
+
+    def create_event_handlers(
+        self, callback_group: CallbackGroup, endpoint: base.Publisher | base.Subscription, topic_name: str, logger: RcutilsLogger
+    ) -> list[EventHandler]:
+        """Make a handler for each callback; called by the node when it creates the endpoint.
+
+        Raises:
+            UnsupportedEventTypeError: The middleware cannot report one of the events.
+        """
+        if self.incompatible_type is not None:
+            raise UnsupportedEventTypeError("the middleware does not report endpoints of another type")
+        wanted = self._wanted()
+        if self.incompatible_qos is None and self.use_default_callbacks:
+            wanted[EventKind.INCOMPATIBLE_QOS] = self._warn_of_incompatible_qos(topic_name, logger)
+        return [
+            EventHandler(callback_group=callback_group, callback=callback, event_type=kind, endpoint=endpoint)
+            for kind, callback in wanted.items()
+            if callback is not None
+        ]
+
+    def _warn_of_incompatible_qos(self, topic_name: str, logger: RcutilsLogger) -> Callable[[QoSRequestedIncompatibleQoSInfo], None]:
+        text = self._WARNING
+
+        def warn(event: QoSRequestedIncompatibleQoSInfo) -> None:
+            logger.warning(text.format(topic_name, qos_policy_name_from_kind(event.last_policy_kind)))
+
+        return warn
+
+
+class SubscriptionEventCallbacks(_EventCallbacks):
+    """What is to be called at the events of a subscription; each callback gets the info of its event.
+
+    Args:
+        deadline: No message came in time (:class:`QoSDeadlineRequestedInfo`).
+        incompatible_qos: A publisher does not match (:class:`QoSRequestedIncompatibleQoSInfo`).
+        liveliness: A publisher came, went, or fell silent (:class:`QoSLivelinessChangedInfo`).
+        message_lost: :class:`QoSMessageLostInfo`.
+        incompatible_type: A publisher has another type; no middleware here reports it.
+        matched: A matching publisher came or went (:class:`QoSSubscriptionMatchedInfo`).
+        use_default_callbacks: Whether ROS 2's warning is logged when ``incompatible_qos`` is None.
+    """
+
+    _WARNING = (
+        "New publisher discovered on topic '{}', offering incompatible QoS. No messages will be received from it. "
+        "Last incompatible policy: {}"
+    )
+
+    def __init__(
+        self,
+        *,
+        deadline: Callable[[QoSDeadlineRequestedInfo], None] | None = None,
+        incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], None] | None = None,
+        liveliness: Callable[[QoSLivelinessChangedInfo], None] | None = None,
+        message_lost: Callable[[QoSMessageLostInfo], None] | None = None,
+        incompatible_type: Callable[[Any], None] | None = None,
+        matched: Callable[[QoSSubscriptionMatchedInfo], None] | None = None,
+        use_default_callbacks: bool = True,
+    ) -> None:
+        self.deadline = deadline
+        self.incompatible_qos = incompatible_qos
+        self.liveliness = liveliness
+        self.message_lost = message_lost
+        self.incompatible_type = incompatible_type
+        self.matched = matched
+        self.use_default_callbacks = use_default_callbacks
+
+    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+        return {
+            EventKind.DEADLINE_MISSED: self.deadline,
+            EventKind.INCOMPATIBLE_QOS: self.incompatible_qos,
+            EventKind.LIVELINESS_CHANGED: self.liveliness,
+            EventKind.MESSAGE_LOST: self.message_lost,
+            EventKind.MATCHED: self.matched,
+        }
+
+
+class PublisherEventCallbacks(_EventCallbacks):
+    """What is to be called at the events of a publisher; each callback gets the info of its event.
+
+    Args:
+        deadline: No message was sent in time (:class:`QoSDeadlineOfferedInfo`).
+        incompatible_qos: A subscription does not match (:class:`QoSOfferedIncompatibleQoSInfo`).
+        liveliness: It did not say in time that it is alive (:class:`QoSLivelinessLostInfo`).
+        incompatible_type: A subscription has another type; no middleware here reports it.
+        matched: A matching subscription came or went (:class:`QoSPublisherMatchedInfo`).
+        use_default_callbacks: Whether ROS 2's warning is logged when ``incompatible_qos`` is None.
+    """
+
+    _WARNING = (
+        "New subscription discovered on topic '{}', requesting incompatible QoS. No messages will be sent to it. "
+        "Last incompatible policy: {}"
+    )
+
+    def __init__(
+        self,
+        *,
+        deadline: Callable[[QoSDeadlineOfferedInfo], None] | None = None,
+        incompatible_qos: Callable[[QoSOfferedIncompatibleQoSInfo], None] | None = None,
+        liveliness: Callable[[QoSLivelinessLostInfo], None] | None = None,
+        incompatible_type: Callable[[Any], None] | None = None,
+        matched: Callable[[QoSPublisherMatchedInfo], None] | None = None,
+        use_default_callbacks: bool = True,
+    ) -> None:
+        self.deadline = deadline
+        self.incompatible_qos = incompatible_qos
+        self.liveliness = liveliness
+        self.incompatible_type = incompatible_type
+        self.matched = matched
+        self.use_default_callbacks = use_default_callbacks
+
+    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+        return {
+            EventKind.DEADLINE_MISSED: self.deadline,
+            EventKind.INCOMPATIBLE_QOS: self.incompatible_qos,
+            EventKind.LIVELINESS_LOST: self.liveliness,
+            EventKind.MATCHED: self.matched,
+        }

@@ -1,0 +1,185 @@
+"""Events of QoS and overrides of QoS by parameters, over both middlewares."""
+
+from __future__ import annotations
+
+import pytest
+from rclpy import event_handler
+from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
+from rclpy.context import Context
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.exceptions import InvalidParameterTypeException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
+from rclpy.qos_overriding_options import InvalidQosOverridesError, QoSCallbackResult, QoSOverridingOptions
+from std_msgs.msg import String
+
+RELIABLE = QoSProfile(depth=1)
+BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class World:
+    def __init__(self, node, executor):
+        self.node, self.executor = node, executor
+
+    def spin_until(self, condition):
+        for _ in range(200):
+            if condition():
+                return
+            self.executor.spin_once(timeout_sec=0.1)
+        raise AssertionError("it did not come true")
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def world(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        node = Node("eventful", context=context, start_parameter_services=False)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        yield World(node, executor)
+        executor.shutdown()
+        node.destroy_node()
+
+
+def test_matches(world):
+    seen = []
+    publisher = world.node.create_publisher(String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append))
+    subscription = world.node.create_subscription(String, "a", print, 1)
+    world.spin_until(lambda: seen)
+    assert seen.pop() == event_handler.QoSPublisherMatchedInfo(1, 1, 1, 1)
+    world.node.destroy_subscription(subscription)
+    world.spin_until(lambda: seen)
+    assert seen.pop() == event_handler.QoSPublisherMatchedInfo(1, 0, 0, -1)
+    world.node.destroy_publisher(publisher)
+
+
+def test_endpoints_that_do_not_match_are_told(world):
+    offered, requested = [], []
+    world.node.create_publisher(String, "a", BEST_EFFORT, event_callbacks=PublisherEventCallbacks(incompatible_qos=offered.append))
+    callbacks = SubscriptionEventCallbacks(incompatible_qos=requested.append)
+    world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
+    world.spin_until(lambda: offered and requested)
+    assert offered == requested == [event_handler.QoSOfferedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)]
+
+
+def test_ros_2s_warnings(world, capfd):
+    world.node.create_publisher(String, "a", RELIABLE)
+    late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    world.node.create_subscription(String, "a", print, late)
+    lines = []
+
+    def both():
+        lines.extend(capfd.readouterr().err.splitlines())
+        return len(lines) == 2
+
+    world.spin_until(both)
+    texts = sorted(line.partition("[eventful]: ")[2] for line in lines)
+    assert texts == [
+        "New publisher discovered on topic '/a', offering incompatible QoS. No messages will be received from it. "
+        "Last incompatible policy: DURABILITY",
+        "New subscription discovered on topic '/a', requesting incompatible QoS. No messages will be sent to it. "
+        "Last incompatible policy: DURABILITY",
+    ]
+    assert all(line.startswith("[WARN] ") for line in lines)
+
+
+def test_the_warnings_can_be_switched_off(world, capfd):
+    matched = []
+    world.node.create_publisher(String, "a", BEST_EFFORT, event_callbacks=PublisherEventCallbacks(use_default_callbacks=False))
+    callbacks = SubscriptionEventCallbacks(use_default_callbacks=False)
+    world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
+    world.node.create_publisher(String, "b", 1, event_callbacks=PublisherEventCallbacks(matched=matched.append))
+    world.node.create_subscription(String, "b", print, 1)
+    world.spin_until(lambda: matched)
+    assert capfd.readouterr().err == ""
+
+
+def test_what_no_middleware_reports(world):
+    for create, callbacks in (
+        (lambda **keywords: world.node.create_publisher(String, "a", 1, **keywords), PublisherEventCallbacks(incompatible_type=print)),
+        (
+            lambda **keywords: world.node.create_subscription(String, "a", print, 1, **keywords),
+            SubscriptionEventCallbacks(incompatible_type=print),
+        ),
+    ):
+        with pytest.raises(UnsupportedEventTypeError):
+            create(event_callbacks=callbacks)
+
+
+def test_handlers_go_with_their_endpoint(world):
+    publisher = world.node.create_publisher(String, "a", 1)
+    (handler,) = publisher.event_handlers
+    publisher.destroy()
+    assert handler._destroyed
+
+
+@pytest.fixture
+def context(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+def overridden(context, *rules, **keywords):
+    words = ["--ros-args", *(word for rule in rules for word in ("-p", rule))]
+    return Node("n", context=context, cli_args=words, start_parameter_services=False, **keywords)
+
+
+def test_overrides(context):
+    node = overridden(
+        context,
+        "qos_overrides./a.publisher.depth:=7",
+        "qos_overrides./a.publisher.reliability:=best_effort",
+        "qos_overrides./a.subscription_x.history:=keep_all",
+    )
+    given = QoSProfile(depth=1)
+    publisher = node.create_publisher(String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies())
+    options = QoSOverridingOptions.with_default_policies(entity_id="x")
+    subscription = node.create_subscription(String, "a", print, given, qos_overriding_options=options)
+    assert (publisher.qos_profile.depth, publisher.qos_profile.reliability) == (7, ReliabilityPolicy.BEST_EFFORT)
+    assert subscription.qos_profile.history is HistoryPolicy.KEEP_ALL
+    assert given == QoSProfile(depth=1)
+    names = node.list_parameters(["qos_overrides"], 0).names
+    assert names == [
+        f"qos_overrides./a.{entity}.{policy}"
+        for entity in ("publisher", "subscription_x")
+        for policy in ("history", "depth", "reliability")
+    ]
+    described = node.describe_parameter("qos_overrides./a.subscription_x.depth")
+    assert (described.read_only, described.description) == (True, "depth for subscription `/a` with id `x`")
+    again = node.create_publisher(String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies())
+    assert again.qos_profile.depth == 7
+    node.destroy_node()
+
+
+def test_every_policy_can_be_overridden(context):
+    node = overridden(context, "qos_overrides./a.publisher.deadline:=1000000000", "qos_overrides./a.publisher.durability:=transient_local")
+    policies = [kind for kind in QoSPolicyKind if kind is not QoSPolicyKind.INVALID]
+    for create in (
+        lambda options: node.create_publisher(String, "a", 1, qos_overriding_options=options),
+        lambda options: node.create_subscription(String, "b", print, 1, qos_overriding_options=options),
+    ):
+        create(QoSOverridingOptions(policies))
+    names = node.list_parameters(["qos_overrides"], 0).names
+    assert len(names) == 2 * len(policies) - 1
+    assert "qos_overrides./b.subscription.lifespan" not in names
+    (publisher,) = [each for each in node.publishers if each.topic_name == "/a"]
+    assert publisher.qos_profile.deadline.nanoseconds == 10**9
+    assert publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+    node.destroy_node()
+
+
+def test_wrong_overrides(context):
+    node = overridden(context, "qos_overrides./a.publisher.reliability:=maybe", "qos_overrides./b.publisher.depth:=deep")
+    options = QoSOverridingOptions.with_default_policies()
+    with pytest.raises(ValueError, match="^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable"):
+        node.create_publisher(String, "a", 1, qos_overriding_options=options)
+    with pytest.raises(InvalidParameterTypeException):
+        node.create_publisher(String, "b", 1, qos_overriding_options=options)
+    refusing = QoSOverridingOptions.with_default_policies(callback=lambda qos: QoSCallbackResult(successful=False, reason=f"{qos.depth}"))
+    with pytest.raises(InvalidQosOverridesError, match="^Provided QoS overrides for publisher `/c`, are not valid: 3$"):
+        node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
+    node.destroy_node()
