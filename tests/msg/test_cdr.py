@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from turtlewire import msg
-from turtlewire.errors import CdrError
+from turtlewire.errors import CdrError, InterfaceError
 
 TransformStamped = msg.get_message("geometry_msgs/msg/TransformStamped")
 TFMessage = msg.get_message("tf2_msgs/msg/TFMessage")
@@ -103,6 +103,11 @@ def test_a_deleted_field_is_named():
 def test_only_messages_can_be_serialized():
     with pytest.raises(TypeError, match="expected a message, got int"):
         msg.serialize(3)
+
+
+def test_only_message_classes_can_be_deserialized():
+    with pytest.raises(InterfaceError, match="<class 'int'> is not a ROS 2 interface class"):
+        msg.deserialize(int, msg.serialize(Header()))
 
 
 def test_bytes_are_accepted_for_a_sequence_of_byte():

@@ -177,6 +177,15 @@ def test_services_and_actions_have_their_parts():
         RotateAbsolute()
 
 
+def test_kinds_are_not_mixed_up():
+    with pytest.raises(InterfaceError, match="'turtlesim/srv/Spawn' is not a message"):
+        msg.get_message("turtlesim/srv/Spawn")
+    with pytest.raises(InterfaceError, match="'geometry_msgs/msg/Vector3' is not a service"):
+        msg.get_service("geometry_msgs/msg/Vector3")
+    with pytest.raises(InterfaceError, match="'turtlesim/srv/Spawn' is not an action"):
+        msg.get_action("turtlesim/srv/Spawn")
+
+
 def test_a_class_is_made_once_however_it_is_asked_for():
     assert msg.get_message("geometry_msgs/Vector3") is msg.get_message("geometry_msgs/msg/Vector3") is Vector3
 

@@ -50,6 +50,7 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
 
     Raises:
         CdrError: The bytes are malformed; the text names the field and the offset. Never reads beyond ``data``.
+        InterfaceError: ``cls`` is not a message class.
     """
     if type(data) is not bytes:
         data = bytes(data)
@@ -62,8 +63,9 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
     except Exception as fault:
         from turtlewire.msg.diagnosis import check_bytes
 
+        name = type_name(cls)
         check_bytes(cls._DEFINITION, data, "<" if encapsulation == _LITTLE_ENDIAN else ">")
-        raise CdrError(f"{type_name(cls)}: {fault}") from fault
+        raise CdrError(f"{name}: {fault}") from fault
     raise CdrError(f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0").with_hint(
         "Plain CDR is read: 00 01 (little endian) and 00 00 (big endian)."
     )

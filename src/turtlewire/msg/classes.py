@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Action", "Message", "Service", "get_action", "get_message", "get_service", "type_name"]
 
-_classes: dict[str, type] = {}
+_messages: dict[str, type[Message]] = {}
+_services: dict[str, type[Service]] = {}
+_actions: dict[str, type[Action]] = {}
 _lock = RLock()
 
 
@@ -67,7 +69,7 @@ class Message:
         from turtlewire.msg.encoder import make_encoder
 
         encode = make_encoder(type(self))
-        _plain_class(type(self))._to_cdr = encode  # type: ignore[method-assign, assignment]
+        _messages[self._TYPE_NAME]._to_cdr = encode  # type: ignore[method-assign, assignment]
         return encode(self)
 
     @classmethod
@@ -133,34 +135,34 @@ def get_message(name: str) -> type[Message]:
     Raises:
         InterfaceError: There is no such message.
     """
-    found = _classes.get(name)
+    found = _messages.get(name)
     if found is not None:
         return found
     full_name = name if name.count("/") != 1 else name.replace("/", "/msg/")
     with _lock:
-        if full_name not in _classes:
-            _classes[full_name] = _make_message(load_message(full_name))
-        return _classes[full_name]
+        if full_name not in _messages:
+            _messages[full_name] = _make_message(load_message(full_name))
+        return _messages[full_name]
 
 
 def get_service(name: str) -> type[Service]:
     """Class of a service, by ``"turtlesim/srv/Spawn"`` or ``"turtlesim/Spawn"``; raises as `get_message` does."""
     full_name = name if name.count("/") != 1 else name.replace("/", "/srv/")
     with _lock:
-        if full_name not in _classes:
+        if full_name not in _services:
             load_service(full_name)
-            _classes[full_name] = _make_service(full_name)
-        return _classes[full_name]
+            _services[full_name] = _make_service(full_name)
+        return _services[full_name]
 
 
 def get_action(name: str) -> type[Action]:
     """Class of an action, by ``"turtlesim/action/RotateAbsolute"`` or without the middle; raises as `get_message` does."""
     full_name = name if name.count("/") != 1 else name.replace("/", "/action/")
     with _lock:
-        if full_name not in _classes:
+        if full_name not in _actions:
             load_action(full_name)
-            _classes[full_name] = _make_action(full_name)
-        return _classes[full_name]
+            _actions[full_name] = _make_action(full_name)
+        return _actions[full_name]
 
 
 def get_interface_class(full_name: str) -> type:
@@ -290,12 +292,6 @@ def _finish(message: Message, unknown: dict[str, Any]) -> None:
 def checks_are_on() -> bool:
     """Whether the environment asks for ROS 2's checks at every assignment (``ROS_PYTHON_CHECK_FIELDS=1``)."""
     return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
-
-
-def _plain_class(cls: type[Message]) -> type[Message]:
-    """The class itself, for messages whose fields are checked."""
-    found: type[Message] = _classes[cls._TYPE_NAME]
-    return found
 
 
 def _make_service(full_name: str) -> type[Service]:
