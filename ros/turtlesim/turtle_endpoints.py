@@ -1,4 +1,4 @@
-"""The ROS side of one turtle: its topics and services."""
+"""The ROS side of one turtle: its topics, services and action."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from geometry_msgs.msg import Twist
 from turtlesim.model import Pen
 from turtlesim.msg import Color, Pose
+from turtlesim.rotate_action import RotateAction
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
@@ -44,8 +45,12 @@ class TurtleEndpoints:
             node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute),
         ]
 
+        self._rotate = RotateAction(node, turtle)
+
     def publish(self, tick: TurtleTick, path: PathImage) -> None:
-        """Send pose and colour to whoever listens; the tick's last stroke must not be on ``path`` yet."""
+        """Send pose, colour and feedback to whoever listens; the tick's last stroke must not be on ``path`` yet."""
+        if tick.rotation is not None:
+            self._rotate.report(tick.rotation)
         if self._pose.get_subscription_count():
             x, y, theta, linear_velocity, angular_velocity = tick.pose
             self._pose.publish(Pose(x=x, y=y, theta=theta, linear_velocity=linear_velocity, angular_velocity=angular_velocity))
@@ -60,6 +65,7 @@ class TurtleEndpoints:
         self._node.destroy_publisher(self._color)
         for service in self._services:
             self._node.destroy_service(service)
+        self._rotate.destroy()
 
     def _on_cmd_vel(self, message: Any) -> None:
         forward, lateral, turning = message.linear.x, message.linear.y, message.angular.z
@@ -71,6 +77,7 @@ class TurtleEndpoints:
         holonomic = self._node.get_parameter("holonomic").value
         if self._turtle.drive(forward, lateral if holonomic else 0.0, turning):
             self._node.get_logger().warning("Velocity command received during rotation goal. Aborting goal")
+            self._rotate.abort()
 
     def _on_set_pen(self, request: Any, response: Any) -> Any:
         self._turtle.set_pen(Pen(request.r, request.g, request.b, request.width), off=bool(request.off))

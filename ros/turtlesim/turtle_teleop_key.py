@@ -1,4 +1,4 @@
-"""Drives turtle1 with the arrow keys of a terminal: one velocity command for each key press."""
+"""Drives turtle1 from a terminal: each arrow key press is one velocity command, letters around `f` turn it to a heading."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from turtlesim.action import RotateAbsolute
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
 if TYPE_CHECKING:
     from types import TracebackType
 
     from typing_extensions import Self
+
+    from rclpy.task import Future
 
 __all__ = ["TeleopTurtle", "main"]
 
@@ -39,6 +43,18 @@ class _Drive(NamedTuple):
 
 #: An arrow key arrives as ESC, [ and one of these letters; as in the original only the letter counts.
 _DRIVES = {b"A": _Drive(1.0, 0.0), b"B": _Drive(-1.0, 0.0), b"C": _Drive(0.0, -1.0), b"D": _Drive(0.0, 1.0)}
+#: The keys around F, each for the heading [rad] in whose direction it lies from there.
+_HEADINGS = {
+    b"g": 0.0,
+    b"t": 0.7854,
+    b"r": 1.5708,
+    b"e": 2.3562,
+    b"d": 3.1416,
+    b"c": -2.3562,
+    b"v": -1.5708,
+    b"b": -0.7854,
+}
+_CANCEL = b"f"
 _QUIT = b"q"
 
 
@@ -50,15 +66,28 @@ class TeleopTurtle(Node):
         self.declare_parameter("scale_angular", 2.0)
         self.declare_parameter("scale_linear", 2.0)
         self._cmd_vel = self.create_publisher(Twist, "turtle1/cmd_vel", QUEUE_DEPTH)
+        self._rotate = ActionClient(self, RotateAbsolute, "turtle1/rotate_absolute")
+        self._goal: Future | None = None
 
     def press(self, key: bytes) -> None:
         """Act on one byte from the keyboard; most mean nothing."""
-        drive = _DRIVES.get(key)
-        if drive is not None:
-            message = Twist()
-            message.linear.x = self.get_parameter("scale_linear").value * drive.linear
-            message.angular.z = self.get_parameter("scale_angular").value * drive.angular
-            self._cmd_vel.publish(message)
+        if key in _DRIVES:
+            self._drive(_DRIVES[key])
+        elif key in _HEADINGS:
+            self._goal = self._rotate.send_goal_async(RotateAbsolute.Goal(theta=_HEADINGS[key]))
+        elif key == _CANCEL:
+            self._cancel()
+
+    def _drive(self, drive: _Drive) -> None:
+        message = Twist()
+        message.linear.x = self.get_parameter("scale_linear").value * drive.linear
+        message.angular.z = self.get_parameter("scale_angular").value * drive.angular
+        self._cmd_vel.publish(message)
+
+    def _cancel(self) -> None:
+        """Cancel the last rotation, if the simulator took it; one that has ended stays as it is."""
+        if self._goal is not None and self._goal.done() and self._goal.result().accepted:
+            self._goal.result().cancel_goal_async()
 
 
 class _Keyboard:

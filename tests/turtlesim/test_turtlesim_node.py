@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import time
@@ -9,11 +10,14 @@ import time
 import pytest
 
 import rclpy
+from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Twist
+from rclpy.action import ActionClient, get_action_server_names_and_types_by_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Empty
+from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 from turtlesim.turtlesim_node import TurtlesimNode
@@ -109,7 +113,10 @@ def test_the_graph_is_that_of_the_original(world):
         "/turtle1/teleport_absolute": "turtlesim/srv/TeleportAbsolute",
         "/turtle1/teleport_relative": "turtlesim/srv/TeleportRelative",
     }
-    assert {name: types[0] for name, types in services.items() if "_parameter" not in name and "type_desc" not in name} == expected
+    assert {name: types[0] for name, types in services.items() if not re.search("_parameter|type_desc|_action/", name)} == expected
+    assert get_action_server_names_and_types_by_node(world.user, "turtlesim", "/") == [
+        ("/turtle1/rotate_absolute", ["turtlesim/action/RotateAbsolute"])
+    ]
     (info,) = world.user.get_publishers_info_by_topic("/turtle1/pose")
     assert (info.qos_profile.depth, info.qos_profile.reliability.name, info.qos_profile.durability.name) == (7, "RELIABLE", "VOLATILE")
 
@@ -178,7 +185,7 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
         "[INFO] Resetting turtlesim.",
         "[INFO] Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
     ]
-    assert {name for name, _ in world.user.get_topic_names_and_types() if "turtle" in name} == {
+    assert {name for name, _ in world.user.get_topic_names_and_types() if "turtle" in name and "/_action/" not in name} == {
         "/turtle1/cmd_vel",
         "/turtle1/color_sensor",
         "/turtle1/pose",
@@ -297,3 +304,79 @@ def test_mimic_does_what_the_other_does(world):
     world.talk("/turtle1/cmd_vel").publish(twist(1.0, 0.5))
     world.spin_until(lambda: poses and (poses[-1].linear_velocity, poses[-1].angular_velocity) == (1.0, 0.5))
     mimic.destroy_node()
+
+
+class TestRotateAbsolute:
+    @pytest.fixture
+    def client(self, world):
+        client = ActionClient(world.user, RotateAbsolute, "/turtle1/rotate_absolute")
+        world.spin_until(client.server_is_ready)
+        yield client
+        client.destroy()
+
+    def send(self, world, client, theta: float, feedback: list | None = None):
+        """The accepted goal's handle."""
+        callback = None if feedback is None else lambda message: feedback.append(message.feedback.remaining)
+        future = client.send_goal_async(RotateAbsolute.Goal(theta=theta), feedback_callback=callback)
+        world.spin_until(future.done)
+        return future.result()
+
+    def result(self, world, handle) -> tuple[int, float]:
+        future = handle.get_result_async()
+        world.spin_until(future.done)
+        return future.result().status, future.result().result.delta
+
+    def test_succeeds_with_feedback_every_tick(self, world, client, capfd):
+        poses = world.listen(Pose, "/turtle1/pose")
+        feedback: list[float] = []
+        handle = self.send(world, client, 0.5, feedback)
+        status, delta = self.result(world, handle)
+        assert status == GoalStatus.STATUS_SUCCEEDED
+        assert delta == pytest.approx(-0.496, abs=0.02)
+        assert poses[-1].theta == pytest.approx(0.5, abs=0.02)
+        steps = [a - b for a, b in itertools.pairwise(feedback)]
+        assert feedback[0] == 0.5
+        assert len(feedback) == 32
+        assert steps == pytest.approx([0.016] * len(steps), abs=1e-6)
+        assert lines(capfd)[-1] == "[INFO] Rotation goal completed successfully"
+
+    def test_a_velocity_command_aborts_it(self, world, client, capfd):
+        feedback: list[float] = []
+        handle = self.send(world, client, 3.0, feedback)
+        world.spin_until(lambda: len(feedback) > 5)
+        world.talk("/turtle1/cmd_vel").publish(twist(1.0))
+        status, delta = self.result(world, handle)
+        assert status == GoalStatus.STATUS_ABORTED
+        assert delta < -0.05
+        assert lines(capfd)[-1] == "[WARN] Velocity command received during rotation goal. Aborting goal"
+
+    def test_a_new_goal_aborts_the_old_one(self, world, client, capfd):
+        first = self.send(world, client, 3.0)
+        second = self.send(world, client, 0.1)
+        assert self.result(world, first)[0] == GoalStatus.STATUS_ABORTED
+        assert self.result(world, second)[0] == GoalStatus.STATUS_SUCCEEDED
+        assert "[WARN] Rotation goal received before a previous goal finished. Aborting previous goal" in lines(capfd)
+
+    def test_cancel(self, world, client, capfd):
+        feedback: list[float] = []
+        handle = self.send(world, client, -3.0, feedback)
+        world.spin_until(lambda: len(feedback) > 5)
+        canceling = handle.cancel_goal_async()
+        world.spin_until(canceling.done)
+        status, delta = self.result(world, handle)
+        assert (status, delta > 0) == (GoalStatus.STATUS_CANCELED, True)
+        assert lines(capfd)[-1] == "[INFO] Rotation goal canceled"
+        poses = world.listen(Pose, "/turtle1/pose")
+        world.spin_until(lambda: len(poses) > 2)
+        assert poses[-1].angular_velocity == 0.0
+
+    def test_killing_the_turtle_ends_its_goal(self, world, client):
+        handle = self.send(world, client, 3.0)
+        result = handle.get_result_async()
+        world.call(Kill, "/kill", name="turtle1")
+        assert world.sim.world.turtles == {}
+        world.spin_until(lambda: not client.server_is_ready())
+        assert not result.done() or result.result().status == GoalStatus.STATUS_ABORTED
+
+    def test_a_heading_that_is_not_finite_is_rejected(self, world, client):
+        assert not self.send(world, client, math.nan).accepted

@@ -24,6 +24,7 @@ from rclpy.node import Node
 from turtlesim.msg import Pose
 
 TELEOP = json.loads((Path(__file__).parent.parent / "golden" / "tutorial" / "teleop.json").read_text())
+HEADINGS = set("gtredcvb")
 LINE = re.compile(r"\[(INFO|WARN|ERROR)\] \[\d+\.\d{9}\] \[[a-z0-9_.]+\]: (.*)")
 
 
@@ -182,24 +183,37 @@ def terminal():
     terminal.close()
 
 
-def test_teleop_sends_what_the_original_sent(ear, terminal):
+def test_teleop_does_what_the_original_did(ear, terminal):
+    """Every key of the capture, on a real simulator: the same commands, and the same heading at the end of each rotation."""
+    simulator = Process("turtlesim.turtlesim_node", "--headless")
+    poses = ear.listen(Pose, "/turtle1/pose")
     commands = ear.listen(Twist, "/turtle1/cmd_vel")
     banner, *events = TELEOP["events"]
     terminal.read_until("to quit.\r\n")
     assert terminal.output == banner["output"]
     assert termios.tcgetattr(terminal.master)[3] & (termios.ICANON | termios.ECHO) == 0
     ear.spin_until(lambda: ear.node.count_publishers("/turtle1/cmd_vel"))
+    ear.spin_until(lambda: poses)
     ear.spin_until(lambda: any(info.node_name == "teleop_turtle" for info in ear.node.get_publishers_info_by_topic("/turtle1/cmd_vel")))
+    headings = 0
     for event in events:
         os.write(terminal.master, bytes.fromhex(event["sent"]))
         wanted = len(commands) + len(event["cmd_vel"])
         ear.spin_until(lambda wanted=wanted: len(commands) >= wanted)
+        if event["key"] in HEADINGS:
+            headings += 1
+            simulator.wait_for(headings * r"(?s:.*)Rotation goal completed successfully")
+            seen = len(poses)
+            ear.spin_until(lambda seen=seen: len(poses) > seen + 20 and poses[-1].angular_velocity == 0.0)
+            assert poses[-1].theta == pytest.approx(event["theta_after"], abs=0.04)
     assert terminal.popen.wait(20) == TELEOP["exit_code_after_q"] == 0
     got = [[m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z] for m in commands]
     expected = [command for event in events for command in event["cmd_vel"]]
-    assert (len(events), len(expected)) == (17, 5)
+    assert (len(events), len(expected), headings) == (17, 5, 8)
     assert got == expected
     assert termios.tcgetattr(terminal.master) == terminal.before
+    assert simulator.interrupt() == 0
+    assert simulator.output.count("Rotation goal completed successfully") == 8
 
 
 @pytest.mark.parametrize(("end", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 0)])

@@ -1,0 +1,101 @@
+"""The action ``rotate_absolute`` of one turtle: goals become rotations of the model, its progress feedback and results."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.task import Future
+from turtlesim.action import RotateAbsolute
+from turtlesim.model import RotationState
+
+if TYPE_CHECKING:
+    from rclpy.action.server import ServerGoalHandle
+    from rclpy.node import Node
+    from turtlesim.model import Rotation, Turtle
+
+__all__ = ["RotateAction"]
+
+
+class _Goal:
+    """A goal being worked on, and the end that its execution awaits."""
+
+    def __init__(self, handle: ServerGoalHandle, rotation: Rotation) -> None:
+        self.handle = handle
+        self.rotation = rotation
+        self.ended = Future()
+
+
+class RotateAction:
+    """Serves the action; the simulator reports each tick's work with :meth:`report`. For the executor's thread."""
+
+    def __init__(self, node: Node, turtle: Turtle) -> None:
+        self._node = node
+        self._turtle = turtle
+        self._goal: _Goal | None = None
+        self._server = ActionServer(
+            node,
+            RotateAbsolute,
+            f"{turtle.name}/rotate_absolute",
+            self._execute,
+            goal_callback=self._on_goal,
+            cancel_callback=self._on_cancel,
+        )
+
+    def report(self, rotation: Rotation) -> None:
+        """Tell the client of the tick that ``rotation`` was worked on, and of its end."""
+        goal = self._goal
+        if goal is None or goal.rotation is not rotation:
+            return
+        if rotation.state is RotationState.CANCELED:
+            self._node.get_logger().info("Rotation goal canceled")
+            self._end(goal)
+            return
+        goal.handle.publish_feedback(RotateAbsolute.Feedback(remaining=rotation.remaining))
+        if rotation.state is RotationState.SUCCEEDED:
+            self._node.get_logger().info("Rotation goal completed successfully")
+            self._end(goal)
+
+    def abort(self) -> None:
+        """Give the present goal up: its rotation was aborted."""
+        if self._goal is not None:
+            self._end(self._goal)
+
+    def destroy(self) -> None:
+        """Leave the graph; a goal that is being worked on is aborted."""
+        if self._goal is not None:
+            self._goal.rotation.state = RotationState.ABORTED
+            self._end(self._goal)
+        self._server.destroy()
+
+    def _on_goal(self, goal: Any) -> GoalResponse:
+        if math.isfinite(goal.theta):
+            return GoalResponse.ACCEPT
+        self._node.get_logger().error(f"Cannot rotate [{self._turtle.name}] to a heading that is not finite: {goal.theta}")
+        return GoalResponse.REJECT
+
+    def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
+        if self._goal is not None and self._goal.handle == handle:
+            self._goal.rotation.cancel_requested = True
+        return CancelResponse.ACCEPT
+
+    async def _execute(self, handle: ServerGoalHandle) -> Any:
+        rotation, aborted = self._turtle.rotate_to(handle.request.theta)
+        if aborted is not None:
+            self._node.get_logger().warning("Rotation goal received before a previous goal finished. Aborting previous goal")
+            self.abort()
+        rotation.cancel_requested = handle.is_cancel_requested
+        goal = self._goal = _Goal(handle, rotation)
+        await goal.ended
+        return RotateAbsolute.Result(delta=rotation.delta)
+
+    def _end(self, goal: _Goal) -> None:
+        self._goal = None
+        if goal.rotation.state is RotationState.SUCCEEDED:
+            goal.handle.succeed()
+        elif goal.rotation.state is RotationState.CANCELED:
+            goal.handle.canceled()
+        else:
+            goal.handle.abort()
+        goal.ended.set_result(None)
