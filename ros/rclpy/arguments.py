@@ -43,9 +43,7 @@ _OPTIONS = {
     "--enclave": _ENCLAVE,
     "--params-file": _Option("params file", "Couldn't parse trailing {} flag. No file path provided.", "_add_parameter_file"),
     "--log-level": _Option("log level", "Couldn't parse trailing log level flag: '{}'. No log level provided.", "_set_log_level"),
-    "--log-file-name": _Option(
-        "log file name prefix", "Couldn't parse trailing {} flag. No string prefix provided.", "_set_log_file_name"
-    ),
+    "--log-file-name": _Option("log file name prefix", "Couldn't parse trailing {} flag. No string prefix provided.", "_set_log_file_name"),
     "--log-config-file": _Option("log config file", "Couldn't parse trailing {} flag. No file path provided.", "_set_log_config_file"),
 }
 _SWITCHES = {

@@ -19,6 +19,7 @@ from .time import Time
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
+    from typing import Self
 
     from .context import Context
 
@@ -129,7 +130,7 @@ class JumpHandle:
         """Whether the callbacks are to run for ``jump``."""
         return self._threshold.is_crossed_by(jump)
 
-    def __enter__(self) -> JumpHandle:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
@@ -141,7 +142,7 @@ class Clock:
 
     _clock_type: ClockType
 
-    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034 - it may make a subclass
         """Choose the class by the clock type."""
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
@@ -235,7 +236,7 @@ class ROSClock(Clock):
     _override_ns: int
     _override_is_active: bool
 
-    def __new__(cls) -> ROSClock:
+    def __new__(cls) -> Self:
         """Make a clock of ROS time."""
         return Clock.__new__(cls, clock_type=ClockType.ROS_TIME)  # type: ignore[return-value]
 

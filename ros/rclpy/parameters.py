@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["NodeParameters"]
 
-_EMPTY_LIST = (
-    "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the original parameters list."
-)
+_EMPTY_LIST = "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the original parameters list."
 
 
 class NodeParameters:
@@ -87,9 +85,7 @@ class NodeParameters:
         declaration = (name,) if value is None and descriptor is None else (name, value, descriptor or _new_descriptor())
         return self.declare_parameters("", [declaration], ignore_override)[0]
 
-    def declare_parameters(
-        self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
-    ) -> list[Parameter]:
+    def declare_parameters(self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False) -> list[Parameter]:
         """Declare several parameters, each as ``(name)``, ``(name, value or type)`` or ``(name, value or type, descriptor)``.
 
         Args:
@@ -282,9 +278,7 @@ class NodeParameters:
             after(parameter_list)
         return ""
 
-    def _store(
-        self, parameter_list: list[Parameter], descriptors: dict[str, ParameterDescriptor], *, declaring: bool
-    ) -> ParameterEvent:
+    def _store(self, parameter_list: list[Parameter], descriptors: dict[str, ParameterDescriptor], *, declaring: bool) -> ParameterEvent:
         from rcl_interfaces.msg import ParameterEvent
 
         event = ParameterEvent(node=self._node_fqn)

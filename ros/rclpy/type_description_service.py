@@ -36,9 +36,8 @@ class TypeDescriptionService:
         node.create_service(GetTypeDescription, name, self._get_type_description, qos_profile=qos_profile_services_default)
 
     def _get_type_description(self, request: Any, response: Any) -> Any:
-        from type_description_interfaces.msg import TypeDescription
-
         from turtlewire.msg.type_hash import referenced_types
+        from type_description_interfaces.msg import TypeDescription
 
         try:
             expected = msg.type_hash(request.type_name)
@@ -59,10 +58,9 @@ class TypeDescriptionService:
 
 
 def _describe(type_name: str) -> IndividualTypeDescription:
-    from type_description_interfaces.msg import Field, FieldType, IndividualTypeDescription
-
     from turtlewire.msg.registry import load_interface
     from turtlewire.msg.type_hash import field_type_parts, members
+    from type_description_interfaces.msg import Field, FieldType, IndividualTypeDescription
 
     fields = []
     for name, type_ in members(load_interface(type_name)):

@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.arguments import Arguments
 from rclpy.impl import log_output
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
-
 from turtlewire.wire import names
 
 GOLDEN = Path(__file__).parent.parent / "golden" / "cli"
@@ -60,7 +60,12 @@ def test_golden_exit_codes(name):
     words, _, error = golden(name)
     program = "import sys, rclpy; rclpy.init(args=sys.argv)"
     run = subprocess.run(
-        [sys.executable, "-c", program, "--ros-args", *words], capture_output=True, text=True, cwd=GOLDEN / "inputs", timeout=60, check=False
+        [sys.executable, "-c", program, "--ros-args", *words],
+        capture_output=True,
+        text=True,
+        cwd=GOLDEN / "inputs",
+        timeout=60,
+        check=False,
     )
     expected = int(re.search(r"^# exit code: (\d+)$", (GOLDEN / name).read_text(), re.MULTILINE)[1])
     assert (run.returncode, run.stderr.splitlines()[-1]) == (expected, error)
@@ -108,7 +113,21 @@ def test_everything_unknown_is_listed():
 
 def test_blocks_and_user_arguments():
     arguments = Arguments.parse(
-        ["program", "-r", "--ros-args", "-r", "a:=b", "--", "user", "--", "--ros-args", "--log-level", "WARN", "--log-level", "rcl.x:=debug"]
+        [
+            "program",
+            "-r",
+            "--ros-args",
+            "-r",
+            "a:=b",
+            "--",
+            "user",
+            "--",
+            "--ros-args",
+            "--log-level",
+            "WARN",
+            "--log-level",
+            "rcl.x:=debug",
+        ]
     )
     assert arguments.user_args == ["program", "-r", "user", "--"]
     assert arguments.remap_topic("/a", "n", "/") == "/b"
@@ -117,8 +136,19 @@ def test_blocks_and_user_arguments():
 
 def test_switches_and_the_rest():
     arguments = Arguments.parse(
-        ["--ros-args", "--disable-stdout-logs", "--disable-rosout-logs", "--enable-rosout-logs", "--disable-external-lib-logs"]
-        + ["--log-file-name", "robot", "--enclave", "/a/b", "--log-config-file", "x"]
+        [
+            "--ros-args",
+            "--disable-stdout-logs",
+            "--disable-rosout-logs",
+            "--enable-rosout-logs",
+            "--disable-external-lib-logs",
+            "--log-file-name",
+            "robot",
+            "--enclave",
+            "/a/b",
+            "--log-config-file",
+            "x",
+        ]
     )
     assert (arguments.stdout_logs, arguments.rosout_logs, arguments.external_lib_logs) == (False, True, False)
     assert (arguments.log_file_name, arguments.enclave, arguments.log_config_file) == ("robot", "/a/b", "x")
@@ -218,7 +248,9 @@ def test_the_lexer_reads_everything_or_says_where_it_stops(text):
     assert (lexer.peek() is Lexeme.EOF) == (lexer.rest == "")
 
 
-@pytest.mark.parametrize("text", ["__node", "__name", "__ns", "rostopic://", "rosservice://", ":=", ":", "~/", "**", "*", "/", ".", "a_b", "_"])
+@pytest.mark.parametrize(
+    "text", ["__node", "__name", "__ns", "rostopic://", "rosservice://", ":=", ":", "~/", "**", "*", "/", ".", "a_b", "_"]
+)
 def test_each_lexeme_is_one(text):
     lexer = Lexer(text)
     assert lexer.accept() == text
@@ -277,7 +309,7 @@ def test_values(text, value):
 
 def test_not_a_number():
     read = parse_value("[.nan, nan, .NaN]")
-    assert [each != each for each in read] == [True, True, True]  # noqa: PLR0124 - that is what a nan is
+    assert [each != each for each in read] == [True, True, True]
 
 
 @given(st.one_of(st.booleans(), st.integers(-(2**63), 2**63 - 1), st.floats(allow_nan=False, allow_infinity=False), st.text("abcxyz _-")))
@@ -366,5 +398,5 @@ def test_empty_and_unreadable_parameter_files(tmp_path):
     assert parse_file(str(path)) == {}
     path.write_bytes(b"\xff\xfe\x00")
     for bad in (path, tmp_path, tmp_path / "none.yaml"):
-        with pytest.raises(RuleError, match="^Error opening YAML file$"):
+        with pytest.raises(RuleError, match=r"^Error opening YAML file$"):
             parse_file(str(bad))

@@ -4,6 +4,7 @@ import threading
 import time
 
 import pytest
+
 from rclpy.clock import Clock, ClockChange, ClockType, JumpHandle, JumpThreshold, ROSClock, TimeJump
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
@@ -51,7 +52,7 @@ def test_the_clock_type_decides_the_class():
     assert type(Clock(clock_type=ClockType.ROS_TIME)) is ROSClock
     assert ROSClock().clock_type is ClockType.ROS_TIME
     assert repr(ROSClock()) == "Clock(clock_type=ROS_TIME)"
-    with pytest.raises(TypeError, match="^Clock type must be a ClockType enum$"):
+    with pytest.raises(TypeError, match=r"^Clock type must be a ClockType enum$"):
         Clock(clock_type=1)
 
 
@@ -217,7 +218,7 @@ def test_a_change_of_the_source_ends_the_sleep(was_active):
 
 def test_bad_sleeps():
     context = FakeContext()
-    with pytest.raises(ValueError, match="^until's clock type does not match this clock's type$"):
+    with pytest.raises(ValueError, match=r"^until's clock type does not match this clock's type$"):
         Clock().sleep_until(ros_time(1), context)
     context.shutdown()
     with pytest.raises(NotInitializedException):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from rclpy import event_handler
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
 from rclpy.context import Context
@@ -77,10 +78,14 @@ def test_ros_2s_warnings(world, capfd):
     world.spin_until(both)
     texts = sorted(line.partition("[eventful]: ")[2] for line in lines)
     assert texts == [
-        "New publisher discovered on topic '/a', offering incompatible QoS. No messages will be received from it. "
-        "Last incompatible policy: DURABILITY",
-        "New subscription discovered on topic '/a', requesting incompatible QoS. No messages will be sent to it. "
-        "Last incompatible policy: DURABILITY",
+        (
+            "New publisher discovered on topic '/a', offering incompatible QoS. No messages will be received from it. "
+            "Last incompatible policy: DURABILITY"
+        ),
+        (
+            "New subscription discovered on topic '/a', requesting incompatible QoS. No messages will be sent to it. "
+            "Last incompatible policy: DURABILITY"
+        ),
     ]
     assert all(line.startswith("[WARN] ") for line in lines)
 
@@ -175,11 +180,11 @@ def test_every_policy_can_be_overridden(context):
 def test_wrong_overrides(context):
     node = overridden(context, "qos_overrides./a.publisher.reliability:=maybe", "qos_overrides./b.publisher.depth:=deep")
     options = QoSOverridingOptions.with_default_policies()
-    with pytest.raises(ValueError, match="^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable"):
+    with pytest.raises(ValueError, match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable"):
         node.create_publisher(String, "a", 1, qos_overriding_options=options)
     with pytest.raises(InvalidParameterTypeException):
         node.create_publisher(String, "b", 1, qos_overriding_options=options)
     refusing = QoSOverridingOptions.with_default_policies(callback=lambda qos: QoSCallbackResult(successful=False, reason=f"{qos.depth}"))
-    with pytest.raises(InvalidQosOverridesError, match="^Provided QoS overrides for publisher `/c`, are not valid: 3$"):
+    with pytest.raises(InvalidQosOverridesError, match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$"):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
     node.destroy_node()

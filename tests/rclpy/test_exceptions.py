@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+
 from rclpy import _rclpy_pybind11, exceptions
 from rclpy.parameter import Parameter
 

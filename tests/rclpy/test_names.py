@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from rclpy import exceptions
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.validate_full_topic_name import validate_full_topic_name

@@ -5,10 +5,10 @@ from array import array
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.parameter import Parameter, get_parameter_value, parameter_dict_from_yaml_file, parameter_value_to_python
-
 from turtlewire import msg
 
 Type = Parameter.Type
@@ -64,7 +64,7 @@ def test_values_without_a_type(value, text):
 def test_type_and_value_have_to_agree(type_, pair):
     value, found = pair
     empty = value == [] and type_.name.endswith("_ARRAY")
-    int_like = found is Type.BOOL and type_ is Type.INTEGER or found is Type.BOOL_ARRAY and type_ is Type.INTEGER_ARRAY
+    int_like = (found is Type.BOOL and type_ is Type.INTEGER) or (found is Type.BOOL_ARRAY and type_ is Type.INTEGER_ARRAY)
     if type_ is found or empty or int_like:  # Python's bool is an int
         assert Parameter("p", type_, value).type_ is type_
     else:
@@ -73,9 +73,11 @@ def test_type_and_value_have_to_agree(type_, pair):
 
 
 def test_other_errors():
-    with pytest.raises(TypeError, match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance of '<enum 'Type'>'$"):
+    with pytest.raises(
+        TypeError, match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance of '<enum 'Type'>'$"
+    ):
         Parameter("p", 4, "x")
-    with pytest.raises(RuntimeError, match="^unexpected parameter type 99$"):
+    with pytest.raises(RuntimeError, match=r"^unexpected parameter type 99$"):
         parameter_value_to_python(ParameterValue(type=99))
     with pytest.raises(ValueError):
         Parameter.from_parameter_msg(ParameterMsg(value=ParameterValue(type=99)))
@@ -141,7 +143,7 @@ def test_a_parameter_file(parameter_file):
 
 
 def test_bad_parameter_files(parameter_file, tmp_path):
-    with pytest.raises(RuntimeError, match="^Param file does not contain parameters for nope,only for nodes: "):
+    with pytest.raises(RuntimeError, match=r"^Param file does not contain parameters for nope,only for nodes: "):
         parameter_dict_from_yaml_file(parameter_file, target_nodes=["nope"])
     for text, error in (
         ("/**: {ros__parameters: {}}", "Param file does not contain selected parameters"),

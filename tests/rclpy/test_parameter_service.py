@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 import pytest
-from rcl_interfaces.msg import LoggerLevel, ParameterDescriptor
+
+from rcl_interfaces.msg import LoggerLevel, ParameterDescriptor, ParameterValue
 from rcl_interfaces.msg import Parameter as ParameterMsg
-from rcl_interfaces.msg import ParameterValue
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels, SetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -17,9 +17,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.parameter_event_handler import ParameterEventHandler
-from type_description_interfaces.srv import GetTypeDescription
-
 from turtlewire import msg
+from type_description_interfaces.srv import GetTypeDescription
 
 GOLDEN = Path(__file__).parent.parent / "golden"
 
@@ -155,7 +154,7 @@ def test_parameter_events(world):
     world.spin_until(lambda: done)
     assert calls == []
     for remove, handle in ((handler.remove_parameter_callback, one), (handler.remove_parameter_event_callback, everything)):
-        with pytest.raises(RuntimeError, match="^Callback doesn't exist$"):
+        with pytest.raises(RuntimeError, match=r"^Callback doesn't exist$"):
             remove(handle)
     handler.destroy()
 
@@ -182,7 +181,7 @@ def test_type_descriptions(world, type_name):
     assert list(described) == sorted(described)
     fields = json.loads((GOLDEN / "wire" / "interface_fields.json").read_text())
     for name, description in described.items():
-        if name in fields and fields[name]:
+        if fields.get(name):
             assert [field.name for field in description.fields] == list(fields[name])
     assert response.type_sources[0].encoding == type_name.split("/")[1]
     assert response.type_sources[0].raw_file_contents

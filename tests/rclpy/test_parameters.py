@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterValue, SetParametersResult
 from rclpy import exceptions
 from rclpy.parameter import Parameter
@@ -85,7 +86,7 @@ def test_several_declarations_with_a_namespace(parameters):
 
 def test_a_type_alone_has_to_be_set_before_it_is_read(parameters):
     assert parameters.declare_parameter("a", Type.DOUBLE).type_ is Type.NOT_SET
-    with pytest.raises(exceptions.ParameterUninitializedException, match="^The parameter is not initialized: a$"):
+    with pytest.raises(exceptions.ParameterUninitializedException, match=r"^The parameter is not initialized: a$"):
         parameters.get_parameter("a")
     assert parameters.get_parameter_or("a", Parameter("a", value=7)).value == 7
     assert parameters.get_parameter_or("a").type_ is Type.NOT_SET
@@ -104,7 +105,11 @@ def test_a_name_alone_is_deprecated_and_dynamic(parameters):
 @pytest.mark.parametrize(
     ("declarations", "error", "text"),
     [
-        ([("a", 1, ParameterDescriptor(), 4)], TypeError, "Invalid parameter tuple length at index 0 in parameters list: .* between 1 and 3"),
+        (
+            [("a", 1, ParameterDescriptor(), 4)],
+            TypeError,
+            "Invalid parameter tuple length at index 0 in parameters list: .* between 1 and 3",
+        ),
         ([()], TypeError, "Invalid parameter tuple length at index 0"),
         ([("a", 1), (5, 1)], TypeError, "First element 5 at index 1 in parameters list is not a str."),
         ([("a", 1, "x")], TypeError, "Third element x at index 0 in parameters list is not a ParameterDescriptor."),
@@ -228,7 +233,7 @@ def test_read_only(parameters):
     parameters.declare_parameter("a", 1, ParameterDescriptor(read_only=True))
     assert reason(parameters, "a", 2) == "Trying to set a read-only parameter: a."
     for call in (lambda: parameters.undeclare_parameter("a"), lambda: parameters.set_descriptor("a", ParameterDescriptor())):
-        with pytest.raises(exceptions.ImmutableParameterException, match="^Attempted to modify read-only parameter: a$"):
+        with pytest.raises(exceptions.ImmutableParameterException, match=r"^Attempted to modify read-only parameter: a$"):
             call()
 
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+
 from rclpy.duration import Duration, Infinite
 from rclpy.qos import (
     DurabilityPolicy,
@@ -17,7 +18,6 @@ from rclpy.qos import (
     qos_profile_best_available,
     qos_profile_system_default,
 )
-
 from turtlewire.wire import qos as wire_qos
 
 S, R, B = ReliabilityPolicy.SYSTEM_DEFAULT, ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
@@ -84,7 +84,7 @@ def test_incomplete_profiles():
 
 
 def test_wrong_values():
-    with pytest.raises(ValueError, match="^history depth must be greater than or equal to zero$"):
+    with pytest.raises(ValueError, match=r"^history depth must be greater than or equal to zero$"):
         QoSProfile(depth=-1)
     with pytest.raises(AssertionError):
         QoSProfile(depth="10")

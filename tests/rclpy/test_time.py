@@ -1,10 +1,11 @@
 from __future__ import annotations
 
 import pytest
-from builtin_interfaces.msg import Duration as DurationMsg
-from builtin_interfaces.msg import Time as TimeMsg
 from hypothesis import given
 from hypothesis import strategies as st
+
+from builtin_interfaces.msg import Duration as DurationMsg
+from builtin_interfaces.msg import Time as TimeMsg
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration, Infinite
 from rclpy.time import Time
@@ -101,16 +102,16 @@ def test_bad_durations():
 
 
 def test_time_before_zero():
-    with pytest.raises(ValueError, match="^Subtraction leads to negative time$"):
+    with pytest.raises(ValueError, match=r"^Subtraction leads to negative time$"):
         Time(nanoseconds=1) - Duration(nanoseconds=2)
 
 
 def test_clock_types_do_not_mix():
     system, ros = Time(nanoseconds=1), Time(nanoseconds=1, clock_type=ClockType.ROS_TIME)
     for compare in ("__eq__", "__ne__", "__lt__", "__le__", "__gt__", "__ge__"):
-        with pytest.raises(TypeError, match="^Can't compare times with different clock types$"):
+        with pytest.raises(TypeError, match=r"^Can't compare times with different clock types$"):
             getattr(system, compare)(ros)
-    with pytest.raises(TypeError, match="^Can't subtract times with different clock types$"):
+    with pytest.raises(TypeError, match=r"^Can't subtract times with different clock types$"):
         system - ros
 
 

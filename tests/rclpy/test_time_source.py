@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from builtin_interfaces.msg import Time as TimeMsg
 from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.context import Context

@@ -7,7 +7,6 @@ from rclpy.duration import Infinite
 from rclpy.qos import LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
-
 from turtlewire.wire import base
 from turtlewire.wire.qos import INFINITE_NS, Liveliness, QoS
 
