@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -34,6 +35,7 @@ def main() -> int:
     arguments = parser.parse_args()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
     prepare_environment()
+    choose_core()
     for signum in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, interrupt)
     if arguments.check:
@@ -49,6 +51,13 @@ def prepare_environment() -> None:
     os.environ.setdefault("ROS_LOG_DIR", str(VENV / "log"))
     for name in ("PYTHONPATH", "AMENT_PREFIX_PATH"):
         os.environ.pop(name, None)
+
+
+def choose_core() -> None:
+    """Say once, instead of in each process, that the compiled core is missing; the plain-Python one does the same."""
+    if "TURTLEWIRE_CORE" not in os.environ and find_spec("turtlewire._native") is None:
+        os.environ["TURTLEWIRE_CORE"] = "python"
+        print("[demo] transforms run on the plain-Python core; `apt install g++ python3-dev` (or the like) brings the compiled one")
 
 
 def interrupt(_signum: int, _frame: object) -> NoReturn:

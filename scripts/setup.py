@@ -49,8 +49,6 @@ def main(extras: list[str]) -> None:
     install(wanted["extras"])
     STAMP.write_text(json.dumps(wanted), encoding="utf-8")
     say(f"ready after {time.monotonic() - started:.0f} s")
-    if run_python("-c", "import turtlewire._native").returncode:
-        say("no compiled core, so transforms run on the plain-Python one: `apt install g++ python3-dev` (or the like) brings the fast one")
 
 
 def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:

@@ -1,0 +1,74 @@
+"""scripts/demo: what it says, how it ends, and that its check notices when something that the demo lives on is killed."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+DEMO = Path(__file__).parents[2] / "scripts" / "demo.py"
+VICTIMS = {
+    "turtle_tf2_broadcaster-2": "a broadcaster has stopped",
+    "turtle_tf2_broadcaster-3": "a broadcaster has stopped",
+    "turtle_tf2_listener-4": "nothing heard of the listener's commands to turtle2",
+    "turtlesim_node-1": "nothing heard of turtle[12]|a broadcaster has stopped|the listener's commands",
+}
+
+
+@pytest.fixture
+def checks(run):
+    """One check for each victim, all at once: each waits most of the time."""
+    return {victim: run(sys.executable, DEMO, "--check") for victim in VICTIMS}
+
+
+def log_of(check):
+    return Path(check.wait_for(r"what the processes say goes to (.*)$")[0][1])
+
+
+def is_running(pid):
+    try:
+        return Path("/proc", pid, "stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run):
+    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    demo = run(sys.executable, DEMO, environment=environment)
+    domain = os.environ["ROS_DOMAIN_ID"]
+    demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
+    demo.wait_for("ros2 run turtlesim turtle_teleop_key")
+    demo.wait_for(r"The field is shown at http://127\.0\.0\.1:\d+/")
+    demo.wait_for(r"\[demo\] turtle2 follows turtle1, \d+\.\d\d m away", count=2)
+    os.kill(demo.process.pid, signal.SIGINT)
+    assert demo.wait() == 0
+    assert "Traceback" not in demo.text
+    pids = re.findall(r"process started with pid \[(\d+)\]", demo.text)
+    assert len(pids) == 4
+    assert not any(is_running(pid) for pid in pids)
+
+
+def test_the_demo_ends_by_itself(run):
+    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    demo = run(sys.executable, DEMO, "--seconds", "0.5", environment=environment)
+    assert demo.wait() == 0
+    assert demo.text.count("process has finished cleanly") == 4
+
+
+def test_it_fails_when_a_process_is_killed(checks):
+    for victim, check in checks.items():
+        log = log_of(check)
+        check.wait_for("turtle2 moves", timeout=90)
+        pid = re.search(rf"\[{victim}\]: process started with pid \[(\d+)\]", log.read_text())[1]
+        os.kill(int(pid), signal.SIGKILL)
+    for victim, check in checks.items():
+        assert check.wait() == 1, check.text
+        assert re.search(VICTIMS[victim], check.text), check.text
+        assert re.search(r"final distance [\d.]+ m, \d+ lookups", check.text), check.text
+        assert "Traceback" not in check.text
+        for pid in re.findall(r"process started with pid \[(\d+)\]", log_of(check).read_text()):
+            assert not is_running(pid), check.text
