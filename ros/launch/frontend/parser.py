@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import action_parse_methods
@@ -118,26 +119,19 @@ class Parser:
 
 
 def _parsers() -> list[type[Parser]]:
-    from launch_xml import Parser as XmlParser
-    from launch_yaml import Parser as YamlParser
+    """The front ends that are installed (launch_xml and launch_yaml are ours)."""
+    from importlib.metadata import entry_points
 
-    return [XmlParser, YamlParser]
+    return [entry.load() for entry in entry_points(group="launch.frontend.parser")]
 
 
+@cache
 def _load_extensions() -> None:
-    """Import what exposes actions and substitutions: launch, launch_ros, and packages that say so by an entry point."""
+    """Import what exposes actions and substitutions: launch itself, and packages that say so by an entry point (launch_ros does)."""
+    from importlib.metadata import entry_points
+
     import launch.actions
     import launch.substitutions
-    import launch_ros.actions
-    import launch_ros.substitutions
 
-    global _extensions_loaded  # noqa: PLW0603
-    if not _extensions_loaded:
-        from importlib.metadata import entry_points
-
-        _extensions_loaded = True
-        for entry in entry_points(group="launch.frontend.launch_extension"):
-            entry.load()
-
-
-_extensions_loaded = False
+    for entry in entry_points(group="launch.frontend.launch_extension"):
+        entry.load()
