@@ -1,0 +1,105 @@
+"""What a TransformListener costs: CPU of the whole receiving process for each message, publisher in another process at 1 kHz."""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from benchmarks.figures import Figure, Row
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "TransformListener: CPU per message at 1 kHz"
+RATE_HZ = 1000
+SECONDS = 2.0
+ROUNDS = 3
+WAYS = {"listener": "tf2_ros.TransformListener", "callback": "a subscription that decodes and stores, spun"}
+
+
+def rows() -> Iterator[Row]:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "101", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    for count, budget in ((1, "<= 48 us (1/6 of rclpy's 289 us)"), (20, "<= 53 us (1/12 of rclpy's 645 us)")):
+        with subprocess.Popen([sys.executable, "-m", __name__, "publish", str(count)], env=environment) as publisher:
+            try:
+                figures = {way: measure(way, environment) for way in WAYS}
+            finally:
+                publisher.terminate()
+        yield Row(f"{count} transform(s) in a message", figures["listener"], {WAYS["callback"]: figures["callback"]}, budget)
+
+
+def measure(way: str, environment: dict[str, str]) -> Figure:
+    command = [sys.executable, "-m", __name__, way]
+    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True)
+    runs = json.loads(done.stdout)
+    return Figure(min(runs), statistics.median(runs))
+
+
+def publish(count: int) -> None:
+    from turtlewire import msg, wire
+    from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME
+    from turtlewire.wire.base import TypeId
+
+    context = wire.open_context()
+    publisher = context.create_node("publisher").create_publisher(TOPIC, TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS)
+    transforms = [msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=f"frame{i}") for i in range(count)]
+    message = msg.get_message(TYPE_NAME)(transforms=transforms)
+    due = time.monotonic()
+    while True:
+        for transform in transforms:
+            transform.header.frame_id = "world"
+            transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+        publisher.publish(msg.serialize(message))
+        due += 1.0 / RATE_HZ
+        time.sleep(max(0.0, due - time.monotonic()))
+
+
+def receive(way: str) -> None:
+    import rclpy
+    from rclpy.duration import Duration
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node
+    from rclpy.time import Time
+    from tf2_msgs.msg import TFMessage
+    from tf2_ros import Buffer, TransformListener
+
+    rclpy.init(args=[])
+    node, buffer = Node("receiver"), Buffer()
+    executor = SingleThreadedExecutor()
+    if way == "listener":
+        TransformListener(buffer, node)
+        wait = time.sleep
+    else:
+        listener = TransformListener(buffer, node, tf_topic="/nothing")
+        node.create_subscription(TFMessage, "/tf", listener.callback, 100)
+        executor.add_node(node)
+
+        def wait(seconds: float) -> None:
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                executor.spin_once(timeout_sec=end - time.monotonic())
+
+    wait(0.5)
+    assert buffer.can_transform("world", "frame0", Time(), Duration(seconds=10))
+    runs = []
+    for _ in range(ROUNDS):
+        first = newest_ns(buffer)
+        cpu = time.process_time()
+        wait(SECONDS)
+        cpu = time.process_time() - cpu
+        runs.append(cpu * 1e9 / max(1.0, (newest_ns(buffer) - first) * 1e-9 * RATE_HZ))
+    print(json.dumps(runs))
+    rclpy.shutdown()
+
+
+def newest_ns(buffer: Any) -> int:
+    return buffer.engine.latest_common_time("world", "frame0")
+
+
+if __name__ == "__main__":
+    publish(int(sys.argv[2])) if sys.argv[1] == "publish" else receive(sys.argv[1])
