@@ -84,7 +84,7 @@ class Client(Entity):
         with self._lock:  # the response may be faster than we are: it has to find the future
             sequence_number = self._wire.send_request(serialize(request))
             self._pending[sequence_number] = future
-        future.add_done_callback(self.remove_pending_request)
+        future._add_waiter(lambda: self._pending.pop(sequence_number, None))
         return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:

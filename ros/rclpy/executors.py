@@ -262,13 +262,12 @@ class Executor:
             if condition is not None and condition():
                 raise ConditionReachedException
             self._check_alive()
-            while self._ready:
+            if self._ready:
                 source = self._ready.popleft()
-                if isinstance(source, Task):
-                    return source, None
-                work = self._claim(source)
-                if work is not None:
+                work = None if isinstance(source, Task) else self._claim(source)
+                if work is not None or isinstance(source, Task):
                     return source, work
+                continue
             if expired:
                 raise TimeoutException
             remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
@@ -294,7 +293,7 @@ class Executor:
                     raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
                 remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
                 try:
-                    self._execute(*self._next(remaining, future.done))
+                    self._execute(*self._next(remaining, lambda: future.done() or is_hopeless(self._paused)))
                 except (TimeoutException, ConditionReachedException):
                     continue
         finally:

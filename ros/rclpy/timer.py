@@ -52,6 +52,7 @@ class Timer(Entity):
         self._next_call_ns = self._last_call_ns + timer_period_ns
         self._remaining_ns = 0
         self._canceled = not autostart
+        self._on_closing: Callable[[], None] | None = None
         self._jump_handle = self._follow_jumps() if clock.clock_type == ClockType.ROS_TIME else None
 
     @property
@@ -174,6 +175,8 @@ class Timer(Entity):
         self._reschedule()
 
     def _close(self) -> None:
+        if self._on_closing is not None:
+            self._on_closing()
         if self._jump_handle is not None:
             self._jump_handle.unregister()
 
@@ -188,6 +191,7 @@ class Rate:
         self._interrupted = False
         self._destroyed = False
         timer.callback = self._tick
+        timer._on_closing = self.destroy
         context.on_shutdown(self._interrupt)
 
     def sleep(self) -> None:
@@ -195,15 +199,18 @@ class Rate:
 
         Raises:
             ROSInterruptException: The context was shut down.
-            RuntimeError: The rate was destroyed.
+            RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would end the sleep.
         """
+        executor = None if self._timer._executor is None else self._timer._executor()
+        if executor is not None and executor._spinning_thread == threading.get_ident():
+            raise RuntimeError("Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up")
         with self._ticked:
-            if self._destroyed:
-                raise RuntimeError("Rate cannot sleep because it has been destroyed")
             seen = self._ticks
             self._ticked.wait_for(lambda: self._ticks != seen or self._interrupted or self._destroyed)
             if self._interrupted:
                 raise ROSInterruptException
+            if self._destroyed:
+                raise RuntimeError("Rate cannot sleep because it has been destroyed")
 
     def destroy(self) -> None:
         """End all sleeps."""

@@ -1,0 +1,83 @@
+"""A context on the in-process middleware, a node and an executor; modules that need others make their own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import textwrap
+import time
+
+import pytest
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+
+@pytest.fixture
+def context(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+@pytest.fixture
+def node(context):
+    node = Node("tested", context=context)
+    yield node
+    node.destroy_node()
+
+
+@pytest.fixture
+def executor(context, node):
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    yield executor
+    executor.shutdown()
+
+
+@pytest.fixture
+def spin_until(executor):
+    """Run callbacks until something is true; fails after ten seconds."""
+
+    def spin(predicate):
+        deadline = time.monotonic() + 10
+        while not predicate():
+            assert time.monotonic() < deadline, "it never became true"
+            executor.spin_once(timeout_sec=0.5)
+
+    return spin
+
+
+class Program:
+    """A Python program in a process of its own, whose output is read line by line."""
+
+    def __init__(self, source: str, *arguments: str) -> None:
+        command = [sys.executable, "-u", "-c", textwrap.dedent(source), *arguments]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def read_line(self) -> str:
+        return self.process.stdout.readline().rstrip("\n")
+
+    def send_signal(self, signum: int) -> None:
+        self.process.send_signal(signum)
+
+    def finish(self) -> tuple[int, str, str]:
+        """Exit status, what is left of its output, and its errors."""
+        output, errors = self.process.communicate(timeout=30)
+        return self.process.returncode, output, errors
+
+
+@pytest.fixture
+def program():
+    started: list[Program] = []
+
+    def start(source, *arguments):
+        started.append(Program(source, *arguments))
+        return started[-1]
+
+    yield start
+    for each in started:
+        if each.process.poll() is None:
+            each.process.kill()
+            each.process.communicate()

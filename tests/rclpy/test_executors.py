@@ -1,0 +1,521 @@
+"""Executors: order, waits, callback groups, threads, shutdown."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+
+import pytest
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
+from rclpy.executors import (
+    ExternalShutdownException,
+    MultiThreadedExecutor,
+    ShutdownException,
+    SingleThreadedExecutor,
+)
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import Int32
+
+
+@pytest.fixture(params=[SingleThreadedExecutor, MultiThreadedExecutor])
+def any_executor(request, context, node):
+    arguments = {"num_threads": 3} if request.param is MultiThreadedExecutor else {}
+    executor = request.param(context=context, **arguments)
+    executor.add_node(node)
+    yield executor
+    executor.shutdown()
+
+
+@pytest.fixture
+def pool(context, node):
+    executor = MultiThreadedExecutor(3, context=context)
+    executor.add_node(node)
+    yield executor
+    executor.shutdown()
+
+
+@pytest.fixture
+def spinning(context):
+    """Spins an executor in a thread; the thread is joined at the end."""
+    started = []
+
+    def start(executor):
+        thread = threading.Thread(target=executor.spin)
+        thread.start()
+        started.append((executor, thread))
+
+    yield start
+    for executor, thread in started:
+        assert executor.shutdown(10)
+        thread.join(10)
+        assert not thread.is_alive()
+
+
+def add_two_ints(request, response):
+    response.sum = request.a + request.b
+    return response
+
+
+def test_it_needs_an_initialized_context():
+    with pytest.raises(NotInitializedException):
+        SingleThreadedExecutor(context=Context())
+
+
+def test_one_cycle_runs_in_ros_2s_order(node, executor):
+    order = []
+    client = node.create_client(AddTwoInts, "add")
+    node.create_service(AddTwoInts, "add", lambda request, response: order.append("service") or response)
+    guard = node.create_guard_condition(lambda: order.append("guard"))
+    node.create_subscription(Int32, "number", lambda _: order.append("subscription"), 10)
+    publisher = node.create_publisher(Int32, "number", 10)
+    node.create_timer(0, lambda: order.append("timer")).timer_period_ns = 3_600_000_000_000
+    executor.create_task(order.append, "older task")
+    executor.create_task(order.append, "newer task")
+    client.call_async(AddTwoInts.Request())
+    guard.trigger()
+    publisher.publish(Int32())
+    for _ in range(6):
+        executor.spin_once(timeout_sec=10)
+    assert order == ["newer task", "older task", "timer", "subscription", "guard", "service"]
+
+
+def test_nodes_are_served_in_the_order_in_which_they_were_added(context, node, executor):
+    order = []
+    second = Node("second", context=context)
+    executor.add_node(second)
+    for owner in (second, node):
+        owner.create_guard_condition(lambda name=owner.get_name(): order.append(name)).trigger()
+    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=10)
+    assert order == ["tested", "second"]
+    second.destroy_node()
+
+
+def test_spin_once_runs_one_callback(node, executor):
+    calls = []
+    guards = [node.create_guard_condition(lambda number=number: calls.append(number)) for number in range(3)]
+    for guard in guards:
+        guard.trigger()
+    executor.spin_once(timeout_sec=10)
+    assert calls == [0]
+
+
+def test_spin_once_returns_when_the_time_is_over(executor):
+    start = time.monotonic()
+    executor.spin_once(timeout_sec=0)
+    assert time.monotonic() - start < 1
+    executor.spin_once(timeout_sec=0.05)
+    assert time.monotonic() - start >= 0.05
+
+
+def test_a_wake_up_for_nothing_does_not_end_spin_once(executor):
+    start = time.monotonic()
+    waking = threading.Timer(0.02, executor.wake)
+    waking.start()
+    executor.spin_once(timeout_sec=0.1)
+    waking.join()
+    assert time.monotonic() - start >= 0.1
+
+
+def test_messages_come_one_by_one_and_in_order(node, executor, spin_until):
+    got = []
+    node.create_subscription(Int32, "number", lambda message: got.append(message.data), 100)
+    publisher = node.create_publisher(Int32, "number", 100)
+    for number in range(20):
+        publisher.publish(Int32(data=number))
+    executor.spin_once(timeout_sec=10)
+    assert got == [0]
+    spin_until(lambda: len(got) == 20)
+    assert got == list(range(20))
+
+
+def test_a_trigger_without_an_executor_is_not_lost(context, node):
+    calls = []
+    guard = node.create_guard_condition(lambda: calls.append(1))
+    guard.trigger()
+    guard.trigger()
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=0)
+    assert calls == [1]
+    executor.shutdown()
+
+
+def test_entities_that_come_and_go_while_it_spins(node, executor, spinning):
+    spinning(executor)
+    for round_number in range(5):
+        called = threading.Event()
+        guard = node.create_guard_condition(called.set)
+        guard.trigger()
+        assert called.wait(10), round_number
+        node.destroy_guard_condition(guard)
+    assert list(node.guards) == []
+
+
+def test_a_destroyed_entity_is_not_served_although_it_was_ready(node, executor):
+    calls = []
+    first = node.create_guard_condition(lambda: node.destroy_guard_condition(second))
+    second = node.create_guard_condition(lambda: calls.append("never"))
+    first.trigger()
+    second.trigger()
+    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=0)
+    assert calls == []
+
+
+def test_a_node_leaves_the_executor_it_was_in(context, node, executor):
+    other = SingleThreadedExecutor(context=context)
+    assert not executor.add_node(node)
+    assert other.add_node(node)
+    assert node.executor is other
+    assert executor.get_nodes() == []
+    calls = []
+    node.create_guard_condition(lambda: calls.append(1)).trigger()
+    executor.spin_once(timeout_sec=0)
+    assert calls == []
+    other.spin_once(timeout_sec=10)
+    assert calls == [1]
+    node.executor = executor
+    assert other.get_nodes() == []
+    executor.remove_node(node)
+    executor.remove_node(node)
+    assert node.executor is None
+    other.shutdown()
+
+
+def test_an_exception_leaves_spin_and_the_group_is_free_again(node, executor):
+    node.create_guard_condition(lambda: 1 / 0).trigger()
+    with pytest.raises(ZeroDivisionError):
+        executor.spin()
+    calls = []
+    node.create_guard_condition(lambda: calls.append(1)).trigger()
+    executor.spin_once(timeout_sec=10)
+    assert calls == [1]
+
+
+def test_an_exception_of_an_async_callback_leaves_spin(node, executor):
+    gate = Future()
+
+    async def fail():
+        await gate
+        raise LookupError("after waiting")
+
+    node.create_guard_condition(fail).trigger()
+    executor.spin_once(timeout_sec=10)
+    gate.set_result(None)
+    with pytest.raises(LookupError, match="after waiting"):
+        executor.spin_once(timeout_sec=10)
+
+
+def test_an_exception_in_a_pool_thread_leaves_spin_in_the_spinning_one(node, pool):
+    node.create_guard_condition(lambda: 1 / 0).trigger()
+    with pytest.raises(ZeroDivisionError):
+        pool.spin()
+
+
+def test_a_waiting_async_callback_holds_its_group_but_nothing_else(node, executor, spin_until):
+    order = []
+    gate = Future()
+
+    async def wait():
+        order.append("waits")
+        await gate
+        order.append("goes on")
+
+    node.create_guard_condition(wait).trigger()
+    node.create_guard_condition(lambda: order.append("same group")).trigger()
+    node.create_guard_condition(lambda: order.append("other group"), MutuallyExclusiveCallbackGroup()).trigger()
+    free = MutuallyExclusiveCallbackGroup()
+    node.create_guard_condition(lambda: order.append("kept group"), free).trigger()
+    spin_until(lambda: "kept group" in order)
+    executor.spin_once(timeout_sec=0.05)
+    assert order == ["waits", "other group", "kept group"]
+    gate.set_result(None)
+    spin_until(lambda: "same group" in order)
+    assert order[3:] == ["goes on", "same group"]
+
+
+def test_a_blocked_subscription_costs_no_cpu(node, executor):
+    gate = Future()
+
+    async def wait(_):
+        await gate
+
+    node.create_subscription(Int32, "number", wait, 10)
+    publisher = node.create_publisher(Int32, "number", 10)
+    publisher.publish(Int32())
+    publisher.publish(Int32())
+    executor.spin_once(timeout_sec=10)
+    waits = []
+    wait_once = executor._wait_set.wait
+    executor._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    executor.spin_once(timeout_sec=0.2)
+    assert len(waits) <= 3
+
+
+def test_awaiting_a_service_in_the_same_group(node, executor):
+    node.create_service(AddTwoInts, "add", add_two_ints, callback_group=ReentrantCallbackGroup())
+    client = node.create_client(AddTwoInts, "add")
+    answer = Future()
+
+    async def ask():
+        answer.set_result(await client.call_async(AddTwoInts.Request(a=2, b=3)))
+
+    node.create_guard_condition(ask).trigger()
+    executor.spin_until_future_complete(answer, timeout_sec=10)
+    assert answer.result().sum == 5
+
+
+def test_an_async_service_answers_when_it_is_done(node, executor):
+    gate = Future()
+
+    async def serve(request, response):
+        await gate
+        return add_two_ints(request, response)
+
+    node.create_service(AddTwoInts, "add", serve)
+    answer = node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request(a=1, b=1))
+    executor.spin_once(timeout_sec=10)
+    assert not answer.done()
+    gate.set_result(None)
+    executor.spin_until_future_complete(answer, timeout_sec=10)
+    assert answer.result().sum == 2
+
+
+def test_call_in_a_callback_of_a_single_thread(context, node, executor, spinning):
+    """The server is in another executor; this one hands itself the response while its only thread blocks."""
+    server = Node("server", context=context)
+    server.create_service(AddTwoInts, "add", add_two_ints)
+    elsewhere = SingleThreadedExecutor(context=context)
+    elsewhere.add_node(server)
+    spinning(elsewhere)
+    client = node.create_client(AddTwoInts, "add")
+    order = []
+    node.create_guard_condition(lambda: order.append(client.call(AddTwoInts.Request(a=1, b=2)).sum)).trigger()
+    node.create_guard_condition(lambda: order.append("after"), ReentrantCallbackGroup()).trigger()
+    node.create_timer(0.001, lambda: order.append("timer"), ReentrantCallbackGroup()).timer_period_ns = 3_600_000_000_000
+    executor.spin_once(timeout_sec=10)
+    assert order in ([3], ["timer"])
+    for _ in range(2):
+        executor.spin_once(timeout_sec=10)
+    assert sorted(order, key=str) == [3, "after", "timer"]
+
+
+def test_call_to_a_service_of_the_blocked_executor_raises(node, executor):
+    node.create_service(AddTwoInts, "add", add_two_ints)
+    client = node.create_client(AddTwoInts, "add")
+    node.create_guard_condition(lambda: client.call(AddTwoInts.Request())).trigger()
+    with pytest.raises(RuntimeError, match="it would never answer"):
+        executor.spin_once(timeout_sec=10)
+
+
+def test_call_in_a_callback_respects_its_timeout(node, executor):
+    client = node.create_client(AddTwoInts, "nobody")
+    node.create_guard_condition(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.05)).trigger()
+    with pytest.raises(TimeoutError):
+        executor.spin_once(timeout_sec=10)
+    assert client._pending == {}
+
+
+def test_call_in_a_pool_thread_while_all_threads_are_busy(node, pool, spinning):
+    node.create_service(AddTwoInts, "add", add_two_ints, callback_group=ReentrantCallbackGroup())
+    client = node.create_client(AddTwoInts, "add")
+    sums = []
+    done = threading.Semaphore(0)
+
+    def ask(number):
+        sums.append(client.call(AddTwoInts.Request(a=number, b=1), timeout_sec=10).sum)
+        done.release()
+
+    group = ReentrantCallbackGroup()
+    for number in range(2):
+        node.create_guard_condition(lambda number=number: ask(number), group).trigger()
+    spinning(pool)
+    for _ in range(2):
+        assert done.acquire(timeout=10)
+    assert sorted(sums) == [1, 2]
+
+
+def test_call_ends_when_the_executor_is_shut_down(node, pool):
+    client = node.create_client(AddTwoInts, "nobody")
+    entered = threading.Event()
+    ended = []
+
+    def ask():
+        entered.set()
+        try:
+            client.call(AddTwoInts.Request())
+        except ShutdownException:
+            ended.append("shut down")
+            raise
+
+    node.create_guard_condition(ask).trigger()
+    pool.spin_once(timeout_sec=10)
+    assert entered.wait(10)
+    assert pool.shutdown(10)
+    assert ended == ["shut down"]
+
+
+def test_a_call_that_nobody_serves_is_warned_of(node, capfd):
+    client = node.create_client(AddTwoInts, "add")
+    node.create_service(AddTwoInts, "add", add_two_ints)
+    with pytest.raises(TimeoutError):
+        client.call(AddTwoInts.Request(), timeout_sec=1.05)
+    assert "nobody spins the node" in capfd.readouterr().err
+
+
+def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(node, pool, spinning):
+    barrier = threading.Barrier(3, timeout=10)
+    done = threading.Semaphore(0)
+
+    def meet(_):
+        barrier.wait()
+        done.release()
+
+    node.create_subscription(Int32, "number", meet, 100, callback_group=ReentrantCallbackGroup())
+    publisher = node.create_publisher(Int32, "number", 100)
+    for number in range(30):
+        publisher.publish(Int32(data=number))
+    spinning(pool)
+    for _ in range(30):
+        assert done.acquire(timeout=10)
+    assert not barrier.broken
+
+
+def test_an_exclusive_group_never_runs_twice_at_a_time(node, pool, spinning):
+    running = []
+    overlaps = []
+    done = threading.Semaphore(0)
+
+    def work(message):
+        running.append(message)
+        overlaps.append(len(running))
+        time.sleep(0.001)
+        running.pop()
+        done.release()
+
+    group = MutuallyExclusiveCallbackGroup()
+    for topic in ("a", "b"):
+        node.create_subscription(Int32, topic, work, 100, callback_group=group)
+        publisher = node.create_publisher(Int32, topic, 100)
+        for number in range(40):
+            publisher.publish(Int32(data=number))
+    spinning(pool)
+    for _ in range(80):
+        assert done.acquire(timeout=10)
+    assert overlaps == [1] * 80
+
+
+def test_spin_until_future_complete(any_executor):
+    future = Future()
+    setting = threading.Timer(0.05, future.set_result, args=(7,))
+    setting.start()
+    any_executor.spin_until_future_complete(future, timeout_sec=10)
+    assert future.result() == 7
+    setting.join()
+    start = time.monotonic()
+    any_executor.spin_until_future_complete(Future(), timeout_sec=0.05)
+    assert 0.05 <= time.monotonic() - start < 5
+    any_executor.spin_once_until_future_complete(future, timeout_sec=10)
+
+
+def test_spinning_within_a_callback(node, executor):
+    """A common mistake that ROS 2 lets pass: the inner spin runs what the outer callback does not block."""
+    node.create_service(AddTwoInts, "add", add_two_ints, callback_group=ReentrantCallbackGroup())
+    client = node.create_client(AddTwoInts, "add")
+    sums = []
+
+    def ask():
+        answer = client.call_async(AddTwoInts.Request(a=4, b=4))
+        executor.spin_until_future_complete(answer, timeout_sec=10)
+        sums.append(answer.result().sum)
+
+    node.create_guard_condition(ask).trigger()
+    executor.spin_once(timeout_sec=10)
+    assert sums == [8]
+
+
+def test_two_threads_cannot_spin_one_executor(executor, spinning):
+    spinning(executor)
+    while executor._spinning_thread is None:
+        time.sleep(0.001)
+    with pytest.raises(RuntimeError, match="Executor is already spinning"):
+        executor.spin_once(timeout_sec=0)
+
+
+def test_shutdown_waits_for_callbacks_of_other_threads(node, pool):
+    entered, leave = threading.Event(), threading.Event()
+
+    def work():
+        entered.set()
+        leave.wait(10)
+
+    node.create_guard_condition(work).trigger()
+    pool.spin_once(timeout_sec=10)
+    assert entered.wait(10)
+    assert not pool.shutdown(timeout_sec=0.05)
+    leave.set()
+    assert pool.shutdown(timeout_sec=10)
+
+
+def test_shutdown_in_a_callback_ends_spin(node, any_executor):
+    node.create_guard_condition(any_executor.shutdown).trigger()
+    any_executor.spin()
+    assert node.executor is None
+
+
+def test_shutting_the_context_down_ends_spin(context, executor):
+    ending = threading.Timer(0.05, context.shutdown)
+    ending.start()
+    with pytest.raises(ExternalShutdownException):
+        executor.spin()
+    ending.join()
+    executor.spin()
+
+
+def test_a_pool_returns_from_spin_when_the_context_is_shut_down(context, pool):
+    ending = threading.Timer(0.05, context.shutdown)
+    ending.start()
+    pool.spin()
+    ending.join()
+
+
+def test_with_statement_shuts_down(context):
+    with SingleThreadedExecutor(context=context) as executor:
+        assert executor.context is context
+    executor.spin_once(timeout_sec=0)
+    executor.spin()
+
+
+def test_a_pool_of_one_is_warned_of(context):
+    with pytest.warns(UserWarning, match="MultiThreadedExecutor is used with a single thread"):
+        executor = MultiThreadedExecutor(1, context=context)
+    executor.shutdown()
+
+
+def test_the_default_size_of_a_pool(context):
+    if len(os.sched_getaffinity(0)) == 1:
+        pytest.skip("this machine gives the process a single processor")
+    executor = MultiThreadedExecutor(context=context)
+    assert executor._executor._max_workers == len(os.sched_getaffinity(0))
+    executor.shutdown()
+
+
+def test_an_idle_executor_does_not_run(node, executor, spinning):
+    waits = []
+    wait_once = executor._wait_set.wait
+    executor._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    spinning(executor)
+    deadline = time.monotonic() + 10
+    while not waits and time.monotonic() < deadline:
+        time.sleep(0.001)
+    seen = len(waits)
+    time.sleep(0.3)
+    assert len(waits) == seen
+    assert waits[-1] is None

@@ -1,0 +1,203 @@
+"""Futures and tasks, on an executor and in asyncio."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import threading
+
+import pytest
+from rclpy.task import Future, Task
+
+
+def test_a_result_can_be_read_once_it_is_there():
+    future = Future()
+    assert not future.done()
+    assert future.result() is None
+    future.set_result(3)
+    assert future.done()
+    assert future.result() == 3
+    assert future.exception() is None
+
+
+def test_an_exception_is_raised_by_result():
+    future = Future()
+    future.set_exception(ValueError("no"))
+    assert future.done()
+    assert isinstance(future.exception(), ValueError)
+    with pytest.raises(ValueError, match="no"):
+        future.result()
+
+
+def test_an_exception_that_nobody_asks_for_is_printed(capsys):
+    future = Future()
+    future.set_exception(ValueError("lost"))
+    del future
+    gc.collect()
+    assert capsys.readouterr().err == "The following exception was never retrieved: lost\n"
+
+
+def test_cancelling_ends_a_future_and_a_later_cancel_does_nothing():
+    called = []
+    future = Future()
+    future.add_done_callback(called.append)
+    future.cancel()
+    future.cancel()
+    assert future.cancelled()
+    assert future.done()
+    assert called == [future]
+
+
+def test_done_callbacks_run_inline_without_an_executor():
+    called = []
+    future = Future()
+    future.add_done_callback(lambda done: called.append(("before", done.result())))
+    future.set_result(1)
+    future.add_done_callback(lambda done: called.append(("after", done.result())))
+    assert called == [("before", 1), ("after", 1)]
+
+
+def test_a_done_callback_that_raises_is_warned_of_and_does_not_stop_the_others():
+    called = []
+    future = Future()
+    future.add_done_callback(lambda _: 1 / 0)
+    future.add_done_callback(called.append)
+    with pytest.warns(UserWarning, match="Unhandled exception in done callback: division by zero"):
+        future.set_result(None)
+    assert called == [future]
+
+
+def test_done_callbacks_can_be_removed():
+    called = []
+    future = Future()
+    future.add_done_callback(called.append)
+    assert future.remove_done_callback(called.append)
+    assert not future.remove_done_callback(called.append)
+    future.set_result(None)
+    assert called == []
+
+
+def test_a_task_runs_a_function():
+    task = Task(lambda a, b: a - b, args=(5,), kwargs={"b": 2})
+    task()
+    assert task.result() == 3
+    task()
+    assert task.result() == 3
+
+
+def test_a_task_keeps_the_exception_of_its_function():
+    task = Task(lambda: 1 / 0)
+    task()
+    assert isinstance(task.exception(), ZeroDivisionError)
+
+
+def test_a_task_stops_at_what_is_not_done_yet():
+    future = Future()
+
+    async def wait():
+        return await future + 1
+
+    task = Task(wait)
+    task()
+    assert not task.done()
+    future.set_result(1)
+    task()
+    assert task.result() == 2
+
+
+def test_cancelling_a_task_runs_the_finally_blocks_of_its_coroutine():
+    steps = []
+
+    async def wait():
+        try:
+            await Future()
+        finally:
+            steps.append("closed")
+
+    task = Task(wait)
+    task()
+    task.cancel()
+    assert steps == ["closed"]
+    assert task.cancelled()
+
+
+def test_an_executor_runs_tasks_newest_first(executor, spin_until):
+    order = []
+    tasks = [executor.create_task(order.append, number) for number in range(3)]
+    spin_until(lambda: all(task.done() for task in tasks))
+    assert order == [2, 1, 0]
+
+
+def test_tasks_wait_for_each_other_without_polling(executor):
+    steps = []
+    gate = Future(executor=executor)
+
+    async def first():
+        steps.append("first waits")
+        steps.append(await gate)
+        return "done"
+
+    async def second():
+        return await executor.create_task(first)
+
+    task = executor.create_task(second)
+    for _ in range(5):
+        executor.spin_once(timeout_sec=0)
+    assert steps == ["first waits"]
+    assert executor._tasks == []
+    gate.set_result("gate open")
+    executor.spin_until_future_complete(task, timeout_sec=10)
+    assert task.result() == "done"
+    assert steps == ["first waits", "gate open"]
+
+
+def test_a_bare_yield_runs_again_in_the_next_cycle(executor):
+    class Pass:
+        def __await__(self):
+            yield
+
+    async def three_steps():
+        await Pass()
+        await Pass()
+        return "end"
+
+    task = executor.create_task(three_steps)
+    executor.spin_until_future_complete(task, timeout_sec=10)
+    assert task.result() == "end"
+
+
+def test_done_callbacks_run_as_tasks_of_the_executor(executor):
+    future = Future(executor=executor)
+    threads = []
+    future.add_done_callback(lambda _: threads.append(threading.current_thread()))
+    setter = threading.Thread(target=future.set_result, args=(1,))
+    setter.start()
+    setter.join()
+    assert threads == []
+    executor.spin_once(timeout_sec=10)
+    assert threads == [threading.current_thread()]
+
+
+def test_an_exception_in_a_task_leaves_spin(executor):
+    executor.create_task(lambda: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        executor.spin_once(timeout_sec=10)
+
+
+def test_a_future_can_be_awaited_in_asyncio():
+    future = Future()
+
+    async def main():
+        setter = threading.Thread(target=future.set_result, args=("from a thread",))
+        waiting = asyncio.ensure_future(_await(future))
+        await asyncio.sleep(0)
+        setter.start()
+        result = await asyncio.wait_for(waiting, 10)
+        setter.join()
+        return result, await future
+
+    assert asyncio.run(main()) == ("from a thread", "from a thread")
+
+
+async def _await(future):
+    return await future

@@ -1,0 +1,235 @@
+"""Timers and rates. Their clock is moved by hand where it matters."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.executors import ExternalShutdownException
+from rclpy.exceptions import InvalidHandle, ROSInterruptException
+from rclpy.time import Time
+from rclpy.timer import Timer
+from rclpy.timer_queue import TimerQueue
+
+MS = 1_000_000
+
+
+@pytest.fixture
+def clock():
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    move(clock, 1000)
+    return clock
+
+
+def move(clock, milliseconds):
+    clock.set_ros_time_override(Time(nanoseconds=milliseconds * MS, clock_type=ClockType.ROS_TIME))
+
+
+def drain(executor):
+    for _ in range(10):
+        executor.spin_once(timeout_sec=0)
+
+
+def test_the_first_call_comes_after_one_period(node, executor, clock):
+    calls = []
+    node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
+    drain(executor)
+    move(clock, 1099)
+    drain(executor)
+    assert calls == []
+    move(clock, 1100)
+    drain(executor)
+    assert calls == [1100]
+
+
+def test_missed_periods_are_skipped_and_the_rhythm_is_kept(node, executor, clock):
+    calls = []
+    timer = node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
+    for now in (1100, 1475, 1499, 1500, 1600):
+        move(clock, now)
+        drain(executor)
+    assert calls == [1100, 1475, 1500, 1600]
+    assert timer.time_until_next_call() == 100 * MS
+
+
+def test_a_late_call_does_not_move_the_next_one(node, executor, clock):
+    calls = []
+    node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
+    for now in (1130, 1199, 1200):
+        move(clock, now)
+        drain(executor)
+    assert calls == [1130, 1200]
+
+
+def test_time_that_goes_back_behind_the_last_call_starts_a_new_period(node, executor, clock):
+    calls = []
+    timer = node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
+    for now in (1100, 500, 599, 600):
+        move(clock, now)
+        drain(executor)
+    assert calls == [1100, 600]
+    assert timer.time_until_next_call() == 100 * MS
+
+
+def test_what_is_left_of_the_period_survives_a_change_of_the_clock(node, clock):
+    timer = node.create_timer(10.0, None, clock=clock)
+    move(clock, 4000)
+    clock._set_ros_time_is_active(False)
+    assert 6_900 * MS < timer.time_until_next_call() <= 7_000 * MS
+
+
+def test_a_cancelled_timer_makes_no_calls_until_it_is_reset(node, executor, clock):
+    calls = []
+    timer = node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
+    timer.cancel()
+    assert timer.is_canceled()
+    assert timer.time_until_next_call() is None
+    move(clock, 1500)
+    drain(executor)
+    assert calls == []
+    timer.reset()
+    assert not timer.is_canceled()
+    move(clock, 1600)
+    drain(executor)
+    assert calls == [1600]
+
+
+def test_a_timer_that_does_not_start_by_itself_waits_for_reset(node, executor, clock):
+    calls = []
+    timer = node.create_timer(0.1, lambda: calls.append(1), clock=clock, autostart=False)
+    move(clock, 1500)
+    drain(executor)
+    assert timer.is_canceled()
+    assert calls == []
+
+
+def test_times_are_nanoseconds(node, clock):
+    timer = node.create_timer(0.25, None, clock=clock)
+    move(clock, 1100)
+    assert timer.timer_period_ns == 250 * MS
+    assert timer.time_since_last_call() == 100 * MS
+    assert timer.time_until_next_call() == 150 * MS
+    assert not timer.is_ready()
+    timer.timer_period_ns = 500 * MS
+    assert timer.time_until_next_call() == 150 * MS
+    assert timer.clock is clock
+
+
+def test_a_destroyed_timer_raises(node):
+    timer = node.create_timer(1.0, None)
+    assert list(node.timers) == [timer]
+    assert node.destroy_timer(timer)
+    assert not node.destroy_timer(timer)
+    assert list(node.timers) == []
+    with pytest.raises(InvalidHandle):
+        timer.is_ready()
+
+
+def test_a_period_must_not_be_negative(node):
+    with pytest.raises(ValueError, match="timer period must be non-negative"):
+        node.create_timer(-1.0, None)
+
+
+@pytest.mark.parametrize("clock_type", [ClockType.STEADY_TIME, ClockType.SYSTEM_TIME, ClockType.ROS_TIME])
+def test_a_timer_on_a_real_clock_ends_the_wait_of_the_executor(node, executor, clock_type):
+    called = []
+    node.create_timer(0.02, lambda: called.append(time.monotonic()), clock=Clock(clock_type=clock_type))
+    start = time.monotonic()
+    while len(called) < 3:
+        executor.spin_once(timeout_sec=10)
+    assert called[-1] - start >= 0.055
+    assert called[-1] - start < 5
+
+
+def test_a_timer_made_while_the_executor_waits_is_served(node, executor):
+    called = threading.Event()
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    node.create_timer(0.01, called.set)
+    assert called.wait(10)
+    executor.shutdown()
+    thread.join(10)
+    assert not thread.is_alive()
+
+
+def spin_until_shutdown(executor):
+    with pytest.raises(ExternalShutdownException):
+        executor.spin()
+
+
+def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, executor):
+    rate = node.create_rate(100)
+    spinning = threading.Thread(target=spin_until_shutdown, args=(executor,))
+    spinning.start()
+    start = time.monotonic()
+    for _ in range(5):
+        rate.sleep()
+    assert time.monotonic() - start >= 0.035
+    assert node.destroy_rate(rate)
+    slow = node.create_rate(0.001)
+    ending = threading.Timer(0.05, context.shutdown)
+    ending.start()
+    with pytest.raises(ROSInterruptException):
+        slow.sleep()
+    ending.join()
+    spinning.join(10)
+    assert not spinning.is_alive()
+
+
+def test_a_destroyed_rate_does_not_sleep(node):
+    rate = node.create_rate(0.001)
+    ending = threading.Timer(0.05, node.destroy_rate, args=(rate,))
+    ending.start()
+    with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
+        rate.sleep()
+    ending.join()
+    with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
+        rate.sleep()
+
+
+def test_a_frequency_must_be_positive(node):
+    with pytest.raises(ValueError, match="frequency must be > 0"):
+        node.create_rate(0)
+
+
+class _Waited:
+    """Stands for an executor's wait."""
+
+    def __init__(self):
+        self.woken = 0
+
+    def __call__(self):
+        self.woken += 1
+
+
+def test_the_queue_gives_the_earliest_and_wakes_only_for_an_earlier_one():
+    waited = _Waited()
+    queue = TimerQueue(waited)
+    slow, fast, idle = (Timer(None, None, 0, Clock(), context=object()) for _ in range(3))
+    assert queue.time_until_next() is None
+    queue.schedule(slow, 10_000_000_000)
+    assert waited.woken == 1
+    queue.schedule(idle, 20_000_000_000)
+    assert waited.woken == 1
+    queue.schedule(fast, 0)
+    assert waited.woken == 2
+    assert queue.time_until_next() == 0
+    assert queue.pop_due() == [fast]
+    assert queue.pop_due() == []
+    assert 9_000_000_000 < queue.time_until_next() <= 10_000_000_000
+
+
+def test_an_entry_that_was_replaced_or_discarded_does_not_count():
+    queue = TimerQueue(lambda: None)
+    timer, other = (Timer(None, None, 0, Clock(), context=object()) for _ in range(2))
+    queue.schedule(timer, 0)
+    queue.schedule(timer, 50_000_000_000)
+    queue.schedule(other, 0)
+    queue.discard(other)
+    assert queue.pop_due() == []
+    queue.schedule(timer, 0)
+    assert queue.pop_due() == [timer]
+    assert queue.time_until_next() is None
