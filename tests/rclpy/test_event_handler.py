@@ -120,14 +120,6 @@ def test_handlers_go_with_their_endpoint(world):
     assert handler._destroyed
 
 
-@pytest.fixture
-def context(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as context:
-        context.init(args=[])
-        yield context
-
-
 def overridden(context, *rules, **keywords):
     words = ["--ros-args", *(word for rule in rules for word in ("-p", rule))]
     return Node("n", context=context, cli_args=words, start_parameter_services=False, **keywords)

@@ -5,7 +5,6 @@ import pytest
 from lifecycle_msgs.msg import State, Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, SimpleManagedEntity, TransitionCallbackReturn
 from rclpy.lifecycle import Node as NodeAlias
@@ -44,14 +43,6 @@ def test_a_wrong_transition(capfd):
     assert str(caught.value) == "Failed to trigger lifecycle state machine transition: Transition is not registered."
     assert "[rcl_lifecycle]: No transition matching activate found for current state unconfigured" in capfd.readouterr().err
     assert machine.current_state.label == "unconfigured"
-
-
-@pytest.fixture
-def context(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as context:
-        context.init(args=[])
-        yield context
 
 
 class Talker(LifecycleNode):

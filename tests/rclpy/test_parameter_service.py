@@ -10,7 +10,6 @@ import pytest
 from rcl_interfaces.msg import LoggerLevel, ParameterDescriptor, ParameterValue
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels, SetParameters
-from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl import log_levels
 from rclpy.node import Node
@@ -21,14 +20,6 @@ from turtlewire import msg
 from type_description_interfaces.srv import GetTypeDescription
 
 GOLDEN = Path(__file__).parent.parent / "golden"
-
-
-@pytest.fixture
-def context(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as context:
-        context.init(args=[])
-        yield context
 
 
 @pytest.fixture

@@ -6,37 +6,12 @@ import pytest
 
 from builtin_interfaces.msg import Time as TimeMsg
 from rclpy.clock import Clock, ClockType, ROSClock
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import ReliabilityPolicy
 from rclpy.time import Time
 from rclpy.time_source import TimeSource
 from rosgraph_msgs.msg import Clock as ClockMsg
-
-
-@pytest.fixture
-def context(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as context:
-        context.init(args=[])
-        yield context
-
-
-@pytest.fixture
-def node(context):
-    node = Node("follower", context=context)
-    yield node
-    node.destroy_node()
-
-
-@pytest.fixture
-def executor(context, node):
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    yield executor
-    executor.shutdown()
 
 
 @pytest.fixture
