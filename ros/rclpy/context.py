@@ -67,7 +67,7 @@ class Context:
             self._valid = True
             _open_contexts.add(self)
             signals.listeners.add(self)
-            if initialize_logging:
+            if initialize_logging and len(_open_contexts) == 1:  # the first context's command line decides, as in ROS 2
                 from . import logging
 
                 logging.configure(self._arguments)

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 from ._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from .parameter import Parameter
 
 __all__ = [
-    "ImmutableParameterException",
     "InvalidHandle",
     "InvalidNamespaceException",
     "InvalidNodeNameException",
@@ -28,6 +29,7 @@ __all__ = [
     "NotInitializedException",
     "ParameterAlreadyDeclaredException",
     "ParameterException",
+    "ParameterImmutableException",
     "ParameterNotDeclaredException",
     "ParameterUninitializedException",
     "ROSInterruptException",
@@ -104,7 +106,7 @@ class ParameterException(Exception):
     def __init__(self, error_msg: str, parameters: Any, *args: object) -> None:
         super().__init__(f"{error_msg}: {parameters}", *args)
 
-    def with_hint(self, hint: str) -> ParameterException:
+    def with_hint(self, hint: str) -> Self:
         """Attach ``hint`` and return the same error."""
         self.hint = hint
         if hint and hasattr(self, "add_note"):
@@ -153,7 +155,7 @@ class InvalidParameterValueException(ParameterException):
         super().__init__(f"{text}. Reason: {reason}" if reason else text, parameter)
 
 
-class ImmutableParameterException(ParameterException):
+class ParameterImmutableException(ParameterException):
     """A read-only parameter is to be changed."""
 
     def __init__(self, parameter: Any, *args: object) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import parameter_descriptors
 from .exceptions import (
-    ImmutableParameterException,
+    ParameterImmutableException,
     InvalidParameterTypeException,
     InvalidParameterValueException,
     ParameterAlreadyDeclaredException,
@@ -119,7 +119,8 @@ class NodeParameters:
         for parameter, descriptor in declared.values():
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
             if reason.startswith(parameter_descriptors.WRONG_TYPE):
-                raise InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
+                expected = Parameter.Type(descriptor.type)
+                raise InvalidParameterTypeException(parameter, expected.name).with_hint(_yaml_hint(parameter, expected))
             if reason:
                 raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._parameters[name] for name in declared]
@@ -136,12 +137,12 @@ class NodeParameters:
 
         Raises:
             ParameterNotDeclaredException: There is none of that name.
-            ImmutableParameterException: It is read-only.
+            ParameterImmutableException: It is read-only.
         """
         if name not in self._parameters:
             raise ParameterNotDeclaredException(name)
         if self._descriptors[name].read_only:
-            raise ImmutableParameterException(name)
+            raise ParameterImmutableException(name)
         del self._parameters[name]
         del self._descriptors[name]
 
@@ -333,13 +334,13 @@ class NodeParameters:
 
         Raises:
             ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
-            ImmutableParameterException: It is read-only.
+            ParameterImmutableException: It is read-only.
             InvalidParameterValueException: Neither value agrees with the descriptor.
         """
         if name not in self._parameters:
             return self.get_parameter(name).get_parameter_value()
         if self._descriptors[name].read_only:
-            raise ImmutableParameterException(name)
+            raise ParameterImmutableException(name)
         if not descriptor.dynamic_typing and not descriptor.type:
             descriptor.type = self._parameters[name].type_.value
         if parameter_descriptors.refusal(self._parameters[name], descriptor, declaring=True):
@@ -454,6 +455,15 @@ def _override(name: str, value: Any, descriptor: ParameterDescriptor) -> Paramet
     if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
         return Parameter(name, Parameter.Type(descriptor.type), value)
     return Parameter(name, value=value)
+
+
+def _yaml_hint(parameter: Parameter, expected: Parameter.Type) -> str:
+    """How the command line says a value of the expected type."""
+    if expected is Parameter.Type.STRING:
+        return f"YAML reads a string in quotes: -p {parameter.name}:='\"{parameter.value}\"'"
+    if expected is Parameter.Type.DOUBLE and parameter.type_ is Parameter.Type.INTEGER:
+        return f"YAML reads a double with a point in it: -p {parameter.name}:={parameter.value}.0"
+    return ""
 
 
 def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:

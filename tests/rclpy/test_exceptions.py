@@ -16,7 +16,7 @@ from rclpy.parameter import Parameter
         (exceptions.ParameterNotDeclaredException(["a"]), "Invalid access to undeclared parameter(s): ['a']"),
         (exceptions.ParameterAlreadyDeclaredException(["a"]), "Parameter(s) already declared: ['a']"),
         (exceptions.InvalidParameterException(""), "Invalid parameter name: "),
-        (exceptions.ImmutableParameterException("a"), "Attempted to modify read-only parameter: a"),
+        (exceptions.ParameterImmutableException("a"), "Attempted to modify read-only parameter: a"),
         (exceptions.ParameterUninitializedException("a"), "The parameter is not initialized: a"),
         (
             exceptions.InvalidParameterTypeException(Parameter("a", value=2), "STRING"),

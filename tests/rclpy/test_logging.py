@@ -12,6 +12,7 @@ import pytest
 import rclpy.logging
 from rclpy.arguments import Arguments
 from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
 from rclpy.impl import log_levels, log_output
 from rclpy.impl.log_format import LineFormat
 from rclpy.impl.logging_severity import LoggingSeverity
@@ -357,3 +358,15 @@ def test_a_closed_stream_does_not_end_the_program():
     program = "import os; os.close(2); import rclpy.logging; print(rclpy.logging.get_logger('x').info('y'))"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert run.stdout == "True\n"
+
+
+def test_the_first_context_decides(monkeypatch, capfd):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    with Context() as first, Context() as second:
+        first.init(args=["--ros-args", "--log-level", "error"])
+        second.init(args=["--ros-args", "--log-level", "debug"])
+        rclpy.logging.get_logger("x").warning("hidden")
+    with Context() as later:
+        later.init(args=["--ros-args", "--log-level", "info"])
+        rclpy.logging.get_logger("x").warning("shown")
+    assert messages(capfd) == ["shown"]

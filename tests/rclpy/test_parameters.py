@@ -149,8 +149,13 @@ def test_an_override_of_another_type():
     with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
         parameters.declare_parameter("a", "turtle1")
     assert str(caught.value) == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'"
-    with pytest.raises(exceptions.InvalidParameterTypeException):
+    assert caught.value.hint == "YAML reads a string in quotes: -p a:='\"2\"'"
+    with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
         parameters.declare_parameter("a", 1.0)
+    assert caught.value.hint == "YAML reads a double with a point in it: -p a:=2.0"
+    with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
+        parameters.declare_parameter("a", True)
+    assert caught.value.hint == ""
     assert not parameters.has_parameter("a")
 
 
@@ -233,7 +238,7 @@ def test_read_only(parameters):
     parameters.declare_parameter("a", 1, ParameterDescriptor(read_only=True))
     assert reason(parameters, "a", 2) == "Trying to set a read-only parameter: a."
     for call in (lambda: parameters.undeclare_parameter("a"), lambda: parameters.set_descriptor("a", ParameterDescriptor())):
-        with pytest.raises(exceptions.ImmutableParameterException, match=r"^Attempted to modify read-only parameter: a$"):
+        with pytest.raises(exceptions.ParameterImmutableException, match=r"^Attempted to modify read-only parameter: a$"):
             call()
 
 
