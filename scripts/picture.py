@@ -1,0 +1,118 @@
+"""Runs the follow demo, drives turtle1 with the arrow keys in the page, and takes the README's pictures of it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from playwright.sync_api import sync_playwright
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Page
+
+IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
+#: What a person presses: key, and how many frames pass before the next one.
+KEYS = [("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 6), ("ArrowRight", 4), ("ArrowUp", 8)]
+FRAME_MS = 160
+CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync"]
+
+
+def main() -> None:
+    """Make both pictures."""
+    domain = str(1 + os.getpid() % 230)
+    bin_dir = Path(sys.executable).parent
+    environment = dict(os.environ, ROS_DOMAIN_ID=domain, TURTLEWIRE_BROWSER="0", PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}")
+    command = ["ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]
+    launch = subprocess.Popen(
+        command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    try:
+        take_pictures(address_in(launch))
+    finally:
+        launch.send_signal(signal.SIGINT)
+        launch.communicate(timeout=20)
+
+
+def address_in(launch: subprocess.Popen[str]) -> str:
+    """Where the page is, once turtle2 is there, too."""
+    address = ""
+    for line in launch.stdout or ():
+        if found := re.search(r"http://\S+", line):
+            address = found[0]
+        if "Successfully spawned turtle2" in line:
+            return address
+    raise RuntimeError("the launch ended before turtle2 was there")
+
+
+def take_pictures(address: str) -> None:
+    """Drive in the page, and save what it shows."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS)
+        page, small_page = (browser.new_page(viewport={"width": 1080, "height": 780}, device_scale_factor=scale) for scale in (1, 0.4))
+        for opened in (page, small_page):
+            opened.goto(address)
+            opened.get_by_text("turtle2").first.wait_for()
+        frames = list(drive(small_page))
+        IMAGES.mkdir(exist_ok=True)
+        (IMAGES / "demo.png").write_bytes(page.screenshot())
+        (IMAGES / "demo-animated.png").write_bytes(animated_png(frames, FRAME_MS))
+        browser.close()
+
+
+def drive(page: Page) -> Iterator[bytes]:
+    """Press the keys; yields small pictures of the field alone."""
+    field = page.locator("canvas").first
+    for key, frames in KEYS:
+        page.keyboard.press(key)
+        for _ in range(frames):
+            page.wait_for_timeout(FRAME_MS)
+            yield field.screenshot()
+
+
+def animated_png(frames: list[bytes], frame_ms: int) -> bytes:
+    """One endless animated PNG of PNG pictures of one size (the APNG part of the PNG specification, third edition)."""
+    out = b"\x89PNG\r\n\x1a\n"
+    sequence = 0
+    for index, frame in enumerate(frames):
+        chunks = list(png_chunks(frame))
+        header = next(data for kind, data in chunks if kind == b"IHDR")
+        if index == 0:
+            out += png_chunk(b"IHDR", header) + png_chunk(b"acTL", struct.pack(">II", len(frames), 0))
+        width, height = struct.unpack(">II", header[:8])
+        out += png_chunk(b"fcTL", struct.pack(">IIIIIHHBB", sequence, width, height, 0, 0, frame_ms, 1000, 0, 0))
+        sequence += 1
+        for data in (data for kind, data in chunks if kind == b"IDAT"):
+            if index == 0:
+                out += png_chunk(b"IDAT", data)
+            else:
+                out += png_chunk(b"fdAT", struct.pack(">I", sequence) + data)
+                sequence += 1
+    return out + png_chunk(b"IEND", b"")
+
+
+def png_chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """The chunks of a PNG file as (kind, data)."""
+    position = 8
+    while position < len(png):
+        (length,) = struct.unpack_from(">I", png, position)
+        yield png[position + 4 : position + 8], png[position + 8 : position + 8 + length]
+        position += 12 + length
+
+
+def png_chunk(kind: bytes, data: bytes) -> bytes:
+    """One chunk with its length and checksum."""
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+if __name__ == "__main__":
+    main()
