@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from . import parameter_descriptors
 from .exceptions import (
-    ParameterImmutableException,
     InvalidParameterTypeException,
     InvalidParameterValueException,
     ParameterAlreadyDeclaredException,
+    ParameterImmutableException,
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
@@ -184,7 +184,7 @@ class NodeParameters:
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """The parameters below ``prefix``, by the rest of their names."""
         start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
-        return {name[len(start) :]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
+        return {name[len(start) :]: parameter for name, parameter in list(self._parameters.items()) if name.startswith(start)}
 
     def get_parameter_type(self, name: str) -> int:
         """The number of a parameter's type.
@@ -219,7 +219,7 @@ class NodeParameters:
             raise TypeError("The depth must be instance of type int")
         if depth < 0:
             raise ValueError("The depth must be greater than or equal to zero")
-        names = [name for name in self._parameters if _is_listed(name, prefixes, depth)]
+        names = [name for name in list(self._parameters) if _is_listed(name, prefixes, depth)]
         parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
         return ListParametersResult(names=names, prefixes=list(dict.fromkeys(parent for parent in parents if parent)))
 

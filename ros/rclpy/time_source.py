@@ -51,7 +51,7 @@ class TimeSource:
         if self._ros_time_is_active == enabled:
             return
         self._ros_time_is_active = enabled
-        for clock in self._clocks:
+        for clock in tuple(self._clocks):
             clock._set_ros_time_is_active(enabled)
         if enabled:
             self._subscribe()
@@ -115,7 +115,7 @@ class TimeSource:
         stamp = msg.clock
         self._last_time_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
         time = self._last_time()
-        for clock in self._clocks:
+        for clock in tuple(self._clocks):
             clock.set_ros_time_override(time)
 
     def _last_time(self) -> Time:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rcl_interfaces.msg import LoggerLevel, ParameterDescriptor, ParameterValue
+from rcl_interfaces.msg import Log, LoggerLevel, ParameterDescriptor, ParameterValue
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels, SetParameters
 from rclpy.executors import SingleThreadedExecutor
@@ -209,3 +209,14 @@ def test_the_type_description_service_can_be_left_out(context):
     assert "/quiet/get_parameters" in names
     assert "/quiet/get_type_description" not in names
     node.destroy_node()
+
+
+def test_every_log_text_reaches_rosout(world):
+    """Also one that UTF-8 cannot hold (an undecodable file name): it is escaped, as on the console."""
+    heard = []
+    world.asker.create_subscription(Log, "/rosout", heard.append, 10)
+    world.server.get_logger().get_child("part").warning("name \udce9.txt")
+    world.spin_until(lambda: heard)
+    (log,) = heard
+    assert (log.level, log.name, log.msg) == (30, "ns.server.part", "name \\udce9.txt")
+    assert (log.file, log.function) == (__file__, "test_every_log_text_reaches_rosout")

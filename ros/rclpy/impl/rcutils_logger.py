@@ -205,9 +205,15 @@ class RcutilsLogger:
             site.check(severity, name, options)
         if not site.lets_through():
             return False
-        record = log_output.LogRecord(time.time_ns(), severity, name, str(message), code.co_filename, code.co_name, line)
+        text, file_name = _encodable(str(message)), _encodable(code.co_filename)
+        record = log_output.LogRecord(time.time_ns(), severity, name, text, file_name, code.co_name, line)
         log_output.emit(record)
         return True
+
+
+def _encodable(text: str) -> str:
+    """``text`` with lone surrogates (undecodable bytes of a file name, for example) escaped, so that every output can take it."""
+    return text if text.isascii() else text.encode(errors="backslashreplace").decode()
 
 
 def _caller() -> FrameType:
