@@ -3,6 +3,7 @@
 #include <nanobind/stl/string_view.h>
 
 #include "../core/tf_message.hpp"
+#include "batch.hpp"
 #include "buffer.hpp"
 #include "errors.hpp"
 #include "transform.hpp"
@@ -327,11 +328,12 @@ BufferObject* buffer_of(PyObject* self) {
 }
 
 void add_buffer_type(nb::module_& module) {
-  nb::class_<BufferObject>(module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
-                           "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
-                           "Args:\n"
-                           "    cache_time_ns: How long samples are kept, counted back from the newest of their link.")
-      .def(nb::init<Stamp>(), "cache_time_ns"_a = 10'000'000'000)
+  nb::class_<BufferObject> cls(
+      module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
+      "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
+      "Args:\n"
+      "    cache_time_ns: How long samples are kept, counted back from the newest of their link.");
+  cls.def(nb::init<Stamp>(), "cache_time_ns"_a = 10'000'000'000)
       .def_prop_ro("cache_time_ns", [](BufferObject& self) { return self.shared.buffer.keep(); })
       .def(
           "latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
@@ -376,6 +378,7 @@ void add_buffer_type(nb::module_& module) {
           "wake", [](BufferObject& self) { self.wake(); },
           "Makes every waiting lookup look at pending signals now, and go on waiting if there is none.\n\n"
           "For signal handling that does not interrupt the main thread's system call, such as rclpy's.");
+  add_batch_methods(cls);
 }
 
 }  // namespace turtlewire::python

@@ -49,7 +49,9 @@ class Buffer {
   Status lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const;
   Status can_transform(const Path& path, Stamp t, Failure* failure) const;
   Status latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const;
-  // The newest stamp of the link above a frame; 0 if there is none.
+  // The link above a frame.
+  const Link& link(FrameId frame) const { return *links_[frame]; }
+  // Its newest stamp; 0 if there is none.
   Stamp newest(FrameId frame) const { return links_[frame]->newest(); }
 
   std::string frames_as_string() const;

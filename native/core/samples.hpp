@@ -93,7 +93,8 @@ class Samples {
     if (t >= newest()) return last;
     const double back = static_cast<double>(newest() - t) * per_ns_;
     const std::size_t guess = back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
-    return stamp(guess) <= t ? gallop_up(guess, t) : gallop_down(guess, t);
+    if (stamp(guess) > t) return gallop_down(guess, t);
+    return stamp(guess + 1) > t ? guess : gallop_up(guess, t);
   }
 
   // The same, tried first at `hint` and its successor: for stamps that come in order.

@@ -1,0 +1,308 @@
+#include "batch.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace turtlewire {
+namespace {
+
+constexpr std::size_t kScalarBelow = 12;  // fewer lookups are quicker one by one
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Pose kNoPose{{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}};
+
+void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
+}
+
+}  // namespace
+
+BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source)
+    : shared_(shared), target_(target), source_(source) {}
+
+// Null if a name is unknown.
+const Path* BatchLookup::path() {
+  if (source_id_ == 0) {
+    unresolved_ = shared_.buffer.resolve(target_, target_id_);
+    if (unresolved_ == Status::ok) unresolved_ = shared_.buffer.resolve(source_, source_id_);
+    if (unresolved_ != Status::ok) {
+      source_id_ = 0;
+      return nullptr;
+    }
+  }
+  const Path& path = shared_.buffer.path(target_id_, source_id_);
+  if (path.version != version_) {
+    up_hints_.assign(path.up.size(), 0);
+    down_hints_.assign(path.down.size(), 0);
+    version_ = path.version;
+  }
+  return &path;
+}
+
+Stamp BatchLookup::latest() {
+  const std::scoped_lock lock(shared_.mutex);
+  Stamp t = 0;
+  if (target_ != source_ && path() != nullptr) shared_.buffer.latest_common_time(target_id_, source_id_, t, nullptr);
+  return t;
+}
+
+void BatchLookup::block(std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+  std::fill_n(statuses, stamps.size(), Status::ok);
+  if (target_ == source_) {
+    poses.fill({});
+    return;
+  }
+  const std::scoped_lock lock(shared_.mutex);
+  const Path* known = path();
+  if (known == nullptr) {
+    std::fill_n(statuses, stamps.size(), unresolved_);
+    poses.fill(kNoPose);
+  } else if (stamps.size() < kScalarBelow || !known->direct) {
+    scalar_block(*known, stamps, poses, statuses);
+  } else {
+    direct_block(*known, stamps, poses, statuses);
+  }
+}
+
+void BatchLookup::scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    Stamp t = stamps[i];
+    Pose pose;
+    statuses[i] = shared_.buffer.lookup(path, t, pose, nullptr);
+    poses.set(i, statuses[i] == Status::ok ? pose : kNoPose);
+  }
+}
+
+void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+  Stamp times[kLanes];
+  bool missing[kLanes] = {};
+  const Stamp latest = turtlewire::latest_common_time(path);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const Stamp t = stamps[std::min(i, stamps.size() - 1)];
+    times[i] = t != 0 ? t : latest;
+  }
+  arm(path.up, times, up_hints_, missing, poses);
+  if (!path.down.empty()) {
+    Lanes down;
+    arm(path.down, times, down_hints_, missing, down);
+    kernels().between(down, poses);
+  }
+  kernels().canonicalize(poses);
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (!missing[i]) continue;
+    Pose unused;
+    statuses[i] = shared_.buffer.lookup(path, times[i], unused, nullptr);  // tf2's order decides which link it blames
+    poses.set(i, kNoPose);
+  }
+}
+
+// An arm without steps is the identity.
+void BatchLookup::arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints, bool* missing, Lanes& result) {
+  if (steps.empty()) result.fill({});
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    Lanes step;
+    Lanes& pose = s == 0 ? result : step;
+    if (steps[s].link == nullptr) {
+      pose.fill(steps[s].fixed);
+    } else {
+      read_link(*steps[s].link, stamps, hints[s], missing, pose);
+    }
+    if (s > 0) kernels().compose(step, result);
+  }
+}
+
+void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing, Lanes& result) {
+  const Samples& samples = link.samples();
+  const Stamp oldest = samples.oldest(), newest = samples.newest();
+  const std::size_t last = samples.size() - 1;
+  const bool in_order = std::is_sorted(stamps, stamps + kLanes);
+  std::size_t places[kLanes];
+  double ratios[kLanes], spans[kLanes], cosines[kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    Stamp t = stamps[i] != 0 ? stamps[i] : newest;
+    if (!link.covers(t)) {
+      missing[i] = true;
+      t = newest;
+    }
+    if (t == oldest && t != newest) {
+      hint = 0;
+    } else {
+      hint = in_order ? samples.last_at_or_before(t, hint) : samples.last_at_or_before(t);
+    }
+    places[i] = hint;
+    prefetch(&samples[hint]);
+    prefetch(&samples[std::min(hint + 1, last)]);
+    const Stamp older = samples.stamp(hint), newer = samples.stamp(std::min(hint + 1, last));
+    ratios[i] = static_cast<double>(t - older);
+    spans[i] = static_cast<double>(newer - older + (newer == older));
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) ratios[i] /= spans[i];
+  Lanes older, newer;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    older.set(i, samples[places[i]].pose);
+    newer.set(i, samples[std::min(places[i] + 1, last)].pose);
+  }
+  kernels().interpolate(older, newer, ratios, result, cosines);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (cosines[i] <= kNineTermsCosine) result.set(i, interpolate(older.pose(i), newer.pose(i), ratios[i]));
+  }
+}
+
+// ---------------------------------------------------------------- all frames
+
+namespace {
+
+// root_from_frame of all frames at one time, each link read once.
+class Forest {
+ public:
+  Forest(const Buffer& buffer, Stamp t) : buffer_(buffer), t_(t), nodes_(buffer.frames().size()) {}
+
+  // False if some link above the frame has no pose at the time, or the frames loop.
+  bool root_from(FrameId frame, FrameId& root, Pose& pose) {
+    line_.clear();
+    while (nodes_[frame].state == State::unseen) {
+      nodes_[frame].state = State::open;
+      line_.push_back(frame);
+      const Link& link = buffer_.link(frame);
+      if (link.kind() == LinkKind::none) {
+        nodes_[frame] = {State::known, frame, {}};
+        line_.pop_back();
+        break;
+      }
+      nodes_[frame].link = link.read(t_);
+      if (nodes_[frame].link.status != ReadStatus::ok) break;
+      frame = nodes_[frame].link.parent;
+    }
+    Node above = nodes_[frame];
+    if (above.state == State::open) above.state = State::failed;  // no pose there, or a loop
+    for (; !line_.empty(); line_.pop_back()) {
+      Node& node = nodes_[line_.back()];
+      const bool fits = above.state == State::known && node.link.status == ReadStatus::ok;
+      node = {fits ? State::known : State::failed, above.root, fits ? above.root_from * node.link.pose : Pose{},
+              node.link};
+      above = node;
+    }
+    root = above.root;
+    pose = above.root_from;
+    return above.state == State::known;
+  }
+
+ private:
+  enum class State : std::uint8_t { unseen, open, known, failed };
+  struct Node {
+    State state = State::unseen;
+    FrameId root = 0;
+    Pose root_from;
+    Reading link;
+  };
+
+  const Buffer& buffer_;
+  Stamp t_;
+  std::vector<Node> nodes_;
+  std::vector<FrameId> line_;
+};
+
+}  // namespace
+
+Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t, std::vector<FramePose>& found,
+                  Failure& failure) {
+  found.clear();
+  const std::scoped_lock lock(shared.mutex);
+  Buffer& buffer = shared.buffer;
+  FrameId target_id = 0, target_root = 0, root = 0;
+  if (const Status status = buffer.resolve(target, target_id); status != Status::ok) {
+    failure.status = status;
+    failure.name = target;
+    return status;
+  }
+  Forest forest(buffer, t);
+  Pose root_from_target, root_from_frame;
+  const bool at_once = t != 0 && forest.root_from(target_id, target_root, root_from_target);
+  for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+    Pose pose;
+    Stamp stamp = t;
+    if (frame == target_id) {
+      if (t == 0) stamp = buffer.newest(frame);
+    } else if (at_once && forest.root_from(frame, root, root_from_frame) && root == target_root) {
+      pose = between(root_from_target, root_from_frame);
+      pose.rotation = canonical(pose.rotation);
+    } else if (buffer.lookup(buffer.path(target_id, frame), stamp, pose, nullptr) != Status::ok) {
+      continue;
+    }
+    found.push_back({std::string(buffer.frames()[frame]), stamp, pose});
+  }
+  return Status::ok;
+}
+
+// ---------------------------------------------------------------- velocities
+
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+
+// The axis times the angle of a rotation, by the shorter way.
+Vec3 rotation_vector(const Quat& q) {
+  const double sign = q.w < 0.0 ? -1.0 : 1.0;
+  const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
+  const double factor = sine < 1e-9 ? 2.0 : 2.0 * std::atan2(sine, sign * q.w) / sine;
+  return {sign * factor * q.x, sign * factor * q.y, sign * factor * q.z};
+}
+
+// The body's mean motion from one time to another: the chord of the point's way, and the turn in the observer's axes.
+Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_point, Stamp interval) {
+  const double per_second = 1.0 / (kNanosecond * static_cast<double>(interval));
+  const Vec3 way = (last.translation + rotate(last.rotation, fixed_point)) -
+                   (first.translation + rotate(first.rotation, fixed_point));
+  return {per_second * way, per_second * rotation_vector(last.rotation * conjugate(first.rotation))};
+}
+
+}  // namespace
+
+std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityRequest& request,
+                                         std::span<const Stamp> stamps, Velocity* velocities, Status* statuses) {
+  BatchLookup motion(shared, request.observer, request.tracking);
+  BatchLookup axes(shared, request.axes, request.observer);
+  BatchLookup point(shared, request.tracking, request.point_frame);
+  const Stamp latest = motion.latest();
+  std::optional<Request> fault;
+  Lanes first, last, turn, body;
+  for (std::size_t begin = 0; begin < stamps.size(); begin += kLanes) {
+    const std::size_t n = std::min(kLanes, stamps.size() - begin);
+    Stamp starts[kLanes], ends[kLanes], times[kLanes];
+    Status status[4][kLanes];
+    for (std::size_t i = 0; i < n; ++i) {
+      times[i] = stamps[begin + i] != 0 ? stamps[begin + i] : latest;
+      ends[i] = times[i] <= latest ? std::min(times[i] + request.interval / 2, latest) : times[i];
+      starts[i] = ends[i] - request.interval;
+    }
+    motion.block({ends, n}, last, status[0]);
+    motion.block({starts, n}, first, status[1]);
+    axes.block({times, n}, turn, status[2]);
+    point.block({times, n}, body, status[3]);
+    const Request asked[4] = {{request.observer, request.tracking},
+                              {request.observer, request.tracking},
+                              {request.axes, request.observer},
+                              {request.tracking, request.point_frame}};
+    const Stamp* asked_times[4] = {ends, starts, times, times};
+    for (std::size_t i = 0; i < n; ++i) {
+      const Pose at = body.pose(i);
+      const Vec3 fixed_point = at.translation + rotate(at.rotation, request.point);
+      const Velocity seen = mean_velocity(first.pose(i), last.pose(i), fixed_point, request.interval);
+      const Quat to_axes = turn.pose(i).rotation;
+      velocities[begin + i] = {rotate(to_axes, seen.linear), rotate(to_axes, seen.angular)};
+      std::size_t step = 0;
+      while (step < 3 && status[step][i] == Status::ok) ++step;
+      statuses[begin + i] = status[step][i];
+      if (statuses[begin + i] != Status::ok && !fault) {
+        fault = asked[step];
+        fault->t = asked_times[step][i];
+      }
+    }
+  }
+  return fault;
+}
+
+}  // namespace turtlewire
