@@ -400,3 +400,32 @@ def test_empty_and_unreadable_parameter_files(tmp_path):
     for bad in (path, tmp_path, tmp_path / "none.yaml"):
         with pytest.raises(RuleError, match=r"^Error opening YAML file$"):
             parse_file(str(bad))
+
+
+yaml_like = st.text(alphabet="ab_1.:=~/*&!|>%@`'\"[]{},- #\n\t\\\x00é", max_size=40)
+
+
+@given(st.sampled_from(["-r", "-p", "--log-level", "-e", "--log-file-name", "--params-file", "--nope"]), yaml_like)
+def test_nonsense_is_answered_with_the_right_error(flag, text):
+    try:
+        arguments = Arguments.parse(["--ros-args", flag, text])
+    except (RCLInvalidROSArgsError, UnknownROSArgsError):
+        return
+    assert isinstance(arguments.parameter_overrides("/n"), dict)
+    assert arguments.remap_topic("/a", "n", "/").startswith("/")
+
+
+@given(st.one_of(yaml_like.map(str.encode), st.binary(max_size=40)))
+def test_a_file_of_nonsense_is_answered_with_the_right_error(tmp_path_factory, data):
+    path = tmp_path_factory.getbasetemp() / "nonsense.yaml"
+    path.write_bytes(data)
+    try:
+        nodes = parse_file(str(path))
+    except RuleError:
+        return
+    assert all(isinstance(parameters, dict) for parameters in nodes.values())
+
+
+def test_a_number_of_ten_thousand_digits():
+    assert parse_value("9" * 10_000) == "9" * 10_000
+    assert parse_value("0" * 10_000) == 0.0

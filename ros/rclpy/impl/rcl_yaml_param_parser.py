@@ -27,6 +27,8 @@ _INT = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
 _FLOAT = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE)
 _HEX_FLOAT = re.compile(r"[+-]?0x(?:[0-9a-f]+\.?[0-9a-f]*|\.[0-9a-f]+)(?:p[+-]?[0-9]+)?", re.IGNORECASE)
 _DOTTED = re.compile(r"[+-]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+#: More digits than 64 bits have in any base; Python refuses to convert thousands of them.
+_LONGEST_INT = 100
 _TYPE_NAMES = {bool: "bool", int: "integer", float: "double", str: "string"}
 
 
@@ -160,7 +162,7 @@ def _plain_scalar(text: str) -> bool | int | float | str:
         return True
     if text in _FALSE:
         return False
-    if _INT.fullmatch(text):
+    if len(text) <= _LONGEST_INT and _INT.fullmatch(text):
         value = int(text, 0 if "x" in text.lower() else 8 if text.lstrip("+-").startswith("0") else 10)
         if -(2**63) <= value < 2**63:
             return value
