@@ -6,11 +6,11 @@ import json
 import math
 from typing import Any, NamedTuple
 
-__all__ = ["Clear", "Command", "CommandError", "Drive", "Kill", "Reset", "Spawn", "Teleport", "parse_command"]
+__all__ = ["Clear", "Command", "CommandError", "Drive", "Kill", "Reset", "Spawn", "Teleport", "Unwatch", "Watch", "parse_command"]
 
 #: All other fields are numbers.
-_TEXT_FIELDS = frozenset({"turtle", "name"})
-#: Longest turtle name that a page may send.
+_TEXT_FIELDS = frozenset({"turtle", "name", "target", "source"})
+#: Longest name that a page may send.
 _MAX_NAME = 255
 
 
@@ -58,9 +58,20 @@ class Reset(NamedTuple):
     """The world as it was at the start."""
 
 
-Command = Drive | Spawn | Teleport | Kill | Clear | Reset
+class Watch(NamedTuple):
+    """Have the frames sent, and the transform between two of them; empty names: no transform."""
 
-_COMMANDS: dict[str, type[Any]] = {kind.__name__.lower(): kind for kind in (Drive, Spawn, Teleport, Kill, Clear, Reset)}
+    target: str
+    source: str
+
+
+class Unwatch(NamedTuple):
+    """Have no frames sent."""
+
+
+Command = Drive | Spawn | Teleport | Kill | Clear | Reset | Watch | Unwatch
+
+_COMMANDS: dict[str, type[Any]] = {kind.__name__.lower(): kind for kind in (Drive, Spawn, Teleport, Kill, Clear, Reset, Watch, Unwatch)}
 
 
 def parse_command(text: str | bytes) -> Command:

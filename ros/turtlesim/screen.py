@@ -1,9 +1,10 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
-What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, and one binary frame for each tick that the browser
-keeps up with. A frame is little-endian: five 32-bit unsigned integers (tick, version of the scene that it belongs to, number of turtles,
-number of strokes, 1 if the picture starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta, linear and angular
-velocity), and the strokes as :mod:`turtlesim.drawing` packs them. What comes back: :mod:`turtlesim.page_commands`.
+What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a few times a second while it
+watches the frames, and one binary frame for each tick that it keeps up with. A frame is little-endian: five 32-bit unsigned integers
+(tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if the picture starts empty), five 32-bit floats
+for each turtle in the scene's order (x, y, theta, linear and angular velocity), and the strokes as :mod:`turtlesim.drawing` packs them.
+What comes back: :mod:`turtlesim.page_commands`.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import os
 import struct
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlesim.drawing import RECORD_SIZE, Drawing
-from turtlesim.page_commands import CommandError, parse_command
+from turtlesim.page_commands import CommandError, Unwatch, Watch, parse_command
 from turtlewire.web import Server
 
 if TYPE_CHECKING:
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 
     from turtlesim.model import TurtleTick
     from turtlesim.page_commands import Command
+    from turtlesim.transform_view import TransformView
 
 __all__ = ["Scene", "Screen", "desktop_is_there", "open_browser"]
 
@@ -32,6 +35,8 @@ _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in use.
 DEFAULT_PORT = 7070
+#: Time between two looks at the frames [s].
+_FRAMES_PERIOD_S = 0.2
 
 
 class Scene(NamedTuple):
@@ -57,13 +62,15 @@ class Screen:
         url: The page's address.
     """
 
-    def __init__(self, scene: Scene, on_command: Callable[[Command], None]) -> None:
+    def __init__(self, scene: Scene, on_command: Callable[[Command], None], transforms: TransformView) -> None:
         """Start serving.
 
         Args:
             scene: What to show first.
             on_command: Called on the server's thread for each command of a page; it must only pass the command on.
+            transforms: What TF knows; closed with the screen.
         """
+        self.transforms = transforms
         self._lock = threading.Lock()
         self._scene = scene
         self._version = 0
@@ -102,6 +109,7 @@ class Screen:
     def close(self) -> None:
         """Stop serving; pages say that they lost the simulator and try again."""
         self._server.close()
+        self.transforms.close()
 
     def _scene_since(self, version: int) -> tuple[int, str | None]:
         """The scene as JSON if it changed after ``version``."""
@@ -129,6 +137,8 @@ class _Session:
         self._version = -1
         self._position = -1
         self._errors: list[str] = []
+        self._watch: Watch | None = None
+        self._next_look = 0.0
 
     def outgoing(self) -> list[str | bytes]:
         messages: list[str | bytes] = [json.dumps({"type": "error", "text": text}) for text in self._errors]
@@ -136,6 +146,9 @@ class _Session:
         self._version, scene = self._screen._scene_since(self._version)
         if scene is not None:
             messages.append(scene)
+        if self._watch is not None and time.monotonic() >= self._next_look:
+            self._next_look = time.monotonic() + _FRAMES_PERIOD_S
+            messages.append(self._look(self._watch))
         self._position, frame = self._screen._frame_since(self._position)
         return [*messages, frame]
 
@@ -144,11 +157,27 @@ class _Session:
             command = parse_command(message)
         except CommandError as error:
             self._errors.append(str(error))
+            return
+        if isinstance(command, (Watch, Unwatch)):
+            self._set_watch(command if isinstance(command, Watch) else None)
         else:
             self._on_command(command)
 
     def closed(self) -> None:
-        """Nothing to do: a session owns nothing but its place in the stream."""
+        self._set_watch(None)
+
+    def _set_watch(self, watch: Watch | None) -> None:
+        if watch is not None and self._watch is None:
+            self._screen.transforms.join()
+        elif watch is None and self._watch is not None:
+            self._screen.transforms.leave()
+        self._watch = watch
+        self._next_look = 0.0
+
+    def _look(self, watch: Watch) -> str:
+        transforms = self._screen.transforms
+        relation = transforms.relation(watch.target, watch.source) if watch.target and watch.source else None
+        return json.dumps({"type": "tf", "frames": transforms.frames(), **watch._asdict(), "relation": relation})
 
 
 def desktop_is_there() -> bool:

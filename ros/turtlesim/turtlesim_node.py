@@ -182,8 +182,10 @@ class TurtlesimNode(Node):
 
     def _open_screen(self) -> None:
         from turtlesim.screen import Screen, open_browser
+        from turtlesim.transform_view import TransformView
 
-        self._screen = Screen(self._scene(), self._page_commands.append)
+        transforms = TransformView(self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds)
+        self._screen = Screen(self._scene(), self._page_commands.append, transforms)
         self.get_logger().info(f"The field is shown at {self._screen.url}")
         open_browser(self._screen.url)
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import math
+import os
 import queue
 import shutil
 import socket
 import threading
 import time
+from pathlib import Path
 
 import pytest
 from websockets.exceptions import InvalidStatus
@@ -17,6 +20,11 @@ from websockets.sync.client import connect
 from turtlesim import page_commands
 from turtlesim.model import TICK_NS, World
 from turtlesim.screen import Scene, Screen
+from turtlesim.transform_view import TransformView
+from turtlewire import msg
+from turtlewire.tf import listener
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
 
 CHROMIUM = shutil.which("chromium")
 BROWSER_FLAGS = [
@@ -29,6 +37,19 @@ BROWSER_FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+GOLDEN_PICTURE = Path(__file__).parent.parent / "golden" / "page" / "field.png"
+#: Mean difference of all colour channels of two PNG files, both scaled to 200 x 200, so that fonts do not matter.
+DIFFERENCE_OF_PICTURES = """async (pictures) => {
+    const [a, b] = await Promise.all(pictures.map(async (png) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${png}`;
+        await image.decode();
+        const ctx = new OffscreenCanvas(200, 200).getContext('2d');
+        ctx.drawImage(image, 0, 0, 200, 200);
+        return ctx.getImageData(0, 0, 200, 200).data;
+    }));
+    return a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
+}"""
 BLUE = (69, 86, 255)
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium in PATH (Debian: apt install chromium)")
 
@@ -43,7 +64,8 @@ class Simulator:
         self.missing: tuple[str, ...] = ()
         self.commands: list[page_commands.Command] = []
         self._queue: queue.SimpleQueue = queue.SimpleQueue()
-        self.screen = Screen(self._scene(), self._queue.put)
+        self.wire = open_context(middleware="local")
+        self.screen = Screen(self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns))
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
@@ -52,6 +74,7 @@ class Simulator:
         self._stopping.set()
         self._thread.join()
         self.screen.close()
+        self.wire.close()
 
     def _scene(self) -> Scene:
         return Scene("/sim", tuple(sorted(self.world.turtles)), self.background, self.missing)
@@ -72,6 +95,8 @@ class Simulator:
             self.world.turtles[command.turtle].drive(command.linear, 0.0, command.angular)
         elif isinstance(command, page_commands.Spawn):
             self.world.spawn(*command)
+        elif isinstance(command, page_commands.Teleport):
+            self.world.turtles[command.turtle].teleport_absolute(*command[1:])
         elif isinstance(command, page_commands.Clear):
             self.screen.clear()
         elif isinstance(command, page_commands.Reset):
@@ -128,7 +153,7 @@ def open_page(browser):
 
 
 def wait_for_text(page, selector: str, text: str) -> None:
-    page.wait_for_function("([s, t]) => document.querySelector(s).textContent.includes(t)", arg=[selector, text])
+    page.wait_for_function("([s, t]) => document.querySelector(s)?.textContent.includes(t)", arg=[selector, text])
 
 
 def pixel(page, canvas: str, x: float, y: float) -> tuple[int, ...]:
@@ -161,6 +186,10 @@ def is_pen(colour: tuple[int, ...]) -> bool:
     return math.dist(colour[:3], (179, 184, 255)) < 12
 
 
+def is_opaque(colour: tuple[int, ...]) -> bool:
+    return colour[3] > 200
+
+
 def is_ground(colour: tuple[int, ...]) -> bool:
     return math.dist(colour[:3], BLUE) < 45
 
@@ -170,7 +199,7 @@ def test_the_turtle_is_shown_where_it_is(simulator, open_page):
     middle = simulator.turtle1.x
     wait_for_text(page, "#roster", "turtle1")
     wait_for_text(page, "#roster", "5.54")
-    assert wait_for_pixel(page, "turtles", middle, middle, lambda colour: colour[3] > 200)  # the shell
+    assert wait_for_pixel(page, "turtles", middle, middle, is_opaque)  # the shell
     assert pixel(page, "turtles", 2.0, 2.0)[3] == 0
     assert is_ground(pixel(page, "ground", 2.5, 2.5))
     assert page.title() == "turtlesim /sim"
@@ -180,7 +209,7 @@ def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, open_page):
     page = open_page(simulator.screen.url)
     middle = simulator.turtle1.x
     page.keyboard.press("ArrowUp")
-    wait_for_pixel(page, "turtles", middle + 2.0, middle, lambda colour: colour[3] > 200)
+    wait_for_pixel(page, "turtles", middle + 2.0, middle, is_opaque)
     assert simulator.commands == [page_commands.Drive("turtle1", 2.0, 0.0)]
     assert is_pen(wait_for_pixel(page, "ground", middle + 1.0, middle, is_pen))
     for key in ("ArrowLeft", "ArrowRight", "Control+ArrowUp", "ArrowDown"):
@@ -210,7 +239,7 @@ def test_another_turtle_can_be_chosen(simulator, open_page):
     page.get_by_role("button", name="turtle2").click()
     assert page.inner_text("#driven") == "turtle2"
     page.keyboard.press("ArrowUp")
-    wait_for_pixel(page, "turtles", 6.0, 2.0, lambda colour: colour[3] > 200)
+    wait_for_pixel(page, "turtles", 6.0, 2.0, is_opaque)
     assert simulator.commands == [page_commands.Drive("turtle2", 2.0, 0.0)]
     wait_for_text(page, "#words", "of turtle1")
 
@@ -222,7 +251,7 @@ def test_two_browsers_show_the_same_world(simulator, open_page):
     wait_for_pixel(one, "ground", middle + 0.5, middle, is_pen)
     two = open_page(simulator.screen.url)
     wait_for_pixel(two, "ground", middle + 0.5, middle, is_pen)  # drawn before it came
-    two.get_by_role("button", name="New turtle").click()
+    two.get_by_role("button", name="New turtle").press("Enter")  # by keyboard: somewhere
     for page in (one, two):
         wait_for_text(page, "#roster", "turtle2")
         wait_for_text(page, "#announcer", "turtle2 appeared")
@@ -238,7 +267,7 @@ def test_a_lost_simulator_is_said_and_found_again(simulator, open_page):
         again.world.spawn(9.0, 9.0, 0.0, "newcomer")
         wait_for_text(page, "#connection", "live")
         wait_for_text(page, "#roster", "newcomer")
-        wait_for_pixel(page, "turtles", 2.0, 3.0, lambda colour: colour[3] > 200)
+        wait_for_pixel(page, "turtles", 2.0, 3.0, is_opaque)
     finally:
         again.close()
 
@@ -248,10 +277,120 @@ def test_a_missing_turtle_is_offered(simulator, open_page):
     assert not page.is_visible("#hint")
     simulator.missing = ("turtle2",)
     page.get_by_role("button", name="Spawn turtle2").click()
-    wait_for_pixel(page, "turtles", 4.0, 2.0, lambda colour: colour[3] > 200)
+    wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
     assert simulator.commands == [page_commands.Spawn(4.0, 2.0, 0.0, "turtle2")]
     simulator.missing = ()
     page.wait_for_selector("#hint", state="hidden")
+
+
+def on_screen(page, x: float, y: float) -> tuple[float, float]:
+    """Where a place of the field [m] is on the screen."""
+    box = page.locator("#turtles").bounding_box()
+    scale = box["width"] / 500
+    return box["x"] + (x * 45 + 0.5) * scale, box["y"] + ((499 / 45 - y) * 45 + 0.5) * scale
+
+
+def test_a_turtle_is_chosen_and_dragged_on_the_field(simulator, open_page):
+    simulator.world.spawn(4.0, 2.0, 0.5, "turtle2")
+    page = open_page(simulator.screen.url)
+    wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
+    page.mouse.click(*on_screen(page, 4.1, 2.1))
+    assert page.inner_text("#driven") == "turtle2"
+    page.mouse.move(*on_screen(page, 4.0, 2.0))
+    page.mouse.down()
+    page.mouse.move(*on_screen(page, 6.0, 7.0))
+    page.mouse.move(*on_screen(page, 8.0, 3.0))
+    page.mouse.up()
+    wait_until(lambda: simulator.commands)
+    (command,) = simulator.commands
+    assert command == page_commands.Teleport("turtle2", pytest.approx(8.0, abs=0.05), pytest.approx(3.0, abs=0.05), pytest.approx(0.5))
+    wait_for_pixel(page, "turtles", 8.0, 3.0, is_opaque)
+
+
+def test_a_new_turtle_is_placed_on_the_field(simulator, open_page):
+    page = open_page(simulator.screen.url)
+    page.click("#spawn")
+    page.keyboard.press("Escape")
+    page.mouse.click(*on_screen(page, 2.0, 2.0))  # nothing is being placed any more
+    page.click("#spawn")
+    assert page.is_visible("#placing")
+    page.mouse.move(*on_screen(page, 2.0, 9.0))
+    page.mouse.down()
+    page.mouse.move(*on_screen(page, 2.0, 8.0))
+    page.mouse.up()
+    wait_until(lambda: simulator.commands)
+    near = pytest.approx
+    assert simulator.commands == [page_commands.Spawn(near(2.0, abs=0.05), near(9.0, abs=0.05), near(-math.pi / 2, abs=0.05), "")]
+    assert not page.is_visible("#placing")
+    wait_for_pixel(page, "turtles", 2.0, 9.0, is_opaque)
+
+
+def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
+    page = open_page(simulator.screen.url)
+    page.click("#follow")
+    simulator.turtle1.teleport_absolute(3.0, 7.0, 0.0)
+    middle = 499 / 90
+    wait_for_pixel(page, "turtles", middle, middle, is_opaque)
+    wait_for_text(page, "#roster", "7.00")
+    ground = page.evaluate("() => document.getElementById('ground').getBoundingClientRect().width")
+    assert ground == pytest.approx(2.5 * page.locator("#turtles").bounding_box()["width"], abs=2)
+    page.click("#follow")
+    wait_for_pixel(page, "turtles", 3.0, 7.0, is_opaque)
+    assert pixel(page, "turtles", middle, middle)[3] == 0
+
+
+def test_the_picture_is_what_is_seen(simulator, open_page):
+    """The field with two turtles and a drawing, against a picture that was looked at."""
+    simulator.world.spawn(4.0, 2.0, 1.0, "turtle2")
+    page = open_page(simulator.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500})
+    simulator.turtle1.teleport_absolute(8.0, 3.0, 2.0)
+    simulator.turtle1.teleport_absolute(8.0, 9.0, 2.0)
+    wait_for_pixel(page, "ground", 8.0, 6.0, lambda colour: not is_ground(colour))
+    wait_for_pixel(page, "turtles", 8.0, 9.0, is_opaque)
+    with page.expect_download() as download:
+        page.click("#picture")
+    assert download.value.suggested_filename.startswith("turtlesim-20")
+    picture = Path(download.value.path()).read_bytes()
+    if "TURTLEWIRE_WRITE_GOLDEN" in os.environ:
+        GOLDEN_PICTURE.write_bytes(picture)
+    difference = page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in (picture, GOLDEN_PICTURE.read_bytes())])
+    assert difference < 0.3  # of 255, on average; a missing turtle makes 0.6
+
+
+def publish_transform(simulator, parent: str, child: str, stamp_ns: int, x: float, y: float) -> None:
+    if not hasattr(simulator, "tf"):
+        type_id = TypeId(listener.TYPE_NAME, msg.type_hash(listener.TYPE_NAME))
+        simulator.tf = simulator.wire.create_node("broadcaster").create_publisher(listener.TOPIC, type_id, listener.QOS)
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(stamp_ns, 10**9)
+    transform.transform.translation.x, transform.transform.translation.y = x, y
+    simulator.tf.publish(msg.serialize(msg.get_message(listener.TYPE_NAME)(transforms=[transform])))
+
+
+def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, open_page):
+    page = open_page(simulator.screen.url)
+    assert page.is_visible("#no-frames")
+    wait_until(lambda: len(simulator.wire.graph.nodes()) == 1)  # the page's listener is there
+    now = time.time_ns()
+    for age_s in (2.0, 1.0, 0.0):
+        publish_transform(simulator, "world", "turtle1", now - int(age_s * 1e9), 1.0, 3.0)
+        publish_transform(simulator, "world", "turtle2", now - int(age_s * 1e9), 4.0, 2.0)
+    wait_for_text(page, "#tree", "turtle2")
+    wait_for_text(page, "#relation-words", "turtle1 is 3.00 m behind and 1.00 m to the left of turtle2, and looks the same way")
+    assert page.inner_text("#tree > li > span") == "world"
+    page.wait_for_selector("#tree li li[data-kind='stale'] small:has-text('s old')", timeout=15000)
+    publish_transform(simulator, "turtle1", "carrot", time.time_ns(), 0.0, 2.0)
+    wait_for_text(page, "#tree li li li", "carrot")
+    page.select_option("#source", "carrot")
+    page.select_option("#target", "turtle1")
+    wait_for_text(page, "#relation-words", "carrot is 2.00 m to the left of turtle1")
+    publish_transform(simulator, "elsewhere", "lost", time.time_ns(), 0.0, 2.0)
+    wait_for_text(page, "#tree", "lost")
+    page.select_option("#source", "lost")
+    wait_for_text(page, "#relation-words", "Tf has two or more unconnected trees.")
+    page.click("#frames summary")
+    wait_until(lambda: not any(node.name == "_turtlesim_page" for node in simulator.wire.graph.nodes()))
 
 
 def test_the_background_follows_the_parameters(simulator, open_page):

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from turtlesim.page_commands import Clear, CommandError, Drive, Kill, Reset, Spawn, Teleport, parse_command
+from turtlesim.page_commands import Clear, CommandError, Drive, Kill, Reset, Spawn, Teleport, Unwatch, Watch, parse_command
 
 
 @pytest.mark.parametrize(
@@ -18,6 +18,8 @@ from turtlesim.page_commands import Clear, CommandError, Drive, Kill, Reset, Spa
         ({"type": "kill", "turtle": "t"}, Kill("t")),
         ({"type": "clear"}, Clear()),
         ({"type": "reset"}, Reset()),
+        ({"type": "watch", "target": "turtle2", "source": ""}, Watch("turtle2", "")),
+        ({"type": "unwatch"}, Unwatch()),
     ],
 )
 def test_commands(message, command):
@@ -32,7 +34,7 @@ def test_commands(message, command):
         ("", "not JSON"),
         ("{", "not JSON"),
         (b"\xff\xfe\x00", "not JSON"),
-        ("[1]", "type is one of drive, spawn, teleport, kill, clear, reset"),
+        ("[1]", "type is one of drive, spawn, teleport, kill, clear, reset, watch, unwatch"),
         ('{"type": "explode"}', "type is one of"),
         ('{"type": ["drive"]}', "type is one of"),
         ('{"type": "kill"}', "kill has turtle; got no fields"),

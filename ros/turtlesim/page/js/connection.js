@@ -8,7 +8,7 @@ export class Connection {
   #retryMs = FIRST_RETRY_MS;
   #handlers;
 
-  /** `handlers`: onState("live" or "lost"), onScene(scene), onFrame(ArrayBuffer), onError(text). */
+  /** `handlers`: onState("live" or "lost"), onScene(scene), onTransforms(message), onFrame(ArrayBuffer), onError(text). */
   constructor(handlers) {
     this.#handlers = handlers;
     this.#open();
@@ -39,6 +39,7 @@ export class Connection {
 
   #takeText(message) {
     if (message.type === "scene") this.#handlers.onScene(message);
+    else if (message.type === "tf") this.#handlers.onTransforms(message);
     else if (message.type === "error") this.#handlers.onError(message.text);
   }
 }

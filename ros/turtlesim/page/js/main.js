@@ -1,10 +1,12 @@
-// Wiring: the stream feeds field and panel, keys and buttons feed the stream.
+// Wiring: the stream feeds field and panels; keys, buttons and the pointer feed the stream.
 
 import { Connection } from "./connection.js";
 import { listenForDriving } from "./controls.js";
 import { Field } from "./field.js";
 import { FIELD_METRES, Playback, decodeFrame, poseOf } from "./frames.js";
+import { FramesPanel } from "./frames_panel.js";
 import { Panel } from "./panel.js";
+import { Pointer } from "./pointer.js";
 
 const PANEL_MS = 100;
 const DESCRIPTION_MS = 2000;
@@ -13,16 +15,30 @@ const byId = (id) => document.getElementById(id);
 const field = new Field(byId("ground"), byId("turtles"));
 const playback = new Playback();
 const panel = new Panel(choose);
+const framesPanel = new FramesPanel((watch) => connection.send(watch ? { type: "watch", ...watch } : { type: "unwatch" }));
+const pointer = new Pointer(field, {
+  turtles: () => (newestPoses() ?? []).map((pose, k) => ({ name: scene.turtles[k], ...pose })),
+  choose,
+  move: (turtle, { x, y, theta }) => connection.send({ type: "teleport", turtle, x, y, theta }),
+  spawn,
+  placingChanged: showPlacing,
+});
 let scene = { version: -1, turtles: [], missing: [] };
 let driven = null;
 let chosen = "turtle1";
 
 const connection = new Connection({
-  onState: (state) => panel.showConnection(state, state === "live" ? "live" : "connection lost, trying again …"),
+  onState: takeState,
   onScene: takeScene,
+  onTransforms: (message) => framesPanel.show(message),
   onFrame: takeFrame,
   onError: (text) => console.error(`turtlesim refused a command: ${text}`),
 });
+
+function takeState(state) {
+  panel.showConnection(state, state === "live" ? "live" : "connection lost, trying again …");
+  if (state === "live") framesPanel.watch();
+}
 
 function takeScene(message) {
   scene = message;
@@ -30,7 +46,7 @@ function takeScene(message) {
   field.setBackground(scene.background);
   field.keepOnly(scene.turtles);
   panel.showScene(scene, driven);
-  panel.showHint(scene.missing, (name) => connection.send({ type: "spawn", x: 4, y: 2, theta: 0, name }));
+  panel.showHint(scene.missing, (name) => spawn({ x: 4, y: 2, theta: 0, name }));
 }
 
 function takeFrame(buffer) {
@@ -44,9 +60,13 @@ function choose(name) {
   panel.showDriven(driven);
 }
 
+function spawn({ x, y, theta, name = "" }) {
+  connection.send({ type: "spawn", x, y, theta, name });
+}
+
 function display(now) {
   const poses = playback.newest?.version === scene.version ? playback.sample(now) : null;
-  if (poses) field.drawTurtles(scene.turtles, poses, driven, now);
+  if (poses) field.drawTurtles(scene.turtles, poses, driven, pointer.ghost, now);
   requestAnimationFrame(display);
 }
 
@@ -70,7 +90,31 @@ requestAnimationFrame(display);
 listenForDriving(byId("pad"), ({ linear, angular }) => {
   if (driven !== null) connection.send({ type: "drive", turtle: driven, linear, angular });
 });
-const somewhere = () => 1 + Math.random() * (FIELD_METRES - 2);
-byId("spawn").onclick = () => connection.send({ type: "spawn", x: somewhere(), y: somewhere(), theta: Math.random() * 2 * Math.PI, name: "" });
+
+/** By mouse or finger, the next press on the field places the turtle; by keyboard it appears somewhere. */
+byId("spawn").onclick = ({ detail }) => {
+  const somewhere = () => 1 + Math.random() * (FIELD_METRES - 2);
+  if (detail === 0) spawn({ x: somewhere(), y: somewhere(), theta: (2 * Math.random() - 1) * Math.PI });
+  else pointer.setPlacing(!pointer.placing);
+};
+
+function showPlacing(on) {
+  byId("spawn").setAttribute("aria-pressed", String(on));
+  byId("placing").hidden = !on;
+}
+
 byId("clear").onclick = () => connection.send({ type: "clear" });
 byId("reset").onclick = () => connection.send({ type: "reset" });
+
+byId("follow").onclick = ({ currentTarget }) => {
+  field.setFollow(!field.follows);
+  currentTarget.setAttribute("aria-pressed", String(field.follows));
+};
+
+byId("picture").onclick = async () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await field.picture());
+  link.download = `turtlesim-${new Date().toISOString().slice(0, 19).replaceAll(":", "-")}.png`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+};

@@ -1,6 +1,9 @@
 // Where things are, said in plain words.
 
-/** Where `other` is as `observer` sees it: metres ahead and metres to the left. */
+const NOTHING_METRES = 0.005;
+const NOTHING_DEGREES = 0.5;
+
+/** Where `other` is as `observer` sees it, both poses in the plane: metres ahead and metres to the left. */
 export function seenFrom(observer, other) {
   const [dx, dy] = [other.x - observer.x, other.y - observer.y];
   const [cos, sin] = [Math.cos(observer.theta), Math.sin(observer.theta)];
@@ -8,12 +11,28 @@ export function seenFrom(observer, other) {
 }
 
 /** "turtle1 is 2.16 m ahead and 0.90 m to the left of turtle2" */
-export function placeInWords(otherName, observerName, { ahead, left }) {
-  const parts = [];
-  if (Math.abs(ahead) >= 0.005) parts.push(`${Math.abs(ahead).toFixed(2)} m ${ahead > 0 ? "ahead" : "behind"}`);
-  if (Math.abs(left) >= 0.005) parts.push(`${Math.abs(left).toFixed(2)} m to the ${left > 0 ? "left" : "right"}`);
+export function placeInWords(otherName, observerName, { ahead, left, up = 0 }) {
+  const parts = [
+    [ahead, "ahead", "behind"],
+    [left, "to the left", "to the right"],
+    [up, "above", "below"],
+  ]
+    .filter(([metres]) => Math.abs(metres) >= NOTHING_METRES)
+    .map(([metres, positive, negative]) => `${Math.abs(metres).toFixed(2)} m ${metres > 0 ? positive : negative}`);
   if (!parts.length) return `${otherName} is where ${observerName} is`;
-  return `${otherName} is ${parts.join(" and ")}${parts.at(-1).endsWith("behind") ? "" : " of"} ${observerName}`;
+  const list = parts.length > 2 ? `${parts.slice(0, -1).join(", ")} and ${parts.at(-1)}` : parts.join(" and ");
+  return `${otherName} is ${list}${/(behind|above|below)$/.test(list) ? "" : " of"} ${observerName}`;
+}
+
+/** The same for a transform, which may also turn: translation [m] and rotation (xyzw). */
+export function transformInWords(sourceName, targetName, { translation, rotation }) {
+  if ([...translation, ...rotation].includes(null)) return `${sourceName} is not at a finite place as ${targetName} sees it`;
+  const [ahead, left, up] = translation;
+  const place = placeInWords(sourceName, targetName, { ahead, left, up });
+  const [x, y, z, w] = rotation;
+  const yaw = (Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * 180) / Math.PI;
+  if (Math.abs(yaw) < NOTHING_DEGREES) return `${place}, and looks the same way`;
+  return `${place}, and looks ${Math.abs(yaw).toFixed(0)}° further to the ${yaw > 0 ? "left" : "right"}`;
 }
 
 /** What a listener hears of the whole field. */

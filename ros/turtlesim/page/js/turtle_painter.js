@@ -1,0 +1,100 @@
+// Puts turtles, their names and rings onto a canvas; each look and each swing of the flippers is drawn once and kept.
+
+import { lookOf } from "./looks.js";
+import { drawTurtle } from "./turtle_art.js";
+
+const SPRITE_METRES = 1.3;
+const STRIDES = 12;
+const MOST_NAMES = 60;
+const FULL_TURN = 2 * Math.PI;
+
+export class TurtlePainter {
+  #sprites = new Map();
+  #spriteScale = 0;
+  #swings = new Map();
+  #still = matchMedia("(prefers-reduced-motion: reduce)");
+
+  /** `turtles`: [{ name, pose, at: [x, y] }] with canvas pixels; `scale`: canvas pixels to the metre; the rest as in Field. */
+  paint(ctx, { turtles, ghost, driven, scale, now }) {
+    if (scale !== this.#spriteScale) this.#sprites.clear();
+    this.#spriteScale = scale;
+    for (const { name, pose, at } of turtles) {
+      if (name === driven) ring(ctx, at, scale);
+      this.#put(ctx, name, at, pose.theta, this.#stride(name, pose, now));
+    }
+    if (ghost) {
+      ctx.globalAlpha = 0.6;
+      this.#put(ctx, ghost.name, ghost.at, ghost.theta, 0);
+      ctx.globalAlpha = 1;
+    }
+    if (turtles.length <= MOST_NAMES) for (const { name, at } of turtles) label(ctx, name, at, scale);
+  }
+
+  keepOnly(names) {
+    const wanted = new Set(names);
+    for (const name of this.#swings.keys()) if (!wanted.has(name)) this.#swings.delete(name);
+  }
+
+  #put(ctx, name, [x, y], theta, stride) {
+    const sprite = this.#sprite(name, stride);
+    ctx.setTransform(Math.cos(theta), -Math.sin(theta), Math.sin(theta), Math.cos(theta), x, y);
+    ctx.drawImage(sprite, -sprite.width / 2, -sprite.height / 2);
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+  }
+
+  /** Which of the swings to show; faster turtles row faster. */
+  #stride(name, pose, now) {
+    if (this.#still.matches) return 0;
+    const swing = this.#swings.get(name) ?? { phase: 0, time: now };
+    const effort = Math.min(3, Math.abs(pose.v) + 0.4 * Math.abs(pose.w));
+    swing.phase = (swing.phase + 0.0055 * effort * (now - swing.time)) % FULL_TURN;
+    swing.time = now;
+    this.#swings.set(name, swing);
+    return Math.floor((swing.phase / FULL_TURN) * STRIDES) % STRIDES;
+  }
+
+  #sprite(name, stride) {
+    const look = lookOf(name);
+    const key = `${look.shell}${stride}`;
+    let sprite = this.#sprites.get(key);
+    if (!sprite) {
+      sprite = document.createElement("canvas");
+      sprite.width = sprite.height = Math.ceil(SPRITE_METRES * this.#spriteScale);
+      const ctx = sprite.getContext("2d");
+      ctx.translate(sprite.width / 2, sprite.height / 2);
+      ctx.scale(this.#spriteScale, this.#spriteScale);
+      drawTurtle(ctx, look, Math.sin((FULL_TURN * stride) / STRIDES));
+      this.#sprites.set(key, sprite);
+    }
+    return sprite;
+  }
+}
+
+function ring(ctx, [x, y], scale) {
+  ctx.strokeStyle = "rgb(255 255 255 / 40%)";
+  ctx.lineWidth = 0.02 * scale;
+  ctx.setLineDash([0.09 * scale, 0.07 * scale]);
+  ctx.beginPath();
+  ctx.arc(x, y, 0.66 * scale, 0, FULL_TURN);
+  ctx.stroke();
+  ctx.setLineDash([]);
+}
+
+/** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
+function label(ctx, name, [x, y], scale) {
+  const size = ctx.canvas.width;
+  const font = Math.max(11 * devicePixelRatio, size / 45);
+  ctx.font = `600 ${font}px system-ui, sans-serif`;
+  const width = ctx.measureText(name).width + 1.1 * font;
+  const left = Math.min(Math.max(x - width / 2, 4), size - width - 4);
+  const below = y + 0.72 * scale;
+  const top = below > size - 1.6 * font ? y - 0.72 * scale - 1.5 * font : below;
+  ctx.fillStyle = "rgb(12 17 60 / 55%)";
+  ctx.beginPath();
+  ctx.roundRect(left, top, width, 1.5 * font, 0.75 * font);
+  ctx.fill();
+  ctx.fillStyle = "#ffffff";
+  ctx.textAlign = "center";
+  ctx.textBaseline = "middle";
+  ctx.fillText(name, left + width / 2, top + 0.79 * font);
+}

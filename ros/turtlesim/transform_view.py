@@ -1,0 +1,116 @@
+"""What TF knows, for the page: the tree of frames, and where one frame is as another sees it. Listens only while a page looks."""
+
+from __future__ import annotations
+
+import math
+import re
+import threading
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire import Buffer
+from turtlewire.errors import TransformException
+from turtlewire.tf.listener import TransformListener
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire import base
+
+__all__ = ["Frame", "TransformView"]
+
+#: Hidden in `ros2 node list`, as names that begin with an underscore are.
+_NODE_NAME = "_turtlesim_page"
+#: tf2 reports this rate for a frame that does not change.
+_STATIC_RATE = 10000.0
+_FRAME = re.compile(
+    r"^(?P<name>.*): ?\n  parent: '(?P<parent>.*)'\n  broadcaster: '.*'\n  rate: (?P<rate>.*)\n"
+    r"  most_recent_transform: (?P<newest>.*)\n  oldest_transform: .*\n  buffer_length: (?P<length>.*)$",
+    re.MULTILINE,
+)
+
+
+class Frame(NamedTuple):
+    """A frame and the link to its parent.
+
+    Attributes:
+        name: The frame.
+        parent: Its parent.
+        rate: Transforms per second; None for a static link.
+        age: How old the newest transform is [s]; None for a static link.
+    """
+
+    name: str
+    parent: str
+    rate: float | None
+    age: float | None
+
+
+class TransformView:
+    """A buffer that is filled while anybody looks. Thread-safe.
+
+    Args:
+        context: The participant whose ``/tf`` and ``/tf_static`` are listened to.
+        namespace: Of the hidden node that listens.
+        now_ns: The simulator's clock, which stamps are compared with.
+    """
+
+    def __init__(self, context: base.Context, namespace: str, now_ns: Callable[[], int]) -> None:
+        self._context = context
+        self._namespace = namespace
+        self._now_ns = now_ns
+        self._lock = threading.Lock()
+        self._lookers = 0
+        self._buffer = Buffer()
+        self._node: base.Node | None = None
+        self._listener: TransformListener | None = None
+
+    def join(self) -> None:
+        """Somebody looks; the first one starts the listener."""
+        with self._lock:
+            self._lookers += 1
+            if self._listener is None:
+                self._buffer = Buffer()
+                self._node = self._context.create_node(_NODE_NAME, self._namespace)
+                self._listener = TransformListener(self._buffer, self._node, context=self._context)
+
+    def leave(self) -> None:
+        """Somebody looks no longer; the last one ends the listener."""
+        with self._lock:
+            self._lookers -= 1
+            if self._lookers == 0:
+                self._stop()
+
+    def close(self) -> None:
+        """End the listener, whoever looks."""
+        with self._lock:
+            self._stop()
+
+    def frames(self) -> list[Frame]:
+        """All frames that have a parent, sorted by name."""
+        now_s = self._now_ns() / 1e9
+        return sorted(_read_frame(match, now_s) for match in _FRAME.finditer(self._buffer.all_frames_as_yaml()))
+
+    def relation(self, target: str, source: str) -> dict[str, Any]:
+        """Where ``source`` is, seen from ``target``: translation [m] and rotation (xyzw), or tf2's error and our hint.
+
+        Numbers that are not finite, which tf2 accepts, are None.
+        """
+        try:
+            target_from_source = self._buffer.lookup_transform(target, source)
+        except TransformException as error:
+            return {"error": str(error), "hint": error.hint}
+        parts = {"translation": target_from_source.translation, "rotation": target_from_source.rotation}
+        return {name: [value if math.isfinite(value) else None for value in values] for name, values in parts.items()}
+
+    def _stop(self) -> None:
+        if self._listener is not None and self._node is not None:
+            self._listener.close()
+            self._node.close()
+            self._listener = self._node = None
+
+
+def _read_frame(match: re.Match[str], now_s: float) -> Frame:
+    rate = float(match["rate"])
+    if rate == _STATIC_RATE and float(match["length"]) == 0.0:
+        return Frame(match["name"], match["parent"], None, None)
+    return Frame(match["name"], match["parent"], rate, now_s - float(match["newest"]))
