@@ -108,17 +108,17 @@ void check_signals() {
 }
 
 // Raises what a single lookup at the first stamp without an answer raises.
-[[noreturn]] void raise_first(SharedBuffer& shared, std::string_view target, std::string_view source, Stamp t,
+[[noreturn]] void raise_first(BufferObject& self, std::string_view target, std::string_view source, Stamp t,
                               Status status) {
   Found found;
   Failure failure;
-  if (shared.lookup(Request{target, source, t}, found, failure) == Status::ok) {
+  if (self.shared.lookup(Request{target, source, t}, found, failure) == Status::ok) {
     failure.status = status;  // the data has changed since
     failure.target = target;
     failure.source = source;
     failure.requested = t;
   }
-  raise(failure, Question::lookup);
+  raise(failure, Question::lookup, nb::find(self).ptr());
   throw nb::python_error();
 }
 
@@ -186,7 +186,7 @@ nb::object lookup_batch(BufferObject& self, std::string_view target, std::string
     }
   };
   const auto fault = for_blocks(lookup, stamps, status, write);
-  if (fault) raise_first(self.shared, target, source, stamps.data()[*fault], status.begin()[*fault]);
+  if (fault) raise_first(self, target, source, stamps.data()[*fault], status.begin()[*fault]);
   check_signals();
   return result;
 }
@@ -202,7 +202,7 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
     status = turtlewire::lookup_all(self.shared, target, t, found, failure);
   }
   if (status != Status::ok) {
-    raise(failure, Question::lookup);
+    raise(failure, Question::lookup, nb::find(self).ptr());
     throw nb::python_error();
   }
   nb::list frames;
@@ -251,7 +251,7 @@ Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_
   Found found;
   Failure failure;
   if (self.shared.lookup(Request{target, fixed, t}, found, failure) != Status::ok) {
-    raise(failure, Question::lookup);
+    raise(failure, Question::lookup, nb::find(self).ptr());
     throw nb::python_error();
   }
   return found.target_from_source;
@@ -300,7 +300,7 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
     if (way.fixed) kernels().compose(outer, poses);
     move_each(poses, points.data() + 3 * first, begin + 3 * first, count);
   });
-  if (fault) raise_first(self.shared, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
+  if (fault) raise_first(self, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
   check_signals();
   return result;
 }
@@ -340,7 +340,7 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
     static_assert(sizeof(Velocity) == 6 * sizeof(double));
     fault = lookup_velocities(self.shared, request, stamps, reinterpret_cast<Velocity*>(begin), status.begin());
   }
-  if (fault && !status.wanted()) raise_first(self.shared, fault->target, fault->source, fault->t, Status::no_data);
+  if (fault && !status.wanted()) raise_first(self, fault->target, fault->source, fault->t, Status::no_data);
   return result;
 }
 

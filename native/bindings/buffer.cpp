@@ -95,7 +95,7 @@ bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, S
     remember_path(target, source, request.target, request.source);
     return true;
   }
-  raise(failure, Question::lookup);
+  raise(failure, Question::lookup, nb::find(*this).ptr());
   return false;
 }
 
@@ -109,7 +109,7 @@ bool BufferObject::lookup(PyObject* target, Stamp target_time, PyObject* source,
   Failure failure;
   if (!answer(request, timeout, failure, &found)) return false;
   if (failure.status == Status::ok) return true;
-  raise(failure, Question::lookup);
+  raise(failure, Question::lookup, nb::find(*this).ptr());
   return false;
 }
 

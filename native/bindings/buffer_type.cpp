@@ -202,7 +202,7 @@ Stamp latest_common_time(BufferObject& self, std::string_view target, std::strin
   Stamp t = 0;
   Failure failure;
   if (self.shared.latest_common_time(target, source, t, failure) != Status::ok) {
-    raise(failure, Question::latest_common_time);
+    raise(failure, Question::latest_common_time, nb::find(self).ptr());
     throw nb::python_error();
   }
   return t;

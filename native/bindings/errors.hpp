@@ -9,8 +9,9 @@
 
 namespace turtlewire::python {
 
-// Sets the Python error for a question that has no answer. Always returns null, for `return raise(...)`.
-PyObject* raise(const Failure& failure, Question question);
+// Sets the Python error for a question that has no answer. `buffer` is the Python object that was asked; it tells the
+// names of frames, should somebody want a hint. Always returns null, for `return raise(...)`.
+PyObject* raise(const Failure& failure, Question question, PyObject* buffer);
 PyObject* raise_cdr_error(const std::string& what);
 
 }  // namespace turtlewire::python

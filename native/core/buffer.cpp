@@ -88,6 +88,12 @@ Status Buffer::resolve(std::string_view name, FrameId& id) const {
   return Status::ok;
 }
 
+// The top of the frame's present tree; some frame of the loop, should there be one.
+FrameId Buffer::root(FrameId frame) const {
+  for (int depth = 0; links_[frame]->has_data() && depth < kMaxGraphDepth; ++depth) frame = links_[frame]->parent();
+  return frame;
+}
+
 // ---------------------------------------------------------------- paths
 
 const Path& Buffer::path(FrameId target, FrameId source) {
@@ -288,6 +294,8 @@ Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure)
     failure->status = Status::not_connected;
     failure->target = name(target);
     failure->source = name(source);
+    failure->target_root = name(root(target));
+    failure->source_root = name(root(source));
   }
   return Status::not_connected;
 }

@@ -63,6 +63,7 @@ class Buffer {
 
   FrameId frame(std::string_view name);
   FrameId predicted(FrameId id, std::string_view name) const;
+  FrameId root(FrameId frame) const;
   void build(Path& path) const;
   bool ancestors(FrameId frame, std::vector<FrameId>& line) const;
   void add_step(std::vector<Step>& arm, const Link& link) const;

@@ -31,6 +31,7 @@ struct Failure {
   Argument argument = Argument::target;  // of the three name errors
   std::string name;                      // likewise
   std::string target, source;            // of this step: a lookup through a fixed frame has two
+  std::string target_root, source_root;  // of two frames that are not connected
   std::string link_child, link_parent;   // the link whose data does not reach, with its newest parent
   bool emptied = false;                  // that link has no sample at all
   Stamp requested = 0, oldest = 0, newest = 0;

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer as Buffer
     from turtlewire.tf.buffer import Transform as Transform
+    from turtlewire.tf.status import LookupStatus as LookupStatus
 
-__all__ = ["Buffer", "Transform"]
+__all__ = ["Buffer", "LookupStatus", "Transform"]
 
 
 def __getattr__(name: str) -> object:
     # The core is loaded when it is first used: `import turtlewire.msg` and its like stay light.
     if name not in __all__:
         raise AttributeError(f"module 'turtlewire' has no attribute {name!r}")
-    from turtlewire.tf import buffer
+    from turtlewire.tf import buffer, status
 
-    value: object = getattr(buffer, name)
+    value: object = getattr(status if name == "LookupStatus" else buffer, name)
     globals()[name] = value
     return value

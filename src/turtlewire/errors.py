@@ -9,7 +9,10 @@
     └── TransformException            (the tree of ROS 2's tf2; also reachable as tf2_py.X and tf2_ros.X)
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
-        ├── ExtrapolationException    the time asked for is outside of the data
+        ├── ExtrapolationException    the time asked for is outside of the data of a link
+        │   ├── BackwardExtrapolationException   it is older than the oldest
+        │   ├── ForwardExtrapolationException    it is newer than the newest
+        │   └── NoDataForExtrapolationException  the link has no data, or a single sample of another time
         ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
@@ -19,13 +22,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 __all__ = [
+    "BackwardExtrapolationException",
     "CdrError",
     "ConnectivityException",
     "ExtrapolationException",
+    "ForwardExtrapolationException",
     "InterfaceError",
     "InvalidArgumentException",
     "LookupException",
+    "NoDataForExtrapolationException",
     "TimeoutException",
     "TransformException",
     "TurtlewireError",
@@ -63,19 +71,162 @@ class WireError(TurtlewireError, RuntimeError):
 
 
 class TransformException(TurtlewireError):
-    """Base of the errors of a transform lookup; catching it catches all of them."""
+    """Base of the errors of a transform lookup; catching it catches all of them.
+
+    The hint is made when it is first asked for: a lookup may fail often, and be expected to.
+    """
+
+    # What the buffer knows of the failure, set by it; each subclass says what its items are.
+    _details: tuple[Any, ...] = ()
+
+    def _make_hint(self) -> str:
+        return ""
+
+    @property
+    def hint(self) -> str:
+        """One or two plain sentences that say what exists and what to do; empty when there is nothing to add."""
+        if "_hint" not in self.__dict__:
+            self.__dict__["_hint"] = self._make_hint() if self._details else ""
+        text: str = self.__dict__["_hint"]
+        return text
+
+    @hint.setter
+    def hint(self, text: str) -> None:
+        self.__dict__["_hint"] = text
+
+    @property
+    def __notes__(self) -> list[str]:
+        """What a traceback shows below the message: the hint."""
+        if "_notes" not in self.__dict__:
+            self.__dict__["_notes"] = [self.hint] if self.hint else []
+        notes: list[str] = self.__dict__["_notes"]
+        return notes
+
+    def with_hint(self, hint: str) -> TransformException:
+        """Replace the hint and return the same error."""
+        self.hint = hint
+        return self
+
+    def __reduce__(self) -> Any:
+        # A copy in another process cannot ask the buffer: the hint travels as text.
+        state = {"_hint": self.hint, "_details": self._picklable_details()}
+        return (type(self), self.args, state)
+
+    def _picklable_details(self) -> tuple[Any, ...]:
+        return self._details
 
 
 class ConnectivityException(TransformException):
-    """No chain of transforms connects the two frames."""
+    """No chain of transforms connects the two frames.
+
+    Attributes:
+        target_frame: The frame in which the answer was to be expressed; empty if unknown, as are the others.
+        source_frame: The frame whose pose was asked for.
+        target_root: The root of the target's tree.
+        source_root: The root of the source's tree.
+    """
+
+    # (target frame, source frame, target's root, source's root)
+
+    target_frame = property(lambda self: self._details[0] if self._details else "")
+    source_frame = property(lambda self: self._details[1] if self._details else "")
+    target_root = property(lambda self: self._details[2] if self._details else "")
+    source_root = property(lambda self: self._details[3] if self._details else "")
+
+    def _make_hint(self) -> str:
+        target, source, target_root, source_root = self._details
+        if target_root == source_root:
+            return f"'{target}' and '{source}' belong to one tree now, rooted at '{target_root}', but not at the time asked for."
+        return (
+            f"'{target}' belongs to the tree of root '{target_root}', '{source}' to that of '{source_root}'. "
+            "Somebody must publish a transform that joins the two."
+        )
 
 
 class LookupException(TransformException):
-    """A frame named in the request does not exist."""
+    """A frame named in the request does not exist.
+
+    Attributes:
+        frame: The name; empty if unknown.
+    """
+
+    # (frame, something with frame_strings(), which names those that exist)
+
+    frame = property(lambda self: self._details[0] if self._details else "")
+
+    def _make_hint(self) -> str:
+        import difflib
+
+        frame, buffer = self._details
+        names = buffer.frame_strings() if buffer is not None else []
+        if not names:
+            return "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill this buffer?"
+        near = difflib.get_close_matches(frame, names, 3, 0.5)
+        if near:
+            return f"Did you mean {' or '.join(map(repr, near))}?"
+        some = ", ".join(map(repr, names[:10]))
+        return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
+
+    def _picklable_details(self) -> tuple[Any, ...]:
+        return (self.frame, None) if self._details else ()
 
 
 class ExtrapolationException(TransformException):
-    """The requested time lies outside of the data of at least one link on the way."""
+    """The requested time lies outside of the data of at least one link on the way.
+
+    Attributes:
+        target_frame: The frame in which the answer was to be expressed; empty if unknown, as is the next.
+        source_frame: The frame whose pose was asked for. (These two are a part of the way in a lookup through a fixed frame.)
+        parent_frame: With the next, the link that failed.
+        child_frame: The frame whose pose in its parent is not known at the time.
+        requested_ns: The time asked for, in nanoseconds.
+        oldest_ns: The time of the oldest data of the link; 0 without data.
+        newest_ns: The time of the newest data of the link; 0 without data.
+    """
+
+    # (target frame, source frame, parent frame, child frame, requested, oldest, newest, whether the link has data)
+
+    target_frame = property(lambda self: self._details[0] if self._details else "")
+    source_frame = property(lambda self: self._details[1] if self._details else "")
+    parent_frame = property(lambda self: self._details[2] if self._details else "")
+    child_frame = property(lambda self: self._details[3] if self._details else "")
+    requested_ns = property(lambda self: self._details[4] if self._details else 0)
+    oldest_ns = property(lambda self: self._details[5] if self._details else 0)
+    newest_ns = property(lambda self: self._details[6] if self._details else 0)
+
+    def _link(self) -> str:
+        return f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
+
+
+class BackwardExtrapolationException(ExtrapolationException):
+    """The requested time is older than the oldest data of a link."""
+
+    def _make_hint(self) -> str:
+        gap = (self.oldest_ns - self.requested_ns) / 1e9
+        kept = (self.newest_ns - self.oldest_ns) / 1e9
+        return f"The oldest data of {self._link()} is {gap:.6g} s younger than the time asked for; {kept:.6g} s of it are kept."
+
+
+class ForwardExtrapolationException(ExtrapolationException):
+    """The requested time is newer than the newest data of a link."""
+
+    def _make_hint(self) -> str:
+        gap = (self.requested_ns - self.newest_ns) / 1e9
+        return (
+            f"The newest data of {self._link()} is {gap:.6g} s older than the time asked for. "
+            "Give the lookup a timeout to wait for it, or ask for time 0, the latest."
+        )
+
+
+class NoDataForExtrapolationException(ExtrapolationException):
+    """A link has no data at all, or a single sample of another time."""
+
+    def _make_hint(self) -> str:
+        if not self._details[7]:
+            return f"Nothing is known of the transform of '{self.child_frame}' since the buffer was cleared."
+        gap = (self.requested_ns - self.newest_ns) / 1e9
+        side = "older" if gap > 0 else "younger"
+        return f"There is one sample of {self._link()}, {abs(gap):.6g} s {side} than the time asked for; two are needed around it."
 
 
 class InvalidArgumentException(TransformException):

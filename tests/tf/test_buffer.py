@@ -349,8 +349,9 @@ class TestWaiting:
     def test_ctrl_c_ends_a_wait_of_the_main_thread(self, core_name: str) -> None:
         program = (
             "import turtlewire\n"
-            "print('ready', flush=True)\n"
+            "turtlewire.Buffer\n"
             "try:\n"
+            "    print('ready', flush=True)\n"
             "    turtlewire.Buffer().lookup_transform('a', 'b', timeout_ns=3600 * 10**9)\n"
             "except KeyboardInterrupt:\n"
             "    print('interrupted')\n"

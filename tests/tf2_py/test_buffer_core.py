@@ -101,7 +101,7 @@ def test_cache_time() -> None:
 
 def test_latest_common_time(buffer: tf2_py.BufferCore) -> None:
     assert buffer.get_latest_common_time("map", "camera") == Time(seconds=2)
-    with pytest.raises(tf2_py.LookupException, match=r'^"nobody" passed to get_latest_common_time does not exist\. $'):
+    with pytest.raises(tf2_py.LookupException, match=r'^"nobody" passed to get_latest_common_time does not exist\. '):
         buffer.get_latest_common_time("map", "nobody")
 
 

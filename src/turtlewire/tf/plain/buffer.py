@@ -9,11 +9,13 @@ from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
+from turtlewire.errors import TransformException
 from turtlewire.tf.plain.cdr import decode_tf_message
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
-from turtlewire.tf.plain.texts import Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
+from turtlewire.tf.plain.texts import ERRORS, Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
 from turtlewire.tf.plain.transform import Transform
 from turtlewire.tf.plain.tree import NO_PARENT, Tree
+from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -144,19 +146,15 @@ class Buffer:
 
     def latest_common_time(self, target_frame: str, source_frame: str) -> int:
         """The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static."""
-        from turtlewire.errors import ConnectivityException, LookupException, TransformException
-
         with self._changed:
             try:
                 self._tree.check_name(target_frame, "get_latest_common_time", "")
                 self._tree.check_name(source_frame, "get_latest_common_time", "")
-            except Failure as failure:
-                raise failure.kind(str(failure)) from None
-            try:
                 return self._tree.latest_common_time(target_frame, source_frame)
             except Failure as failure:
-                kind = TransformException if failure.kind in {ConnectivityException, LookupException} else failure.kind
-                raise kind(str(failure)) from None
+                if failure.status in {LookupStatus.NOT_CONNECTED, LookupStatus.LOOP}:
+                    raise TransformException(str(failure)) from None
+                raise self._error(failure) from None
 
     # -- descriptions
 
@@ -230,7 +228,12 @@ class Buffer:
         try:
             return self._waiting(ask, timeout_ns)
         except Failure as failure:
-            raise failure.kind(str(failure)) from None
+            raise self._error(failure) from None
+
+    def _error(self, failure: Failure) -> TransformException:
+        error = ERRORS[failure.status](str(failure))
+        error._details = (*failure.details, self) if failure.status == LookupStatus.UNKNOWN_FRAME else failure.details
+        return error
 
     def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
         try:

@@ -7,6 +7,7 @@ from bisect import bisect_left, bisect_right
 from typing import NamedTuple
 
 from turtlewire.tf.plain.poses import Pose, interpolate
+from turtlewire.tf.status import LookupStatus
 
 MOST_PER_STAMP = 1000
 """Beyond this many values of one stamp only the first, the last and the count are kept."""
@@ -89,16 +90,16 @@ class Link:
             del self.stamps[:n], self.samples[:n]
             self.dropped = {stamp: count for stamp, count in self.dropped.items() if stamp >= limit}
 
-    def read(self, stamp: int) -> Sample | str:
-        """The pose at a time, 0 being the newest; or why there is none: ``no_data``, ``future`` or ``past``."""
+    def read(self, stamp: int) -> Sample | LookupStatus:
+        """The pose at a time, 0 being the newest; or why there is none: NO_DATA, FUTURE or PAST."""
         if self.fixed is not None:
             return self.fixed
         if not self.samples or (len(self.samples) == 1 and stamp not in {0, self.newest}):
-            return "no_data"
+            return LookupStatus.NO_DATA
         if stamp in {0, self.newest, self.oldest}:
             return self.samples[0 if stamp == self.oldest != self.newest else -1]
         if not self.oldest < stamp < self.newest:
-            return "future" if stamp > self.newest else "past"
+            return LookupStatus.FUTURE if stamp > self.newest else LookupStatus.PAST
         return self._between(stamp)
 
     def _between(self, stamp: int) -> Sample:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from turtlewire import errors
+from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.plain.poses import Pose
 
 Question: TypeAlias = Literal["lookupTransform", "canTransform", "get_latest_common_time"]
-NameFault: TypeAlias = Literal["empty", "slash", "unknown"]
 
 
 def _seconds(stamp: int) -> float:
@@ -27,59 +27,75 @@ class Failure(Exception):
     """A question has no answer; the buffer turns it into a TransformException.
 
     Attributes:
-        kind: The class of turtlewire.errors that a lookup raises.
+        status: What is wrong, as batches tell it.
+        details: What the exception tells beyond its text; see turtlewire.errors.
         hopeless: Whether more data cannot help.
     """
 
-    def __init__(self, text: str, kind: type[errors.TransformException], *, hopeless: bool = False) -> None:
+    def __init__(self, text: str, status: LookupStatus, details: tuple[Any, ...] = (), *, hopeless: bool = False) -> None:
         super().__init__(text)
-        self.kind = kind
+        self.status = status
+        self.details = details
         self.hopeless = hopeless
 
 
-def name_failure(fault: NameFault, name: str, question: Question, argument: str) -> Failure:
+ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
+    LookupStatus.EMPTY_NAME: errors.InvalidArgumentException,
+    LookupStatus.SLASH_NAME: errors.InvalidArgumentException,
+    LookupStatus.UNKNOWN_FRAME: errors.LookupException,
+    LookupStatus.NOT_CONNECTED: errors.ConnectivityException,
+    LookupStatus.LOOP: errors.LookupException,
+    LookupStatus.NO_DATA: errors.NoDataForExtrapolationException,
+    LookupStatus.FUTURE: errors.ForwardExtrapolationException,
+    LookupStatus.PAST: errors.BackwardExtrapolationException,
+}
+
+
+def name_failure(status: LookupStatus, name: str, question: Question, argument: str) -> Failure:
     """A frame id that cannot be asked for."""
-    kind = errors.LookupException if fault == "unknown" else errors.InvalidArgumentException
-    why = {"empty": "cannot be empty", "slash": "cannot start with a '/'"}.get(fault, "")
+    why = {LookupStatus.EMPTY_NAME: "cannot be empty", LookupStatus.SLASH_NAME: "cannot start with a '/'"}.get(status, "")
     where = question if question == "get_latest_common_time" else f"{question} argument {argument}"
     if question == "canTransform":
         why = f"in tf2 frame_ids {why}" if why else "frame does not exist"
         text = f'Invalid frame ID "{name}" passed to {where} - {why}'
-    elif fault == "unknown":
+    elif status == LookupStatus.UNKNOWN_FRAME:
         text = f'"{name}" passed to {where} does not exist. '
     else:
         text = f'Invalid argument "{name}" passed to {where} - in tf2 frame_ids {why}'
-    return Failure(text, kind, hopeless=fault != "unknown")
+    return Failure(text, status, (name,), hopeless=status != LookupStatus.UNKNOWN_FRAME)
 
 
-def connection_failure(target: str, source: str) -> Failure:
+def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
     """Two frames of different trees."""
     return Failure(
         f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."
         "Tf has two or more unconnected trees.",
-        errors.ConnectivityException,
+        LookupStatus.NOT_CONNECTED,
+        (target, source, target_root, source_root),
     )
 
 
 def loop_failure(frames: str) -> Failure:
     """A walk that does not end."""
-    return Failure(f"The tf tree is invalid because it contains a loop.\n{frames}\n", errors.LookupException)
+    return Failure(f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP)
 
 
-def time_failure(why: str, link: Link, stamp: int, target: str, source: str, keep: int) -> Failure:
+def time_failure(status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int) -> Failure:
     """A link whose data does not reach a time."""
     asked, oldest, newest = (f"{_seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
-    if why == "future":
+    if status == LookupStatus.FUTURE:
         text = f"Lookup would require extrapolation into the future.  Requested time {asked} but the latest data is at time {newest}"
-    elif why == "past":
+    elif status == LookupStatus.PAST:
         text = f"Lookup would require extrapolation into the past.  Requested time {asked} but the earliest data is at time {oldest}"
     elif link.has_data:
         text = f"Lookup would require extrapolation at time {asked}, but only time {newest} is in the buffer"
     else:
         text = ""
-    gone = why != "future" and link.has_data and stamp < link.newest - keep
     return Failure(
-        f"{text}, when looking up transform from frame [{source}] to frame [{target}]", errors.ExtrapolationException, hopeless=gone
+        f"{text}, when looking up transform from frame [{source}] to frame [{target}]",
+        status,
+        (target, source, link.parent, child, stamp, link.oldest, link.newest, link.has_data),
+        hopeless=status != LookupStatus.FUTURE and link.has_data and stamp < link.newest - keep,
     )
 
 

@@ -6,7 +6,6 @@ from turtlewire.tf.plain.links import Link, Sample, is_nan
 from turtlewire.tf.plain.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
 from turtlewire.tf.plain.texts import (
     Failure,
-    NameFault,
     Question,
     connection_failure,
     frames_as_string,
@@ -14,6 +13,7 @@ from turtlewire.tf.plain.texts import (
     name_failure,
     time_failure,
 )
+from turtlewire.tf.status import LookupStatus
 
 MAX_GRAPH_DEPTH = 1000
 """tf2 takes more hops for a loop."""
@@ -66,15 +66,15 @@ class Tree:
 
     def check_name(self, name: str, question: Question, argument: str) -> None:
         """Raise Failure unless the frame can be asked for."""
-        fault: NameFault | None = None
+        status = LookupStatus.OK
         if not name:
-            fault = "empty"
+            status = LookupStatus.EMPTY_NAME
         elif name.startswith("/"):
-            fault = "slash"
+            status = LookupStatus.SLASH_NAME
         elif name not in self.frames:
-            fault = "unknown"
-        if fault:
-            raise name_failure(fault, name, question, argument)
+            status = LookupStatus.UNKNOWN_FRAME
+        if status:
+            raise name_failure(status, name, question, argument)
 
     def lookup(self, target: str, source: str, stamp: int, question: Question) -> tuple[int, Pose]:
         """The time and the pose ``target_from_source``; a frame in itself is the identity, whether it exists or not."""
@@ -96,8 +96,8 @@ class Tree:
             if link is None:
                 break
             reading = link.read(stamp)
-            if isinstance(reading, str):
-                stopped = time_failure(reading, link, stamp, target, source, self.keep)
+            if isinstance(reading, LookupStatus):
+                stopped = time_failure(reading, top, link, stamp, target, source, self.keep)
                 break
             if top == target:
                 return source_to_top
@@ -111,13 +111,24 @@ class Tree:
             if link is None:
                 break
             reading = link.read(stamp)
-            if isinstance(reading, str):
-                raise time_failure(reading, link, stamp, target, source, self.keep)
+            if isinstance(reading, LookupStatus):
+                raise time_failure(reading, frame, link, stamp, target, source, self.keep)
             if frame == source:
                 return between(target_to_top, IDENTITY)
             target_to_top, frame = compose(reading.pose, target_to_top), reading.parent
             self._check_depth(depth + 1)
-        raise stopped or connection_failure(target, source)
+        raise stopped or self._connection_failure(target, source)
+
+    def _connection_failure(self, target: str, source: str) -> Failure:
+        return connection_failure(target, source, self._root(target), self._root(source))
+
+    def _root(self, frame: str) -> str:
+        for _ in range(MAX_GRAPH_DEPTH):
+            link = self.links.get(frame)
+            if link is None or not link.has_data:
+                break
+            frame = link.parent
+        return frame
 
     def _check_depth(self, depth: int) -> None:
         if depth > MAX_GRAPH_DEPTH:
@@ -148,7 +159,7 @@ class Tree:
             if frame == source:
                 return _earliest(target_stamps)
             self._check_depth(len(target_stamps))
-        raise connection_failure(target, source)
+        raise self._connection_failure(target, source)
 
 
 def _earliest(stamps: list[int]) -> int:
