@@ -1,0 +1,35 @@
+"""``ros2 action info``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import action_names
+from ros2cli.discovery import GraphNode
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    action = parser.add_argument("action_name", help="Name of the action, for example /turtle1/rotate_absolute")
+    action.completer = action_names  # type: ignore[attr-defined]
+    parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
+    parser.add_argument("-c", "--count", action="store_true", help="Only show how many there are")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print clients and servers."""
+    from ros2cli.graph import action_nodes
+
+    with GraphNode() as graph:
+        sides = {"clients": "subscription", "servers": "publisher"}
+        found = {side: action_nodes(graph, args.action_name, kind) for side, kind in sides.items()}
+    print(f"Action: {args.action_name}")
+    for side, nodes in found.items():
+        print(f"Action {side}: {len(nodes)}")
+        for name, types in () if args.count else nodes:
+            print(f"    {name} [{', '.join(types)}]" if args.show_types else f"    {name}")

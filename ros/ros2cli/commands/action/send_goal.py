@@ -1,0 +1,97 @@
+"""``ros2 action send_goal``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import action_names, action_types
+from ros2cli.values import read_values
+
+if TYPE_CHECKING:
+    import argparse
+
+    from ros2cli.direct_node import DirectNode
+
+__all__ = ["add_arguments", "main"]
+
+_CANCEL_TIMEOUT_S = 5.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    action = parser.add_argument("action_name", help="Name of the action, for example /turtle1/rotate_absolute")
+    action.completer = action_names  # type: ignore[attr-defined]
+    kind = parser.add_argument("action_type", help="Type of the action, for example turtlesim/action/RotateAbsolute")
+    kind.completer = action_types  # type: ignore[attr-defined]
+    values = parser.add_mutually_exclusive_group(required=True)
+    values.add_argument("goal", nargs="?", default="{}", help="Values of the goal as YAML, for example '{theta: 1.57}'")
+    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
+    parser.add_argument("-f", "--feedback", action="store_true", help="Show the feedback")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Send the goal, and print what becomes of it; Ctrl-C cancels it."""
+    from rosidl_runtime_py import set_message_fields
+    from rosidl_runtime_py.utilities import get_action
+
+    try:
+        action_class = get_action(args.action_type)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError("The passed action type is invalid") from None
+    goal = action_class.Goal()
+    values = read_values(sys.stdin.read() if args.stdin else args.goal)
+    try:
+        set_message_fields(goal, values)
+    except Exception as error:  # noqa: BLE001  any value may be wrong in any way
+        return f"Failed to populate message fields: {error!r}"
+    from rclpy.action import ActionClient
+    from ros2cli.direct_node import DirectNode
+
+    with DirectNode(args) as direct:
+        client = ActionClient(direct.node, action_class, args.action_name)
+        try:
+            print("Waiting for an action server to become available...")
+            client.wait_for_server()
+            return _run(direct, client, goal, feedback=args.feedback)
+        finally:
+            client.destroy()
+
+
+def _run(direct: DirectNode, client: Any, goal: Any, *, feedback: bool) -> str | None:
+    from rosidl_runtime_py import message_to_yaml
+
+    def show(message: Any) -> None:
+        print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
+    print(f"Sending goal:\n     {message_to_yaml(goal)}")
+    handle = direct.result(client.send_goal_async(goal, show if feedback else None))
+    if not handle.accepted:
+        return "Goal was rejected."
+    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+    result_future = handle.get_result_async()
+    try:
+        result = direct.result(result_future)
+    except KeyboardInterrupt:
+        _cancel(direct, handle)
+        raise
+    print(f"Result:\n    {message_to_yaml(result.result)}")
+    print(f"Goal finished with status: {_status_name(result.status)}")
+    return None
+
+
+def _cancel(direct: DirectNode, handle: Any) -> None:
+    """Ask the server to stop, while the context is still open after Ctrl-C."""
+    print("Canceling goal...")
+    response = direct.result(handle.cancel_goal_async(), _CANCEL_TIMEOUT_S)
+    if response.goals_canceling and list(response.goals_canceling[0].goal_id.uuid) == list(handle.goal_id.uuid):
+        print("Goal canceled.")
+    else:
+        print("Failed to cancel goal.")
+
+
+def _status_name(status: int) -> str:
+    from action_msgs.msg import GoalStatus
+
+    names = {getattr(GoalStatus, f"STATUS_{name}"): name for name in ("SUCCEEDED", "CANCELED", "ABORTED")}
+    return names.get(status, "UNKNOWN")

@@ -1,0 +1,30 @@
+"""``ros2 action type``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import action_names
+from ros2cli.discovery import GraphNode
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    action = parser.add_argument("action_name", help="Name of the action, for example /turtle1/rotate_absolute")
+    action.completer = action_names  # type: ignore[attr-defined]
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the type; status 1 when there is no such action."""
+    from ros2cli.graph import actions
+
+    with GraphNode() as graph:
+        types = dict(actions(graph)).get(args.action_name, [])
+    for name in types:
+        print(name)
+    return 0 if types else 1

@@ -1,0 +1,43 @@
+"""``ros2 param describe``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.direct_node import DirectNode
+from ros2cli.parameters import TYPE_NAMES, RemoteParameters, add_node_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_node_arguments(parser)
+    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print what the node says of them."""
+    with DirectNode(args) as direct:
+        descriptors = RemoteParameters(direct, args).descriptors(args.parameter_names)
+    for descriptor in descriptors:
+        _print(descriptor)
+    return None if descriptors else "Parameter not set"
+
+
+def _print(descriptor: Any) -> None:
+    print(f"Parameter name: {descriptor.name}\n  Type: {TYPE_NAMES[descriptor.type]}")
+    if descriptor.description:
+        print(f"  Description: {descriptor.description}")
+    print("  Constraints:")
+    if descriptor.read_only:
+        print("    Read only: true")
+    for limits in (*descriptor.integer_range, *descriptor.floating_point_range):
+        print(f"    Min value: {limits.from_value}\n    Max value: {limits.to_value}")
+        if limits.step:
+            print(f"    Step: {limits.step}")
+    if descriptor.additional_constraints:
+        print(f"    Additional constraints: {descriptor.additional_constraints}")

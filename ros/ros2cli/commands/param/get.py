@@ -1,0 +1,46 @@
+"""``ros2 param get``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.direct_node import DirectNode
+from ros2cli.parameters import RemoteParameters, add_node_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+_LABELS = {
+    1: "Boolean value is:",
+    2: "Integer value is:",
+    3: "Double value is:",
+    4: "String value is:",
+    5: "Byte values are:",
+    6: "Boolean values are:",
+    7: "Integer values are:",
+    8: "Double values are:",
+    9: "String values are:",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_node_arguments(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
+    parser.add_argument("--hide-type", action="store_true", help="Show only the value")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the value."""
+    from rclpy.parameter import parameter_value_to_python
+
+    with DirectNode(args) as direct:
+        values = RemoteParameters(direct, args).values([args.parameter_name])
+    if not values or values[0].type not in _LABELS:
+        return "Parameter not set"
+    value: Any = parameter_value_to_python(values[0])
+    shown = list(value) if hasattr(value, "typecode") else value
+    print(shown if args.hide_type else f"{_LABELS[values[0].type]} {shown}")
+    return None

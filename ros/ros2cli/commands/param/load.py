@@ -1,0 +1,37 @@
+"""``ros2 param load``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.direct_node import DirectNode
+from ros2cli.parameters import RemoteParameters, add_node_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_node_arguments(parser)
+    parser.add_argument("parameter_file", help="Path of the parameter file")
+    parser.add_argument("--no-use-wildcard", action="store_true", help="Leave out what the file says of '/**' (all nodes)")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Set what the file says, and print the results."""
+    from rclpy.parameter import parameter_dict_from_yaml_file
+
+    with DirectNode(args) as direct:
+        remote = RemoteParameters(direct, args)
+        parameters = list(parameter_dict_from_yaml_file(args.parameter_file, not args.no_use_wildcard).values())
+        results: list[tuple[Any, Any]] = list(zip(parameters, remote.set(parameters), strict=True))
+    for parameter, result in results:
+        reason = f": {result.reason}" if result.reason else ""
+        if result.successful:
+            print(f"Set parameter {parameter.name} successful{reason}")
+        else:
+            print(f"Set parameter {parameter.name} failed{reason}", file=sys.stderr)

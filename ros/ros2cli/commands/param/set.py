@@ -1,0 +1,36 @@
+"""``ros2 param set``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from ros2cli.direct_node import DirectNode
+from ros2cli.parameters import RemoteParameters, add_node_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_node_arguments(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
+    parser.add_argument("value", help="Value of the parameter, as YAML")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Set it, and print the result."""
+    from rcl_interfaces.msg import Parameter
+    from rclpy.parameter import get_parameter_value
+
+    parameter = Parameter(name=args.parameter_name, value=get_parameter_value(args.value))
+    with DirectNode(args) as direct:
+        (result,) = RemoteParameters(direct, args).set([parameter])
+    reason = f": {result.reason}" if result.reason else ""
+    if result.successful:
+        print(f"Set parameter successful{reason}")
+    else:
+        print(f"Setting parameter failed{reason}", file=sys.stderr)

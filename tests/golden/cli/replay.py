@@ -1,0 +1,305 @@
+"""Replays the captured command lines against this implementation and compares what is not volatile.
+
+As a script: ``python tests/golden/cli/replay.py [first [last]]`` prints the differences and the count.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import difflib
+import os
+import pty
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[2]
+#: Exit codes that the real tool gives for a verb ended by Ctrl-C, depending on which thread is faster.
+INTERRUPTED = {0, 1, 2, 15, 124}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One captured command."""
+
+    name: str
+    command: str
+    exit_code: int
+    interrupt_after: float | None
+    stdout: str
+    stderr: str
+    cut_to: int | None
+
+    @property
+    def number(self) -> int:
+        return int(self.name[:3])
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a command did here."""
+
+    exit_code: int
+    stdout: str
+    stderr: str
+
+
+def load_cases() -> list[Case]:
+    return [_parse(path) for path in sorted(HERE.glob("[0-9]*.txt"))]
+
+
+def _parse(path: Path) -> Case:
+    raw = path.read_bytes()
+    header, _, rest = raw.partition(b"----- stdout -----\n")
+    fields = dict(re.findall(r"^# ([a-z ]+): (.*)$", header.decode(), re.MULTILINE))
+    # Paths and source lines in the captures were replaced, so the byte counts are not those of the files.
+    stdout, _, stderr = rest.partition(b"\n----- stderr -----\n")
+    ended = re.search(r"after ([0-9.]+) s", fields["ended"])
+    cut = re.search(r"cut to its first (\d+) lines", fields["note"])
+    return Case(
+        name=path.stem,
+        command=fields["command"],
+        exit_code=int(fields["exit code"]),
+        interrupt_after=float(ended.group(1)) if ended else None,
+        stdout=stdout.decode(),
+        stderr=stderr.removesuffix(b"\n----- end -----\n").decode(),
+        cut_to=int(cut.group(1)) if cut else None,
+    )
+
+
+def run(case: Case, timeout: float = 30.0) -> Result:
+    """Run the command as the capture did: no input, pipes, a process group of its own, Ctrl-C after the same time."""
+    env = os.environ | {"LANG": "C.UTF-8", "COLUMNS": "80", "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    env.pop("PYTHONDONTWRITEBYTECODE", None)
+    pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    process = subprocess.Popen(shlex.split(case.command), cwd=HERE / "inputs", env=env, start_new_session=True, **pipes)
+    try:
+        if case.interrupt_after is None:
+            stdout, stderr = process.communicate(timeout=timeout)
+        else:
+            try:
+                stdout, stderr = process.communicate(timeout=case.interrupt_after)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGINT)
+                stdout, stderr = process.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        stdout, stderr = process.communicate()
+        stderr += b"\nTIMEOUT"
+    return Result(process.returncode, stdout.decode(errors="replace"), stderr.decode(errors="replace"))
+
+
+def differences(case: Case, result: Result) -> list[str]:
+    """Lines that say how the result differs from the capture, when volatile parts are masked; empty when it agrees."""
+    found = []
+    interrupted = case.interrupt_after is not None or case.exit_code == 124
+    if result.exit_code != case.exit_code and not (interrupted and {case.exit_code, result.exit_code} <= INTERRUPTED):
+        found.append(f"exit code: captured {case.exit_code}, here {result.exit_code}")
+    for stream in ("stdout", "stderr"):
+        captured, here = getattr(case, stream), getattr(result, stream)
+        if stream == "stdout" and case.cut_to is not None and not _INSTALLED_PACKAGES.search(case.name):
+            here = "".join(here.splitlines(keepends=True)[: case.cut_to])
+        left, right = masked(case, captured), masked(case, here)
+        if _INSTALLED_PACKAGES.search(case.name):  # whichever are installed: those of the capture have to be among them
+            left = [line for line in left if "ros2cli_test_interfaces" not in line]
+            right = [line for line in right if line in left]
+        if left != right:
+            found += difflib.unified_diff(left, right, f"captured {stream}", f"here {stream}", lineterm="", n=1)
+    return found
+
+
+_MASKS = [
+    (r"\[\d{10}\.\d{9}\]", "[STAMP]"),
+    (r"\b(sec|nanosec)(: |=)\d+", r"\1\2N"),
+    (r"\bpid \[?\d+\]?", "pid N"),
+    (r"_ros2cli_(daemon_)?\d+(_[0-9a-f]+)?", "_ros2cli_N"),
+    (r"\S*/\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d-\d{6}-\S+", "LOGDIR"),
+    (r"/tmp/launch_params_\w+", "PARAMS"),
+    (r"GID: [0-9a-f.]+", "GID: N"),
+    (r"\b[0-9a-f]{32}\b", "ID"),
+    (r"object at 0x[0-9a-f]+", "object at 0xN"),
+    (r"searching: \[.*\]", "searching: [PATHS]"),
+    (r"(/home/user/ros2_ws/install/\w+|/opt/ros/jazzy)", "PREFIX"),
+    (r"\(choose from .*\)", "(choose from THESE)"),
+    (r", at /\S+/\w+\.c:\d+", ""),
+]
+# Values that depend on the moment: positions, rates, progress of actions, the order of log lines of several processes.
+_NUMBERS_VARY = re.compile(r"topic_(hz|bw|delay)|echo_pose|echo_csv|echo_cmd_vel|echo_continuous|send_goal|echo_field_list")
+_ORDER_VARIES = re.compile(r"info_v|launch|interface_package|rosargs_rclcpp|param_load")
+_INSTALLED_PACKAGES = re.compile(r"interface_list|interface_packages|pkg_list")
+_FLOAT = re.compile(r"-?\d+\.\d+(e-?\d+)?")
+
+
+def masked(case: Case, text: str) -> list[str]:
+    """The lines of a stream without what varies from run to run."""
+    text = _without_traceback(text)
+    for prefix in _prefixes():
+        text = text.replace(prefix, "PREFIX")
+    for pattern, replacement in _MASKS:
+        text = re.sub(pattern, replacement, text)
+    if _NUMBERS_VARY.search(case.name):
+        text = _FLOAT.sub("F", re.sub(r"(window: |from )\d+", r"\1N", text))
+    lines = [line for line in text.splitlines() if not line.startswith(("QStandardPaths", "Did you mean:"))]
+    if case.interrupt_after is not None:  # how often something happened until then
+        lines = sorted({re.sub(r"#\d+", "#N", line) for line in lines})
+    return sorted(lines) if _ORDER_VARIES.search(case.name) else lines
+
+
+def _without_traceback(text: str) -> str:
+    """Of a Python traceback, only the exception."""
+    kept, inside = [], False
+    for line in text.splitlines(keepends=True):
+        if line.startswith("Traceback (most recent call last)"):
+            inside = True
+        elif inside and line.startswith("  "):
+            continue
+        else:
+            inside = False
+            kept.append(line)
+    return "".join(kept)
+
+
+def _prefixes() -> list[str]:
+    return [os.environ.get("AMENT_PREFIX_PATH", "PREFIX"), str(Path(sys.prefix)), str(ROOT)]
+
+
+@contextlib.contextmanager
+def terminal_process(command: list[str]) -> Iterator[None]:
+    """A process with a terminal of its own, as turtle_teleop_key needs one."""
+    controller, terminal = pty.openpty()
+    process = subprocess.Popen(command, stdin=terminal, stdout=terminal, stderr=terminal, start_new_session=True)
+    os.close(terminal)
+    try:
+        yield
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(10)
+        os.close(controller)
+
+
+@contextlib.contextmanager
+def process(command: list[str]) -> Iterator[None]:
+    """A process that runs meanwhile and is ended by Ctrl-C."""
+    running = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    try:
+        yield
+    finally:
+        os.killpg(running.pid, signal.SIGINT)
+        try:
+            running.wait(15)
+        except subprocess.TimeoutExpired:
+            os.killpg(running.pid, signal.SIGKILL)
+            running.wait()
+
+
+def _ros2(*words: str) -> list[str]:
+    return [str(Path(sys.executable).parent / "ros2"), *words]
+
+
+def _wait_for_nodes(*names: str) -> None:
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline:
+        listed = subprocess.run(_ros2("node", "list"), capture_output=True, text=True, check=True).stdout.split()
+        if set(names) <= set(listed):
+            return
+    raise AssertionError(f"{names} did not all appear; there are {listed}")
+
+
+@contextlib.contextmanager
+def workspace() -> Iterator[None]:
+    """The tutorial's package as it is printed, laid out as colcon lays it out, and sourced."""
+    verbatim = ROOT / "tests/tutorial/verbatim/learning_tf2_py"
+    static = ROOT / "ros2_ws/src/learning_tf2_py/learning_tf2_py/static_turtle_tf2_broadcaster.py"
+    with tempfile.TemporaryDirectory() as folder:
+        prefix = Path(folder, "install", "learning_tf2_py")
+        shutil.copytree(verbatim / "launch", prefix / "share/learning_tf2_py/launch")
+        marker = prefix / "share/ament_index/resource_index/packages/learning_tf2_py"
+        library = prefix / "lib/learning_tf2_py"
+        for made in (marker.parent, library):
+            made.mkdir(parents=True)
+        marker.touch()
+        for module in (*(verbatim / "learning_tf2_py").glob("turtle_*.py"), static):
+            script = library / module.stem
+            script.write_text(f"#!/usr/bin/env python3\n{module.read_text(encoding='utf-8')}", encoding="utf-8")
+            script.chmod(0o755)
+        sourced = {"AMENT_PREFIX_PATH": str(prefix), "TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
+        before = dict(os.environ)
+        os.environ.update(sourced)
+        try:
+            yield
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
+
+
+@contextlib.contextmanager
+def surroundings(number: int) -> Iterator[None]:
+    """What was running when a case was captured."""
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(workspace())
+        if 174 <= number <= 326 or 333 <= number <= 344:
+            stack.enter_context(process(_ros2("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")))
+            _wait_for_nodes("/sim", "/broadcaster1", "/broadcaster2", "/listener")
+        if 174 <= number <= 326:
+            static = ("static_turtle_tf2_broadcaster", "mystaticturtle", "0", "0", "1", "0", "0", "0")
+            stack.enter_context(process(_ros2("run", "learning_tf2_py", *static)))
+            stack.enter_context(terminal_process(_ros2("run", "turtlesim", "turtle_teleop_key")))
+            spawn = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
+            subprocess.run(_ros2("service", "call", "/spawn", "turtlesim/srv/Spawn", spawn), check=True, stdout=subprocess.DEVNULL)
+            _wait_for_nodes("/static_turtle_tf2_broadcaster", "/teleop_turtle")
+        if 339 <= number <= 340:
+            stack.enter_context(process(_ros2("run", "turtlesim", "turtlesim_node", "--ros-args", "-r", "__node:=sim")))
+            time.sleep(3)
+        if 341 <= number <= 344:
+            remaps = ["-r", "__node:=sim2", "-r", "__ns:=/robot1", "-r", "turtle1/cmd_vel:=cmd"]
+            stack.enter_context(process(_ros2("run", "turtlesim", "turtlesim_node", "--ros-args", *remaps)))
+            _wait_for_nodes("/robot1/sim2")
+        if number >= 345:
+            stack.enter_context(process([sys.executable, str(HERE / "wire_talker.py")]))
+            _wait_for_nodes("/wire_talker")
+        yield
+
+
+def blocks(cases: list[Case]) -> list[list[Case]]:
+    """Cases that share their surroundings, in order."""
+    bounds = [0, 174, 327, 333, 339, 341, 345, 1000]
+    return [[case for case in cases if low <= case.number < high] for low, high in zip(bounds, bounds[1:], strict=False)]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("first", type=int, nargs="?", default=0)
+    parser.add_argument("last", type=int, nargs="?")
+    args = parser.parse_args()
+    last = args.last if args.last is not None else (args.first or 999)
+    cases = [case for case in load_cases() if args.first <= case.number <= last]
+    agreed = 0
+    for block in blocks(cases):
+        if not block:
+            continue
+        with surroundings(block[0].number):
+            for case in block:
+                found = differences(case, run(case))
+                agreed += not found
+                if found:
+                    print(f"=== {case.name}: {case.command}", *found, sep="\n", flush=True)
+    print(f"{agreed} of {len(cases)} agree")
+
+
+if __name__ == "__main__":
+    main()
