@@ -47,17 +47,18 @@ _global_executor: Executor | None = None
 class InitContextManager:
     """What :func:`init` returns: ``with rclpy.init(): …`` shuts the context down at the end of the block."""
 
-    def __init__(self, context: Context, uninstall_handlers: bool) -> None:
+    def __init__(self, context: Context) -> None:
         self.context = context
-        self._uninstall_handlers = uninstall_handlers
 
     def __enter__(self) -> Context:
         return self.context
 
     def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
-        self.context.try_shutdown()
-        if self._uninstall_handlers:
+        if self.context is get_default_context():
+            try_shutdown()
             uninstall_signal_handlers()
+        else:
+            self.context.try_shutdown()
 
 
 def init(
@@ -89,7 +90,7 @@ def init(
         signal_handler_options = SignalHandlerOptions.ALL if is_default else SignalHandlerOptions.NO
     context.init(args, domain_id=domain_id)
     install_signal_handlers(signal_handler_options)
-    return InitContextManager(context, is_default)
+    return InitContextManager(context)
 
 
 def get_global_executor() -> Executor:
@@ -97,10 +98,11 @@ def get_global_executor() -> Executor:
     global _global_executor  # noqa: PLW0603 - there is one for the process
     from .executors import SingleThreadedExecutor
 
-    if _global_executor is None:
-        _global_executor = SingleThreadedExecutor()
+    executor = _global_executor
+    if executor is None:
+        executor = _global_executor = SingleThreadedExecutor()
         get_default_context().on_shutdown(_forget_global_executor)
-    return _global_executor
+    return executor
 
 
 def _forget_global_executor() -> None:
@@ -192,6 +194,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     try:
         while executor.context.ok():
             executor.spin_once()
+        executor._after_spin()
     finally:
         if added:
             executor.remove_node(node)

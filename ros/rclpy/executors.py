@@ -201,12 +201,18 @@ class Executor:
         """Run callbacks until the executor or its context is shut down.
 
         Raises:
-            ExternalShutdownException: The context was shut down while it waited.
+            ExternalShutdownException: The context was shut down by a signal, or by another thread while it waited.
             KeyboardInterrupt: Ctrl-C, in the main thread.
             Exception: What a callback raised.
         """
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
+        self._after_spin()
+
+    def _after_spin(self) -> None:
+        """A signal between two waits leaves ``spin`` as one during a wait does."""
+        if self._context.ended_by_signal:
+            raise ExternalShutdownException
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for one callback and run it.
@@ -504,6 +510,9 @@ class MultiThreadedExecutor(Executor):
             super()._spin_once(timeout_sec, condition)
         except ExternalShutdownException:
             return
+
+    def _after_spin(self) -> None:
+        """Nothing: a pool's ``spin`` just returns."""
 
     def _check_alive(self) -> None:
         while self._failures:

@@ -17,6 +17,8 @@ import weakref
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from . import excepthooks
+
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -84,6 +86,7 @@ class _Watcher:
                 if not byte & _FROM_HANDLER:
                     self._forward(byte)
                 if byte & ~_FROM_HANDLER in self._previous:
+                    excepthooks.note_signal()
                     for listener in list(listeners):
                         listener.on_signal(byte & ~_FROM_HANDLER)
 
@@ -97,6 +100,7 @@ class _Watcher:
 
     def _handle(self, signum: int, frame: FrameType | None) -> None:
         """Run by the interpreter in the main thread, after its C handler has written to the pipe."""
+        excepthooks.note_signal()  # the thread may be slower
         if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
@@ -135,6 +139,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
         if _watcher is not None or options == SignalHandlerOptions.NO or threading.current_thread() is not threading.main_thread():
             return
         signals = [signum for signum in (signal.SIGINT, signal.SIGTERM) if options & SignalHandlerOptions[signum.name]]
+        excepthooks.install()
         _watcher = _Watcher(signals)
         _options = SignalHandlerOptions(options)
 
@@ -149,13 +154,27 @@ def uninstall_signal_handlers() -> None:
     watcher.close()
 
 
+_mask_before_fork: set[signal.Signals] = set()
+
+
+def _before_fork() -> None:
+    """Hold signals back: one to the child must not come through the pipe that it has in common with its parent."""
+    global _mask_before_fork  # noqa: PLW0603 - as above
+    _mask_before_fork = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+
+
+def _after_fork_in_parent() -> None:
+    signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
+
+
 def _after_fork_in_child() -> None:
     global _watcher, _options  # noqa: PLW0603 - as above
     watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
     if watcher is not None:
         watcher.forget()
+    signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
 
 
 atexit.register(uninstall_signal_handlers)
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_after_fork_in_child)
+    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork_in_parent, after_in_child=_after_fork_in_child)

@@ -50,35 +50,39 @@ def _is_served_by(client: Client, entities: set[Entity]) -> bool:
 def _wait_for_other_thread(future: Future, client: Client, executor: Executor | None, deadline: float | None) -> None:
     done = threading.Event()
     future._add_waiter(done.set)
-    context = client._context
-    context._waits.add(done)
-    if executor is not None:
-        executor._blocked_waits.add(done)
+    waits = [client._context._waits] + ([] if executor is None else [executor._blocked_waits])
+    for wait in waits:
+        wait.add(done)
+
+    def is_over() -> bool:
+        ended = not client._context.ok() or (executor is not None and executor._is_shutdown)
+        return future.done() or ended or (deadline is not None and time.monotonic() >= deadline)
+
     try:
-        if not _wait(done, deadline, _PATIENCE_S) and (executor is None or executor._spinning_thread is None):
-            client._logger.warning(
-                f"Waiting for a response of service '{client._wire.service}', but nobody spins the node that calls it: "
-                "spin it in another thread, or use call_async() and spin_until_future_complete()"
-            )
-        while not future.done() and context.ok() and not (executor is not None and executor._is_shutdown) and not _is_over(deadline):
+        patience: float | None = _PATIENCE_S
+        while not is_over():
             done.clear()
-            if not future.done():
-                _wait(done, deadline)
+            if not is_over() and not _wait(done, deadline, patience) and patience is not None:
+                patience = None
+                if not is_over() and (executor is None or executor._spinning_thread is None):
+                    _warn_of_idle_executor(client)
     finally:
-        context._waits.discard(done)
-        if executor is not None:
-            executor._blocked_waits.discard(done)
+        for wait in waits:
+            wait.discard(done)
     if not future.done():
         _raise_if_ended(client, executor)
 
 
-def _wait(done: threading.Event, deadline: float | None, at_most: float | None = None) -> bool:
+def _warn_of_idle_executor(client: Client) -> None:
+    client._logger.warning(
+        f"Waiting for a response of service '{client._wire.service}', but nobody spins the node that calls it: "
+        "spin it in another thread, or use call_async() and spin_until_future_complete()"
+    )
+
+
+def _wait(done: threading.Event, deadline: float | None, at_most: float | None) -> bool:
     remaining = None if deadline is None else max(0.0, deadline - time.monotonic())
-    return done.wait(at_most if remaining is None else min(remaining, at_most or remaining))
-
-
-def _is_over(deadline: float | None) -> bool:
-    return deadline is not None and time.monotonic() >= deadline
+    return done.wait(at_most if remaining is None else min(remaining, remaining if at_most is None else at_most))
 
 
 def _raise_if_ended(client: Client, executor: Executor | None) -> None:

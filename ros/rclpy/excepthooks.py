@@ -1,0 +1,47 @@
+"""Ctrl-C ends a program without a traceback when the program does not catch ``KeyboardInterrupt``.
+
+Nobody asked where the program was when it was told to end. The exit status stays that of an interrupted program. The same goes for
+threads that spin: ``ExternalShutdownException`` is how they learn of the signal, not a fault.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+__all__ = ["install", "note_signal"]
+
+_previous_hook = sys.excepthook
+_previous_thread_hook = threading.excepthook
+_signal_came = False
+
+
+def install() -> None:
+    """Put the hooks before those that are in place. Idempotent."""
+    global _previous_hook, _previous_thread_hook  # noqa: PLW0603 - hooks belong to the process
+    if sys.excepthook is not _hook:
+        _previous_hook, sys.excepthook = sys.excepthook, _hook
+    if threading.excepthook is not _thread_hook:
+        _previous_thread_hook, threading.excepthook = threading.excepthook, _thread_hook
+
+
+def note_signal() -> None:
+    """A signal has come that shuts contexts down: what follows from it is no fault of the program."""
+    global _signal_came  # noqa: PLW0603 - as above
+    _signal_came = True
+
+
+def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
+    if not (_signal_came and issubclass(kind, KeyboardInterrupt)):
+        _previous_hook(kind, value, traceback)
+
+
+def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
+    from .executors import ExternalShutdownException
+
+    if not (_signal_came and issubclass(arguments.exc_type, ExternalShutdownException)):
+        _previous_thread_hook(arguments)

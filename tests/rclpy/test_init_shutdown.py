@@ -1,0 +1,234 @@
+"""init, ok, shutdown and contexts."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+
+import pytest
+import rclpy
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
+from rclpy.node import Node
+from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to_nsec
+
+
+@pytest.fixture(autouse=True)
+def _local(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    yield
+    rclpy.try_shutdown()
+
+
+def test_init_and_shutdown_can_be_repeated():
+    for _ in range(3):
+        assert not rclpy.ok()
+        rclpy.init(args=[])
+        assert rclpy.ok()
+        rclpy.shutdown()
+        assert not rclpy.ok()
+
+
+def test_init_twice_raises():
+    rclpy.init(args=[])
+    with pytest.raises(RuntimeError, match=r"^Context.init\(\) must only be called once$"):
+        rclpy.init(args=[])
+
+
+def test_shutdown_twice_raises_and_try_shutdown_does_not():
+    rclpy.init(args=[])
+    rclpy.shutdown()
+    with pytest.raises(RuntimeError):
+        rclpy.shutdown()
+    rclpy.try_shutdown()
+
+
+def test_a_context_is_shut_down_once():
+    context = Context()
+    with pytest.raises(RuntimeError, match="Context must be initialized before it can be shutdown"):
+        context.shutdown()
+    context.try_shutdown()
+    context.init(args=[])
+    context.shutdown()
+    text = r"^failed to shutdown: rcl_shutdown already called on the given context, at ./src/rcl/init.c:333$"
+    with pytest.raises(RCLError, match=text):
+        context.shutdown()
+    context.try_shutdown()
+    with pytest.raises(RuntimeError, match="must only be called once"):
+        context.init(args=[])
+
+
+def test_with_statement():
+    with rclpy.init(args=[]) as context:
+        assert context is get_default_context()
+        assert rclpy.ok()
+    assert not rclpy.ok()
+    with rclpy.init(args=[]):
+        rclpy.shutdown()
+    with Context() as context:
+        context.init(args=[])
+        assert context.ok()
+    assert not context.ok()
+
+
+def test_a_node_needs_init():
+    text = "^rclpy.init\\(\\) has not been called. msg:cannot create node$"
+    with pytest.raises(NotInitializedException, match=text):
+        Node("early")
+    rclpy.init(args=[])
+    context = get_default_context()
+    rclpy.shutdown()
+    with pytest.raises(NotInitializedException, match=text):
+        Node("late", context=context)
+
+
+def test_domain_ids(monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "17")
+    for asked, expected in ((None, 17), (4, 4)):
+        with Context() as context:
+            context.init(args=[], domain_id=asked)
+            assert context.get_domain_id() == expected
+    with pytest.raises(RuntimeError, match="^Domain id \\(-1\\) should not be lower than zero.$"):
+        Context().init(args=[], domain_id=-1)
+
+
+def test_arguments_that_are_wrong_leave_the_context_uninitialized():
+    with pytest.raises(RuntimeError):
+        rclpy.init(args=["program", "--ros-args", "-r", "nonsense"])
+    assert not rclpy.ok()
+    rclpy.init(args=[])
+
+
+class Told:
+    def __init__(self):
+        self.times = 0
+
+    def tell(self):
+        self.times += 1
+
+
+def test_shutdown_callbacks():
+    calls = []
+    told, forgotten = Told(), Told()
+    context = Context()
+    context.init(args=[])
+    context.on_shutdown(told.tell)
+    context.on_shutdown(forgotten.tell)
+    context.on_shutdown(lambda: calls.append(context.ok()))
+    del forgotten
+    context.shutdown()
+    assert told.times == 1
+    assert calls == [False]
+    context.on_shutdown(told.tell)
+    assert told.times == 2
+    with pytest.raises(TypeError):
+        context.on_shutdown(3)
+
+
+def test_shutdown_ends_a_wait_for_the_graph():
+    rclpy.init(args=[])
+    node = Node("waiting")
+    ending = threading.Timer(0.05, rclpy.shutdown)
+    ending.start()
+    assert not node.wait_for_node("/nobody", -1)
+    ending.join()
+    assert not rclpy.ok()
+
+
+def test_the_global_executor_belongs_to_the_default_context():
+    rclpy.init(args=[])
+    first = rclpy.get_global_executor()
+    assert rclpy.get_global_executor() is first
+    rclpy.shutdown()
+    rclpy.init(args=[])
+    second = rclpy.get_global_executor()
+    assert second is not first
+    assert second.context is get_default_context()
+
+
+def test_spin_returns_when_another_thread_shuts_down():
+    rclpy.init(args=[])
+    node = rclpy.create_node("spinning")
+    ending = threading.Timer(0.05, rclpy.shutdown)
+    ending.start()
+    rclpy.spin(node)
+    ending.join()
+    node.destroy_node()
+
+
+def test_spin_once_and_spin_until_future_complete():
+    rclpy.init(args=[])
+    node = rclpy.create_node("spinning")
+    future = rclpy.task.Future()
+    node.create_guard_condition(lambda: future.set_result(5)).trigger()
+    rclpy.spin_once(node, timeout_sec=10)
+    assert future.result() == 5
+    assert node.executor is None
+    rclpy.spin_until_future_complete(node, future, timeout_sec=10)
+
+
+def test_a_spin_within_a_callback_leaves_the_node_where_it_was():
+    rclpy.init(args=[])
+    node = rclpy.create_node("spinning")
+    calls = []
+
+    def inner():
+        rclpy.spin_once(node, timeout_sec=0)
+        calls.append("inner")
+        node.create_guard_condition(lambda: (calls.append("outer"), rclpy.shutdown())).trigger()
+
+    node.create_guard_condition(inner).trigger()
+    rclpy.spin(node)
+    assert calls == ["inner", "outer"]
+
+
+def test_destroying_after_shutdown_is_fine():
+    rclpy.init(args=[])
+    node = Node("late")
+    publisher = node.create_publisher(_int32(), "topic", 1)
+    node.create_timer(1.0, None)
+    rclpy.shutdown()
+    node.get_logger().info("last words")
+    with pytest.raises(RCLError, match="publisher's context is invalid"):
+        publisher.publish(b"\x00\x01\x00\x00\x00\x00\x00\x00")
+    node.destroy_node()
+    node.destroy_node()
+
+
+def _int32():
+    from std_msgs.msg import Int32
+
+    return Int32
+
+
+def test_every_module_is_an_attribute_of_the_package():
+    names = "time duration clock qos executors logging parameter callback_groups action node task timer exceptions"
+    lines = [f"assert rclpy.{name}.__name__ == 'rclpy.{name}'" for name in names.split()]
+    program = "\n".join(["import rclpy", *lines, "print(rclpy.time.Time().nanoseconds)"])
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == "0\n"
+    with pytest.raises(AttributeError, match="module 'rclpy' has no attribute 'no_such_module'"):
+        _ = rclpy.no_such_module
+
+
+def test_the_import_and_a_node_load_nothing_heavy():
+    program = """
+import rclpy, sys
+from rclpy.node import Node
+rclpy.init()
+node = Node("light")
+heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasses", "subprocess", "uuid", "http", "yaml"}
+print(sorted(heavy & set(sys.modules)))
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+def test_helpers():
+    assert timeout_sec_to_nsec(None) == -1
+    assert timeout_sec_to_nsec(-0.5) == -1
+    assert timeout_sec_to_nsec(0) == 0
+    assert timeout_sec_to_nsec(1.5) == 1_500_000_000
+    assert remove_ros_args(["program", "a", "--ros-args", "-r", "x:=y", "--", "b"]) == ["program", "a", "b"]
+    assert rclpy.utilities.get_rmw_implementation_identifier() == "local"
+    assert "rmw_cyclonedds_cpp" in rclpy.utilities.get_available_rmw_implementations()

@@ -1,0 +1,274 @@
+"""Ctrl-C and SIGTERM, in processes of their own."""
+
+from __future__ import annotations
+
+import signal
+import time
+
+import pytest
+
+TUTORIAL_MAIN = """
+import rclpy
+from rclpy.node import Node
+
+def main():
+    rclpy.init()
+    node = Node("tested")
+    node.create_guard_condition(lambda: print("up")).trigger()
+    node.create_timer(0.01, lambda: None)
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        print("interrupted")
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+    print("end")
+
+main()
+"""
+
+MODES = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+
+
+@pytest.fixture
+def start(program, monkeypatch):
+    def start(source, middleware="local"):
+        monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+        started = program(source)
+        assert started.read_line() == "up"
+        return started
+
+    return start
+
+
+@MODES
+@pytest.mark.parametrize("times", [1, 2, 5])
+def test_ctrl_c_ends_the_tutorials_main_cleanly(start, middleware, times):
+    """A terminal and `ros2 launch` both send SIGINT, so several come at once."""
+    program = start(TUTORIAL_MAIN, middleware)
+    begin = time.monotonic()
+    for _ in range(times):
+        program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "interrupted\nend\n", "")
+    assert time.monotonic() - begin < 5
+
+
+@MODES
+def test_sigterm_leaves_spin_as_an_external_shutdown(start, middleware):
+    program = start(
+        """
+        import rclpy
+        from rclpy.executors import ExternalShutdownException
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        node.create_guard_condition(lambda: print("up")).trigger()
+        try:
+            rclpy.spin(node)
+        except ExternalShutdownException:
+            print("shut down", rclpy.ok())
+        rclpy.try_shutdown()
+        """,
+        middleware,
+    )
+    program.send_signal(signal.SIGTERM)
+    assert program.finish() == (0, "shut down False\n", "")
+
+
+def test_sigterm_that_is_not_caught_ends_the_process_with_a_traceback(start):
+    program = start("import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')\nrclpy.spin(node)")
+    program.send_signal(signal.SIGTERM)
+    status, _, errors = program.finish()
+    assert status == 1
+    assert errors.splitlines()[-1].startswith("rclpy.executors.ExternalShutdownException")
+
+
+def test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises(start):
+    program = start("""
+        import rclpy
+        rclpy.init()
+        context = rclpy.get_default_context()
+        node = rclpy.create_node("tested")
+        context.on_shutdown(lambda: print("told"))
+        node.create_guard_condition(lambda: print("up")).trigger()
+        try:
+            rclpy.spin(node)
+        except rclpy.executors.ExternalShutdownException:
+            pass
+        rclpy.shutdown()
+        for again in (rclpy.shutdown, context.shutdown):
+            try:
+                again()
+            except RuntimeError as error:
+                print(type(error).__name__)
+        rclpy.init()
+        print(rclpy.ok())
+        """)
+    program.send_signal(signal.SIGTERM)
+    assert program.finish() == (0, "told\nRuntimeError\nRCLError\nTrue\n", "")
+
+
+def test_ctrl_c_reaches_executors_of_other_threads(start):
+    program = start("""
+        import threading, rclpy
+        from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        executor = MultiThreadedExecutor(2)
+        executor.add_node(node)
+        ended = threading.Event()
+        threading.Thread(target=lambda: (executor.spin(), ended.set())).start()
+        try:
+            print("up")
+            ended.wait()
+        except KeyboardInterrupt:
+            print(ended.wait(10), rclpy.ok())
+        node.destroy_node()
+        rclpy.shutdown()
+        """)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "True False\n", "")
+
+
+def test_ctrl_c_in_the_middle_of_a_callback(start):
+    program = start("""
+        import threading, rclpy
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        def work():
+            print("up")
+            threading.Event().wait()
+        node.create_timer(0.01, work)
+        try:
+            rclpy.spin(node)
+        except KeyboardInterrupt:
+            print("interrupted")
+        node.destroy_node()
+        rclpy.shutdown()
+        """)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "interrupted\n", "")
+
+
+@pytest.mark.parametrize("waiting", ["client.wait_for_service()", "node.wait_for_node('/nobody', -1)", "client.call(Trigger.Request())"])
+def test_signals_end_waits_that_are_no_spin(start, waiting):
+    source = f"""
+        import rclpy
+        from std_srvs.srv import Trigger
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        client = node.create_client(Trigger, "nobody")
+        try:
+            print("up")
+            print({waiting})
+        except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException) as error:
+            print(type(error).__name__)
+        rclpy.try_shutdown()
+        """
+    program = start(source)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "KeyboardInterrupt\n", "")
+    program = start(source)
+    program.send_signal(signal.SIGTERM)
+    assert program.finish() == (0, "ExternalShutdownException\n" if "call(" in waiting else "False\n", "")
+
+
+def test_ctrl_c_that_is_not_caught_ends_without_a_traceback(start):
+    program = start("""
+        import threading, rclpy
+        rclpy.init()
+        node, other = rclpy.create_node("tested"), rclpy.create_node("other")
+        executor = rclpy.executors.SingleThreadedExecutor()
+        executor.add_node(other)
+        threading.Thread(target=executor.spin).start()
+        node.create_guard_condition(lambda: print("up")).trigger()
+        rclpy.spin(node)
+        """)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (-signal.SIGINT, "", "")
+
+
+def test_other_errors_keep_their_traceback(program):
+    status, _, errors = program("import rclpy\nrclpy.init()\nraise LookupError('wrong')").finish()
+    assert status == 1
+    assert errors.splitlines()[-1] == "LookupError: wrong"
+
+
+def test_a_handler_of_the_program_runs_as_well(start):
+    program = start("""
+        import signal, rclpy
+        signal.signal(signal.SIGINT, lambda *_: print("mine"))
+        signal.signal(signal.SIGTERM, lambda *_: print("mine too"))
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        node.create_guard_condition(lambda: print("up")).trigger()
+        try:
+            rclpy.spin(node)
+        except rclpy.executors.ExternalShutdownException:
+            print("shut down")
+        rclpy.shutdown()
+        print(signal.getsignal(signal.SIGTERM)(15, None))
+        """)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "mine\nshut down\nmine too\nNone\n", "")
+
+
+def test_signal_options(program):
+    source = """
+        import signal, rclpy
+        from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+        before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+        for options in SignalHandlerOptions:
+            rclpy.init(signal_handler_options=options)
+            now = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+            print(get_current_signal_handlers_options().name, [a is not b for a, b in zip(before, now)])
+            rclpy.shutdown()
+        print([signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before)
+        context = rclpy.Context() if hasattr(rclpy, "Context") else rclpy.context.Context()
+        rclpy.init(context=context)
+        print(get_current_signal_handlers_options().name)
+        rclpy.shutdown(context=context)
+        """
+    expected = "NO [False, False]\nSIGINT [True, False]\nSIGTERM [False, True]\nALL [True, True]\nTrue\nNO\n"
+    assert program(source).finish() == (0, expected, "")
+
+
+def test_who_watched_signals_before_still_hears_of_them(start):
+    program = start("""
+        import os, signal, rclpy
+        read_end, write_end = os.pipe()
+        os.set_blocking(write_end, False)
+        signal.set_wakeup_fd(write_end)
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        node.create_guard_condition(lambda: print("up")).trigger()
+        try:
+            rclpy.spin(node)
+        except KeyboardInterrupt:
+            pass
+        print(list(os.read(read_end, 8)) == [signal.SIGINT])
+        rclpy.shutdown()
+        print(signal.set_wakeup_fd(-1) == write_end)
+        """)
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (0, "True\nTrue\n", "")
+
+
+def test_a_forked_child_does_not_shut_its_parent_down(start):
+    program = start("""
+        import os, signal, time, rclpy
+        rclpy.init()
+        child = os.fork()
+        if child == 0:
+            time.sleep(60)
+        os.kill(child, signal.SIGTERM)
+        print("up")
+        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == -signal.SIGTERM, rclpy.ok())
+        rclpy.shutdown()
+        """)
+    assert program.finish() == (0, "True True\n", "")
+
+
+def test_a_program_that_never_shuts_down_ends(start):
+    program = start("import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')", "rmw_cyclonedds_cpp")
+    assert program.finish() == (0, "", "")
