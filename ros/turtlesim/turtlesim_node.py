@@ -120,7 +120,7 @@ class TurtlesimNode(Node):
         if publisher is not None:
             self.destroy_publisher(publisher)
 
-    def _spawn(self, x: float, y: float, theta: float, name: str) -> str:
+    def spawn(self, x: float, y: float, theta: float, name: str) -> str:
         """Add a turtle; its name, or an empty text after an error was logged."""
         if not are_finite(x, y, theta):
             self.get_logger().error(f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}")
@@ -171,7 +171,7 @@ class TurtlesimNode(Node):
         return response
 
     def _on_spawn(self, request: Any, response: Any) -> Any:
-        response.name = self._spawn(request.x, request.y, request.theta, request.name)
+        response.name = self.spawn(request.x, request.y, request.theta, request.name)
         return response
 
     def _on_kill(self, request: Any, response: Any) -> Any:
@@ -234,7 +234,7 @@ class TurtlesimNode(Node):
     _page_actions: ClassVar[dict[type, Callable[[TurtlesimNode, Any], object]]] = {
         page_commands.Drive: _drive_from_page,
         page_commands.Teleport: _teleport_from_page,
-        page_commands.Spawn: lambda self, command: self._spawn(*command),
+        page_commands.Spawn: lambda self, command: self.spawn(*command),
         page_commands.Kill: lambda self, command: self._kill(command.turtle),
         page_commands.Clear: lambda self, _: self._clear(),
         page_commands.Reset: lambda self, _: self._reset(),

@@ -1,0 +1,18 @@
+"""Testing what drives turtles: a simulator and the nodes under test in one process, in lock-step with simulated time.
+
+::
+
+    with Simulation() as simulation:
+        simulation.spawn("turtle2", x=4.0, y=2.0)
+        simulation.add(MyFollower())
+        simulation.drive("turtle1", linear=2.0, angular=1.0)
+        assert simulation.run_until(lambda: simulation.distance("turtle1", "turtle2") < 0.5, within=10.0)
+
+For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py`` gives a fixture ``simulation``.
+"""
+
+from __future__ import annotations
+
+from turtlesim.testing.simulation import Simulation
+
+__all__ = ["Simulation"]

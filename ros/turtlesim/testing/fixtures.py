@@ -1,0 +1,21 @@
+"""The pytest fixture; name this module in ``pytest_plugins``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from turtlesim.testing.simulation import Simulation
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["simulation"]
+
+
+@pytest.fixture
+def simulation() -> Iterator[Simulation]:
+    """A fresh simulation with turtle1 in the middle; ends with the test."""
+    with Simulation() as fresh:
+        yield fresh
