@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
+import itertools
+import math
 import sys
 from collections import deque
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -9,9 +12,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
+from rclpy.clock_type import ClockType
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.utilities import remove_ros_args
+from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 from turtlesim import page_commands
 from turtlesim.missing_turtles import MissingTurtles
@@ -33,17 +39,19 @@ _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
 
 
 class TurtlesimNode(Node):
-    """One simulator: it moves its turtles every 16 ms.
+    """One simulator: it moves its turtles every 16 ms, of its own clock or of ``/clock`` when ``use_sim_time`` is true.
 
     Args:
         headless: Whether to do without the page.
+        speed: How many times faster than real time to run; the simulator then publishes ``/clock`` itself, one tick after the other.
+            None runs in real time, and leaves ``/clock`` to others.
         options: Given on to :class:`rclpy.node.Node`.
 
     Attributes:
         world: The model.
     """
 
-    def __init__(self, *, headless: bool = False, **options: Any) -> None:
+    def __init__(self, *, headless: bool = False, speed: float | None = None, **options: Any) -> None:
         super().__init__("turtlesim", **options)
         self._declare_parameters()
         self.world = World()
@@ -63,7 +71,10 @@ class TurtlesimNode(Node):
         self.add_post_set_parameters_callback(lambda _: self._show_scene())
         if not headless:
             self._open_screen()
-        self.create_timer(TICK_NS / 1e9, self._on_tick)
+        if speed is None:
+            self.create_timer(TICK_NS / 1e9, lambda: self._tick(self.get_clock().now().nanoseconds))
+        else:
+            self._make_time(speed)
 
     def destroy_node(self) -> None:
         """Leave the graph, and stop serving the page."""
@@ -83,11 +94,25 @@ class TurtlesimNode(Node):
 
     # Time
 
-    def _on_tick(self) -> None:
+    def _make_time(self, speed: float) -> None:
+        """Tick ``speed`` times faster than real time, and tell everybody what time it is."""
+        publisher = self.create_publisher(Clock, "/clock", 1)
+        message = Clock()
+        ticks = itertools.count(1)
+
+        def tick() -> None:
+            now_ns = next(ticks) * TICK_NS
+            message.clock.sec, message.clock.nanosec = divmod(now_ns, 1_000_000_000)
+            publisher.publish(message)
+            self._tick(now_ns)
+
+        self.create_timer(TICK_NS / 1e9 / speed, tick, clock=rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME))
+
+    def _tick(self, now_ns: int) -> None:
         for _ in range(len(self._page_commands)):
             command = self._page_commands.popleft()
             self._page_actions[type(command)](self, command)
-        ticks = self.world.step(self.get_clock().now().nanoseconds)
+        ticks = self.world.step(now_ns)
         for tick in ticks:
             if tick.clamped_from is not None:
                 x, y_down = tick.clamped_from
@@ -242,15 +267,36 @@ class TurtlesimNode(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the simulator until Ctrl-C. ``--headless`` does without the page."""
+    """Run the simulator until Ctrl-C."""
+    options = _parse_options(sys.argv if args is None else args)
     rclpy.init(args=args)
     try:
-        with TurtlesimNode(headless="--headless" in (sys.argv if args is None else args)) as node:
+        with TurtlesimNode(headless=options.headless, speed=options.speed) as node:
             rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         rclpy.try_shutdown()
+
+
+def _parse_options(args: list[str]) -> argparse.Namespace:
+    """What is left of the command line without ``--ros-args``; foreign arguments are left alone, as in the original."""
+    parser = argparse.ArgumentParser(prog="turtlesim_node", description="Turtles on a field, shown in the browser.")
+    parser.add_argument("--headless", action="store_true", help="serve no page")
+    parser.add_argument(
+        "--speed", type=_factor, metavar="N", help="run N times faster than real time and publish /clock; for nodes with use_sim_time"
+    )
+    return parser.parse_known_args(remove_ros_args(args)[1:])[0]
+
+
+def _factor(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"expected a number greater than 0, got {text!r}")
+    return value
 
 
 if __name__ == "__main__":
