@@ -1,0 +1,135 @@
+"""Messages of geometry_msgs in another frame, as ROS 2's package of this name, and what only its C++ side had.
+
+Importing it makes ``tf2_ros.Buffer.transform`` take these stamped types: points, vectors, quaternions, poses, arrays of poses, paths,
+poses with covariance, twists (with covariance), velocities, wrenches, polygons and transforms.
+
+The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they, and NumPy, are loaded when they are first used.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from tf2_geometry_msgs.poses import (
+    do_transform_path,
+    do_transform_pose,
+    do_transform_pose_array,
+    do_transform_pose_stamped,
+    do_transform_pose_with_covariance,
+    do_transform_pose_with_covariance_stamped,
+    do_transform_transform,
+    do_transform_transform_stamped,
+    transform_covariance,
+)
+from tf2_geometry_msgs.registration import from_msg_msg, register, to_msg_msg
+from tf2_geometry_msgs.twists import (
+    do_transform_twist,
+    do_transform_twist_stamped,
+    do_transform_twist_with_covariance,
+    do_transform_twist_with_covariance_stamped,
+    do_transform_velocity_stamped,
+    do_transform_wrench,
+    do_transform_wrench_stamped,
+    transform_twist_covariance,
+)
+from tf2_geometry_msgs.vectors import (
+    do_transform_point,
+    do_transform_point32,
+    do_transform_polygon,
+    do_transform_polygon_instance,
+    do_transform_polygon_instance_stamped,
+    do_transform_polygon_stamped,
+    do_transform_quaternion,
+    do_transform_quaternion_stamped,
+    do_transform_vector3,
+)
+
+if TYPE_CHECKING:
+    from tf2_geometry_msgs.numpy_bridge import (
+        array_from_point,
+        array_from_points,
+        array_from_pose,
+        array_from_poses,
+        array_from_quaternion,
+        array_from_transform,
+        array_from_vector3,
+        euler_from_quaternion,
+        matrix_from_pose,
+        matrix_from_transform,
+        point_from_array,
+        points_from_array,
+        pose_from_array,
+        pose_from_matrix,
+        poses_from_array,
+        quaternion_from_array,
+        quaternion_from_euler,
+        transform_from_array,
+        transform_from_matrix,
+        vector3_from_array,
+    )
+
+__all__ = [
+    "array_from_point",
+    "array_from_points",
+    "array_from_pose",
+    "array_from_poses",
+    "array_from_quaternion",
+    "array_from_transform",
+    "array_from_vector3",
+    "do_transform_path",
+    "do_transform_point",
+    "do_transform_point32",
+    "do_transform_polygon",
+    "do_transform_polygon_instance",
+    "do_transform_polygon_instance_stamped",
+    "do_transform_polygon_stamped",
+    "do_transform_pose",
+    "do_transform_pose_array",
+    "do_transform_pose_stamped",
+    "do_transform_pose_with_covariance",
+    "do_transform_pose_with_covariance_stamped",
+    "do_transform_quaternion",
+    "do_transform_quaternion_stamped",
+    "do_transform_transform",
+    "do_transform_transform_stamped",
+    "do_transform_twist",
+    "do_transform_twist_stamped",
+    "do_transform_twist_with_covariance",
+    "do_transform_twist_with_covariance_stamped",
+    "do_transform_vector3",
+    "do_transform_velocity_stamped",
+    "do_transform_wrench",
+    "do_transform_wrench_stamped",
+    "euler_from_quaternion",
+    "from_msg_msg",
+    "matrix_from_pose",
+    "matrix_from_transform",
+    "point_from_array",
+    "points_from_array",
+    "pose_from_array",
+    "pose_from_matrix",
+    "poses_from_array",
+    "quaternion_from_array",
+    "quaternion_from_euler",
+    "to_msg_msg",
+    "transform_covariance",
+    "transform_from_array",
+    "transform_from_matrix",
+    "transform_twist_covariance",
+    "vector3_from_array",
+]
+
+register()
+
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from tf2_geometry_msgs import numpy_bridge
+
+    value = globals()[name] = getattr(numpy_bridge, name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,177 @@
+"""Messages of geometry_msgs as NumPy arrays, and back: ``X_from_Y`` makes an X of a Y.
+
+An *array* has the numbers in the order of the fields: a point ``x, y, z``, a quaternion ``x, y, z, w``, a pose ``x, y, z, qx, qy, qz, qw``.
+A *matrix* is ``(4, 4)`` and acts on column vectors from the left: ``matrix_from_transform(t) @ (x, y, z, 1)`` does what
+``do_transform_point`` does. *Euler* angles are radians; ``axes`` names the convention, see :mod:`turtlewire.tf.conversions`, which has all
+of this for plain arrays of any shape.
+
+Arrays are of double precision, and never share memory with a message. Wrong shapes raise ValueError.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geometry_msgs.msg import Point, Pose, Quaternion, Transform, Vector3
+from turtlewire.tf import conversions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = [
+    "array_from_point",
+    "array_from_points",
+    "array_from_pose",
+    "array_from_poses",
+    "array_from_quaternion",
+    "array_from_transform",
+    "array_from_vector3",
+    "euler_from_quaternion",
+    "matrix_from_pose",
+    "matrix_from_transform",
+    "point_from_array",
+    "points_from_array",
+    "pose_from_array",
+    "pose_from_matrix",
+    "poses_from_array",
+    "quaternion_from_array",
+    "quaternion_from_euler",
+    "transform_from_array",
+    "transform_from_matrix",
+    "vector3_from_array",
+]
+
+
+def array_from_point(point: Point | Any) -> Array:
+    """Shape ``(3,)`` of a Point or Point32."""
+    return np.array((point.x, point.y, point.z), dtype=np.float64)
+
+
+def point_from_array(array: ArrayLike) -> Point:
+    """A Point of three numbers."""
+    x, y, z = _numbers(array, 3, "a point")
+    return Point(x=x, y=y, z=z)
+
+
+def array_from_points(points: Iterable[Point | Any]) -> Array:
+    """Shape ``(N, 3)`` of Points, Point32s or Vector3s, those of a polygon for example."""
+    return np.array([(p.x, p.y, p.z) for p in points], dtype=np.float64).reshape(-1, 3)
+
+
+def points_from_array(array: ArrayLike) -> list[Point]:
+    """Points of an array of shape ``(N, 3)``."""
+    return [Point(x=x, y=y, z=z) for x, y, z in _rows(array, 3, "points")]
+
+
+def array_from_vector3(vector3: Vector3) -> Array:
+    """Shape ``(3,)``."""
+    return np.array((vector3.x, vector3.y, vector3.z), dtype=np.float64)
+
+
+def vector3_from_array(array: ArrayLike) -> Vector3:
+    """A Vector3 of three numbers."""
+    x, y, z = _numbers(array, 3, "a vector")
+    return Vector3(x=x, y=y, z=z)
+
+
+def array_from_quaternion(quaternion: Quaternion) -> Array:
+    """Shape ``(4,)``: x, y, z, w as they are."""
+    return np.array((quaternion.x, quaternion.y, quaternion.z, quaternion.w), dtype=np.float64)
+
+
+def quaternion_from_array(array: ArrayLike) -> Quaternion:
+    """A Quaternion of the four numbers x, y, z, w as they are."""
+    x, y, z, w = _numbers(array, 4, "a quaternion")
+    return Quaternion(x=x, y=y, z=z, w=w)
+
+
+def euler_from_quaternion(quaternion: Quaternion, axes: str = "sxyz") -> Array:
+    """Three angles in the order that ``axes`` names; unless it is given roll, pitch, yaw about static axes."""
+    return conversions.euler_from_quaternion(array_from_quaternion(quaternion), axes)
+
+
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quaternion:
+    """A Quaternion of three angles in the order that ``axes`` names; unless it is given roll, pitch, yaw about static axes."""
+    return quaternion_from_array(conversions.quaternion_from_euler((ai, aj, ak), axes))
+
+
+def array_from_pose(pose: Pose) -> Array:
+    """Shape ``(7,)``."""
+    return np.array(_pose_numbers(pose), dtype=np.float64)
+
+
+def pose_from_array(array: ArrayLike) -> Pose:
+    """A Pose of seven numbers."""
+    return _pose(_numbers(array, 7, "a pose"))
+
+
+def array_from_poses(poses: Iterable[Pose]) -> Array:
+    """Shape ``(N, 7)``, of the poses of a PoseArray for example."""
+    return np.array([_pose_numbers(pose) for pose in poses], dtype=np.float64).reshape(-1, 7)
+
+
+def poses_from_array(array: ArrayLike) -> list[Pose]:
+    """Poses of an array of shape ``(N, 7)``."""
+    return [_pose(numbers) for numbers in _rows(array, 7, "poses")]
+
+
+def matrix_from_pose(pose: Pose) -> Array:
+    """Shape ``(4, 4)``: takes what is given in the frame of the pose into the frame in which the pose is given."""
+    return conversions.matrix_from_pose(array_from_pose(pose))
+
+
+def pose_from_matrix(matrix: ArrayLike) -> Pose:
+    """The Pose of a homogeneous matrix."""
+    return pose_from_array(conversions.pose_from_matrix(matrix))
+
+
+def array_from_transform(transform: Transform | Any) -> Array:
+    """Shape ``(7,)``, of a Transform or TransformStamped."""
+    transform = getattr(transform, "transform", transform)
+    return np.concatenate((array_from_vector3(transform.translation), array_from_quaternion(transform.rotation)))
+
+
+def transform_from_array(array: ArrayLike) -> Transform:
+    """A Transform of seven numbers."""
+    x, y, z, qx, qy, qz, qw = _numbers(array, 7, "a transform")
+    return Transform(translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+
+
+def matrix_from_transform(transform: Transform | Any) -> Array:
+    """Shape ``(4, 4)``: target_from_source, of a Transform or TransformStamped."""
+    return conversions.matrix_from_pose(array_from_transform(transform))
+
+
+def transform_from_matrix(matrix: ArrayLike) -> Transform:
+    """The Transform of a homogeneous matrix."""
+    return transform_from_array(conversions.pose_from_matrix(matrix))
+
+
+def _numbers(array: ArrayLike, count: int, what: str) -> list[float]:
+    numbers = np.asarray(array, dtype=np.float64)
+    if numbers.shape != (count,):
+        raise ValueError(f"{what} has the shape ({count},), got {numbers.shape}")
+    return numbers.tolist()
+
+
+def _rows(array: ArrayLike, count: int, what: str) -> list[list[float]]:
+    rows = np.asarray(array, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != count:
+        raise ValueError(f"{what} have the shape (N, {count}), got {rows.shape}")
+    return rows.tolist()
+
+
+def _pose_numbers(pose: Pose) -> tuple[float, ...]:
+    p, q = pose.position, pose.orientation
+    return p.x, p.y, p.z, q.x, q.y, q.z, q.w
+
+
+def _pose(numbers: list[float]) -> Pose:
+    x, y, z, qx, qy, qz, qw = numbers
+    return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))

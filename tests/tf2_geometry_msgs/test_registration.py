@@ -1,0 +1,92 @@
+"""The types as tf2_ros.Buffer.transform takes them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+import tf2_geometry_msgs as tf2
+import tf2_ros
+from geometry_msgs import msg as geometry
+from nav_msgs.msg import Path
+from rclpy.duration import Duration
+from rclpy.time import Time
+
+STAMPED = [
+    geometry.PointStamped,
+    geometry.Vector3Stamped,
+    geometry.QuaternionStamped,
+    geometry.PoseStamped,
+    geometry.PoseArray,
+    geometry.PoseWithCovarianceStamped,
+    geometry.PolygonStamped,
+    geometry.PolygonInstanceStamped,
+    geometry.TransformStamped,
+    geometry.TwistStamped,
+    geometry.TwistWithCovarianceStamped,
+    geometry.VelocityStamped,
+    geometry.WrenchStamped,
+    Path,
+]
+
+
+@pytest.fixture
+def buffer(quarter_turn):
+    buffer = tf2_ros.Buffer()
+    for second in (10, 20):
+        quarter_turn.message.header.stamp.sec = second
+        buffer.set_transform(quarter_turn.message, "test")
+    return buffer
+
+
+@pytest.mark.parametrize("kind", STAMPED, ids=lambda kind: kind.__name__)
+def test_a_buffer_transforms_it_at_the_time_of_its_stamp(buffer, kind):
+    message = kind()
+    message.header.frame_id, message.header.stamp.sec = "source", 15
+    moved = buffer.transform(message, "target")
+    assert type(moved) is kind
+    assert (moved.header.frame_id, moved.header.stamp.sec) == ("target", 15)
+    full = buffer.transform_full(message, "target", Time(seconds=16), "target")
+    assert (full.header.frame_id, full.header.stamp.sec) == ("target", 16)
+
+
+def test_stamp_0_gets_the_time_of_the_answer(buffer):
+    point = geometry.PointStamped()
+    point.header.frame_id = "source"
+    assert buffer.transform(point, "target").header.stamp.sec == 20
+    assert point.header.stamp.sec == 0
+
+
+def test_every_type_converts_to_itself():
+    for kind in STAMPED:
+        message = kind()
+        assert tf2_ros.ConvertRegistration().get_to_msg(kind)(message) is message
+        assert tf2_ros.convert(message, kind) == message
+    assert tf2.from_msg_msg(message) is message
+
+
+def test_a_buffer_says_when_it_cannot(buffer):
+    point = geometry.PointStamped()
+    point.header.frame_id = "nowhere"
+    with pytest.raises(tf2_ros.LookupException):
+        buffer.transform(point, "target", Duration())
+
+
+def test_importing_it_is_light():
+    program = (
+        "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
+    )
+    printed = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
+    assert printed.split() == ["False", "True"]
+
+
+def test_the_package_lists_what_it_has():
+    assert len(tf2.__all__) == len(set(tf2.__all__)) == 48
+    for name in tf2.__all__:
+        assert callable(getattr(tf2, name))
+        assert getattr(tf2, name).__doc__
+    assert set(tf2.__all__) <= set(dir(tf2))
+    with pytest.raises(AttributeError, match="has no attribute 'nonsense'"):
+        tf2.nonsense  # noqa: B018
