@@ -72,6 +72,18 @@ def peers(domain: ET.Element) -> list[str | None]:
     return [peer.get("address") for peer in domain.iter("Peer")]
 
 
+def interfaces(domain: ET.Element) -> list[dict[str, str]]:
+    return [interface.attrib for interface in domain.iter("NetworkInterface")]
+
+
+def test_localhost_uses_nothing_but_the_loopback_interface():
+    loopback, automatic = {"address": "127.0.0.1"}, {"autodetermine": "true"}
+    assert interfaces(configuration(Discovery(Range.LOCALHOST, ()))) == [loopback]
+    assert interfaces(configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))) == [loopback, automatic]
+    assert interfaces(configuration(Discovery(Range.OFF, ()))) == [loopback]
+    assert interfaces(configuration(Discovery(Range.SUBNET, ()))) == []
+
+
 def test_configuration_of_each_range():
     local = configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))
     assert local.findtext("General/AllowMulticast") == "false"

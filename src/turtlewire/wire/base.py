@@ -336,7 +336,10 @@ class Graph(ABC):
 
     @abstractmethod
     def is_complete(self) -> bool:
-        """Whether all that the known participants announced has arrived; of participants that are not known yet it says nothing."""
+        """Whether everything on this host is known: all its participants where the system tells how many there are, and all that they announced.
+
+        Of participants on other hosts that are not known yet it says nothing.
+        """
 
     @abstractmethod
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:

@@ -23,8 +23,7 @@ def domain_configuration(discovery: Discovery) -> str:
     Raises:
         WireError: A static peer is not an address.
     """
-    multicast = discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}
-    parts = [] if multicast else ["<General><AllowMulticast>false</AllowMulticast></General>"]
+    parts = [_general(discovery)]
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this host.
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
@@ -36,6 +35,17 @@ def domain_configuration(discovery: Discovery) -> str:
     ours = f"<CycloneDDS><Domain>{''.join(parts)}</Domain></CycloneDDS>"
     users = os.environ.get("CYCLONEDDS_URI", "")
     return f"{ours},{users}" if users else ours
+
+
+def _general(discovery: Discovery) -> str:
+    if discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}:
+        return ""
+    # Without the loopback interface Cyclone 11 drops what processes with a configuration of rmw_cyclonedds send to localhost; and with
+    # it alone, nobody from outside gets in.
+    interfaces = '<NetworkInterface address="127.0.0.1"/>'
+    if discovery.static_peers:
+        interfaces += '<NetworkInterface autodetermine="true"/>'
+    return f"<General><AllowMulticast>false</AllowMulticast><Interfaces>{interfaces}</Interfaces></General>"
 
 
 def _peers(discovery: Discovery) -> str:

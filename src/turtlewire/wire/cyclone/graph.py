@@ -15,6 +15,7 @@ from turtlewire.wire.report import warn_once
 
 from . import library as dds
 from .endpoint import EndpointSpec
+from .ports import participants_on_host
 from .qos import read_qos, read_user_data
 from .subscription import CycloneSubscription
 
@@ -72,6 +73,7 @@ class CycloneGraph(GraphView):
         super().__init__()
         self._announcer = announcer
         self._participant_gid = participant.gid
+        self._domain_id = participant.domain_id
         self._lock = threading.RLock()
         self._enclaves: dict[bytes, str] = {}
         self._endpoints: dict[bytes, _Endpoint] = {}
@@ -146,7 +148,10 @@ class CycloneGraph(GraphView):
 
     def is_complete(self) -> bool:
         """See :meth:`Graph.is_complete`: each ROS participant has announced its nodes, and each endpoint of theirs is known."""
+        on_host = participants_on_host(self._domain_id)
         with self._lock:
+            if on_host is not None and len(self._enclaves) < on_host:
+                return False
             others = {gid for gid, enclave in self._enclaves.items() if enclave} - {self._participant_gid}
             gids = (gid for nodes in self._announced.values() for node in nodes for gid in (*node.readers, *node.writers))
             return others <= self._announced.keys() and all(gid in self._endpoints for gid in gids)

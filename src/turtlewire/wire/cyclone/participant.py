@@ -56,10 +56,11 @@ class Participant:
     Attributes:
         handle: Cyclone's handle of it.
         gid: Its 16 bytes.
+        domain_id: The domain it is in.
     """
 
     def __init__(self, domain_id: int, enclave: str) -> None:
-        self._domain_id = domain_id
+        self.domain_id = domain_id
         self._lock = threading.Lock()
         self._topics: dict[tuple[str, str], int] = {}
         _domains.join(domain_id)
@@ -92,7 +93,7 @@ class Participant:
         qos = dds.create_qos()
         try:
             _set_enclave(qos, enclave)
-            return dds.check(dds.create_participant(self._domain_id, qos, None), f"join domain {self._domain_id}")
+            return dds.check(dds.create_participant(self.domain_id, qos, None), f"join domain {self.domain_id}")
         finally:
             dds.delete_qos(qos)
 
@@ -129,7 +130,7 @@ class Participant:
     def close(self) -> None:
         """Leave the domain; everything made in this participant is deleted."""
         dds.delete(self.handle)
-        _domains.leave(self._domain_id)
+        _domains.leave(self.domain_id)
 
 
 def _set_enclave(qos: int, enclave: str) -> None:
