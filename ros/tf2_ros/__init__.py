@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from tf2_py import (
     BufferCore,
     ConnectivityException,
@@ -26,6 +28,9 @@ from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, StaticTransformListener, TransformListener
 
+if TYPE_CHECKING:
+    from .message_filter import FilterFailureReason, MessageFilter
+
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",
     "DEFAULT_TF_TOPIC",
@@ -35,8 +40,10 @@ __all__ = [
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",
+    "FilterFailureReason",
     "InvalidArgumentException",
     "LookupException",
+    "MessageFilter",
     "NotImplementedException",
     "Stamped",
     "StaticTransformBroadcaster",
@@ -49,3 +56,15 @@ __all__ = [
     "TypeException",
     "convert",
 ]
+
+_LAZY = {"FilterFailureReason": "message_filter", "MessageFilter": "message_filter"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load what few nodes need when it is used first."""
+    if name not in _LAZY:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = globals()[name] = getattr(import_module(f".{_LAZY[name]}", __name__), name)
+    return value

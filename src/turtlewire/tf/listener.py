@@ -47,6 +47,18 @@ class _Member(NamedTuple):
     store: Store
 
 
+class _Feed:
+    """What a subscription calls, on the reader thread: hands the bytes to all members."""
+
+    def __init__(self, members: tuple[_Member, ...], *, static: bool) -> None:
+        self.members = members
+        self._static = static
+
+    def __call__(self, cdr: bytes, _info: base.MessageInfo) -> None:
+        for member in self.members:
+            member.store.ingest(cdr, static=self._static)
+
+
 class _Channel:
     """One subscription that feeds several buffers. It belongs to the node of the first of them."""
 
@@ -54,41 +66,48 @@ class _Channel:
         self._topic = topic
         self._qos = qos
         self._static = static
-        self._lock = threading.Lock()  # guards the changes; the reader thread takes the tuple as it finds it
-        self._members: tuple[_Member, ...] = ()
+        self._latched = qos.durability == Durability.TRANSIENT_LOCAL
+        self._lock = threading.Lock()
+        self._feed = _Feed((), static=static)
         self._subscription: base.Subscription | None = None
 
     def join(self, member: _Member) -> None:
         """Feed one more buffer from now on."""
         with self._lock:
-            self._members = (*self._members, member)
+            members = (*self._feed.members, member)
             # What publishers keep for late joiners comes once, at the start of a subscription: a newcomer needs a new one.
-            if self._subscription is None or self._qos.durability == Durability.TRANSIENT_LOCAL:
-                self._subscribe()
+            if self._subscription is None or self._latched:
+                self._subscribe(members)
+            else:
+                self._feed.members = members
 
     def leave(self, member: _Member) -> None:
         """Feed one buffer less; the last one ends the subscription."""
         with self._lock:
-            owner = self._members[0]
-            self._members = tuple(other for other in self._members if other is not member)
-            if not self._members:
+            former = self._feed.members
+            self._feed.members = tuple(other for other in former if other is not member)
+            if not self._feed.members:
                 assert self._subscription is not None
                 self._subscription.close()
                 self._subscription = None
-            elif member is owner:
+            elif member is former[0]:
                 with suppress(WireError):  # the whole context is closed, and nothing more will come for the others either
-                    self._subscribe()
+                    self._subscribe(self._feed.members)
 
-    def _subscribe(self) -> None:
+    def _subscribe(self, members: tuple[_Member, ...]) -> None:
+        """Begin a subscription of the first member's node in place of the former one.
+
+        A former latched one ends first: what it still had on the way is older than what the new one brings again, and must not come
+        after it. Otherwise it ends last, for what came in between would be lost; a transform that comes twice is stored once.
+        """
         former = self._subscription
+        if former is not None and self._latched:
+            former.close()
+        self._feed = _Feed(members, static=self._static)
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-        self._subscription = self._members[0].node.create_subscription(self._topic, type_id, self._qos, self._on_message)
-        if former is not None:
-            former.close()  # after the new one is there: a transform that comes twice is stored once, a lost one is lost
-
-    def _on_message(self, cdr: bytes, _info: base.MessageInfo) -> None:
-        for member in self._members:
-            member.store.ingest(cdr, static=self._static)
+        self._subscription = members[0].node.create_subscription(self._topic, type_id, self._qos, self._feed)
+        if former is not None and not self._latched:
+            former.close()
 
 
 class _Channels:

@@ -1,0 +1,87 @@
+"""Keeps the newest messages, to be asked for by time."""
+
+from __future__ import annotations
+
+import threading
+from bisect import bisect_left, bisect_right
+from typing import TYPE_CHECKING, Any
+
+from .simple_filter import SimpleFilter
+from .stamps import stamp_of
+
+if TYPE_CHECKING:
+    from rclpy.time import Time
+
+__all__ = ["Cache"]
+
+
+class Cache(SimpleFilter):
+    """Keeps the newest messages of a filter in the order of their stamps, and passes them on. Thread-safe.
+
+    Args:
+        f: The filter to listen to; None to :meth:`add` messages by hand.
+        cache_size: How many messages are kept.
+        allow_headerless: Whether messages without a stamp are taken, with the time of their arrival.
+    """
+
+    def __init__(self, f: SimpleFilter | None = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
+        super().__init__()
+        self._lock = threading.Lock()
+        self.cache_msgs: list[Any] = []
+        self.cache_times: list[Time] = []
+        self.cache_size = cache_size
+        self.allow_headerless = allow_headerless
+        if f is not None:
+            self.connectInput(f)
+
+    def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802 -- ROS 2's name
+        """Listen to a filter."""
+        self.incoming_connection = f.registerCallback(self.add)
+
+    def add(self, msg: Any) -> None:
+        """Take a message, and pass it on."""
+        stamp = stamp_of(msg, allow_headerless=self.allow_headerless, logger="message_filters_cache")
+        if stamp is None:
+            return
+        with self._lock:
+            place = bisect_right(self.cache_times, stamp)
+            self.cache_times.insert(place, stamp)
+            self.cache_msgs.insert(place, msg)
+            if len(self.cache_msgs) > self.cache_size:
+                del self.cache_times[0], self.cache_msgs[0]
+        self.signalMessage(msg)
+
+    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802 -- ROS 2's name
+        """The messages from one time to another, both included."""
+        with self._lock:
+            return self.cache_msgs[bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)]
+
+    def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
+        """The oldest message that is not older than a time; None when there is none."""
+        with self._lock:
+            place = bisect_left(self.cache_times, stamp)
+            return self.cache_msgs[place] if place < len(self.cache_msgs) else None
+
+    def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
+        """The newest message that is not newer than a time; None when there is none."""
+        with self._lock:
+            place = bisect_right(self.cache_times, stamp)
+            return self.cache_msgs[place - 1] if place else None
+
+    def getLatestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
+        """The newest stamp; None when there is none."""
+        with self._lock:
+            return self.cache_times[-1] if self.cache_times else None
+
+    #: The name that ROS 2 spelt first.
+    getLastestTime = getLatestTime  # noqa: N815
+
+    def getOldestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
+        """The oldest stamp; None when there is none."""
+        with self._lock:
+            return self.cache_times[0] if self.cache_times else None
+
+    def getLast(self) -> Any:  # noqa: N802 -- ROS 2's name
+        """The newest message; None when there is none."""
+        with self._lock:
+            return self.cache_msgs[-1] if self.cache_msgs else None

@@ -1,0 +1,42 @@
+"""What all filters have in common: callbacks that get what passes."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["SimpleFilter"]
+
+
+class SimpleFilter:
+    """Base of the filters: passes messages on to whoever registered. Thread-safe.
+
+    Attributes:
+        callbacks: By number, each callback with its further arguments.
+    """
+
+    def __init__(self) -> None:
+        self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
+        self._next_number = 0
+        self._callbacks_lock = threading.Lock()
+
+    def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802 -- ROS 2's name
+        """Call ``cb(message, …, *args)`` for what passes; the number to :meth:`disconnect` it."""
+        with self._callbacks_lock:
+            number = self._next_number
+            self._next_number += 1
+            self.callbacks = {**self.callbacks, number: (cb, args)}
+        return number
+
+    def disconnect(self, number: int) -> None:
+        """Call the callback of this number no longer."""
+        with self._callbacks_lock:
+            self.callbacks = {other: entry for other, entry in self.callbacks.items() if other != number}
+
+    def signalMessage(self, *msg: Any) -> None:  # noqa: N802 -- ROS 2's name
+        """Pass messages on, in the order of registration."""
+        for callback, arguments in self.callbacks.values():
+            callback(*msg, *arguments)

@@ -1,0 +1,38 @@
+"""When a message is of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.clock import ROSClock
+from rclpy.logging import get_logger
+from rclpy.time import Time
+
+__all__ = ["stamp_of"]
+
+_HEADERLESS = (
+    "can not use message filters messages without timestamp infomation when "
+    '"allow_headerless" is disabled. auto assign ROSTIME to headerless '
+    "messages once enabling constructor option of "
+    '"allow_headerless".'
+)
+
+
+def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | None:
+    """The stamp of a message.
+
+    Args:
+        message: What has a ``header`` with a ``stamp``, or not.
+        allow_headerless: Give messages without a stamp the present time.
+        logger: Who warns when they are not allowed.
+
+    Returns:
+        The time; None when the message is not to be used.
+    """
+    stamp = getattr(getattr(message, "header", None), "stamp", None)
+    if stamp is None:
+        if allow_headerless:
+            return ROSClock().now()
+        get_logger(logger).warning(_HEADERLESS, throttle_duration_sec=5.0)
+        return None
+    return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)

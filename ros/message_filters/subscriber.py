@@ -1,0 +1,56 @@
+"""Where messages come in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .simple_filter import SimpleFilter
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ["Subscriber"]
+
+
+class Subscriber(SimpleFilter):
+    """Passes on what comes on a topic.
+
+    Args:
+        node: Who subscribes.
+        msg_type: Class of the messages.
+        topic: Name of the topic.
+        args: Further arguments of :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`, after the callback.
+        qos_profile: Quality of service, or a depth; 10 unless given.
+        kwargs: Further keywords of ``create_subscription``.
+
+    Attributes:
+        node: Who subscribes.
+        topic: Name of the topic, as given.
+        sub: The subscription.
+    """
+
+    def __init__(self, node: Node, msg_type: type[Any], topic: str, *args: Any, **kwargs: Any) -> None:
+        super().__init__()
+        if not args:
+            kwargs.setdefault("qos_profile", 10)
+        self.node = node
+        self.topic = topic
+        self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
+
+    def callback(self, msg: Any) -> None:
+        """Take a message from the subscription."""
+        self.signalMessage(msg)
+
+    def getTopic(self) -> str:  # noqa: N802 -- ROS 2's name
+        """Name of the topic, as given."""
+        return self.topic
+
+    def unsubscribe(self) -> None:
+        """End the subscription."""
+        self.node.destroy_subscription(self.sub)
+
+    def __getattr__(self, name: str) -> Any:
+        # what it does not have itself, the subscription has, as in ROS 2
+        if name == "sub":
+            raise AttributeError(name)
+        return getattr(self.sub, name)

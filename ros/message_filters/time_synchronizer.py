@@ -1,0 +1,103 @@
+"""Brings messages of several topics together by their stamps."""
+
+from __future__ import annotations
+
+import threading
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+from rclpy.duration import Duration
+
+from .simple_filter import SimpleFilter
+from .stamps import stamp_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
+
+_LOGGER = "message_filters_synchronizer"
+
+
+class TimeSynchronizer(SimpleFilter):
+    """Passes on one message of each filter when they all have exactly the same stamp. Thread-safe.
+
+    A callback gets as many messages as there are filters, in their order.
+
+    Args:
+        fs: The filters.
+        queue_size: How many messages of each filter wait for their partners; the oldest is dropped beyond.
+
+    Attributes:
+        queues: The waiting messages of each filter, by nanoseconds.
+    """
+
+    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
+        super().__init__()
+        self.queue_size = queue_size
+        self.lock = threading.Lock()
+        self.connectInput(fs)
+
+    def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802 -- ROS 2's name
+        """Listen to filters; what waited is forgotten."""
+        self.queues: list[dict[int, Any]] = [{} for _ in fs]
+        self.input_connections = [
+            f.registerCallback(self.add, queue, index) for index, (f, queue) in enumerate(zip(fs, self.queues, strict=True))
+        ]
+
+    def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:  # noqa: ARG002 -- the other one needs it
+        """Take a message of one filter, and pass on the set that it completes."""
+        stamp = stamp_of(msg, allow_headerless=False, logger=_LOGGER)
+        if stamp is None:
+            return
+        with self.lock:
+            self._keep(msg, stamp.nanoseconds, my_queue)
+            common = set.intersection(*(set(queue) for queue in self.queues))
+            sets = [[queue.pop(stamp) for queue in self.queues] for stamp in sorted(common)]
+        for messages in sets:
+            self.signalMessage(*messages)
+
+    def _keep(self, msg: Any, stamp_ns: int, queue: dict[int, Any]) -> None:
+        queue[stamp_ns] = msg
+        while len(queue) > self.queue_size:
+            del queue[min(queue)]
+
+
+class ApproximateTimeSynchronizer(TimeSynchronizer):
+    """Passes on one message of each filter when their stamps are close together. Thread-safe.
+
+    Args:
+        fs: The filters.
+        queue_size: How many messages of each filter wait for their partners; the oldest is dropped beyond.
+        slop: All stamps of a set lie within less than so many seconds.
+        allow_headerless: Whether messages without a stamp are taken, with the time of their arrival.
+    """
+
+    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int, slop: float, allow_headerless: bool = False) -> None:
+        super().__init__(fs, queue_size)
+        self.slop = Duration(seconds=slop)
+        self.allow_headerless = allow_headerless
+
+    def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:
+        """Take a message of one filter, and pass on the set that it completes: of all sets, the one closest to this message."""
+        stamp = stamp_of(msg, allow_headerless=self.allow_headerless, logger=_LOGGER)
+        if stamp is None:
+            return
+        with self.lock:
+            self._keep(msg, stamp.nanoseconds, my_queue)
+            found = self._closest_set(stamp.nanoseconds, my_queue_index)
+            messages = [queue.pop(stamp_ns) for queue, stamp_ns in zip(self.queues, found or (), strict=False)]
+        if found is not None:
+            self.signalMessage(*messages)
+
+    def _closest_set(self, stamp_ns: int, index: int | None) -> tuple[int, ...] | None:
+        """A stamp of each queue, all within the slop, or None; the queue of the new message gives the new stamp."""
+        slop_ns = self.slop.nanoseconds
+        candidates = []
+        for number, queue in enumerate(self.queues):
+            near = [stamp_ns] if number == index else sorted(queue, key=lambda other: abs(other - stamp_ns))
+            candidates.append([other for other in near if other in queue and abs(other - stamp_ns) <= slop_ns])
+        for stamps in product(*candidates):
+            if max(stamps) - min(stamps) < slop_ns:
+                return stamps
+        return None

@@ -1,0 +1,205 @@
+"""The filters by themselves, and on topics."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from geometry_msgs.msg import PointStamped
+from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
+from rclpy.clock import ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.time import Time
+from std_msgs.msg import String
+
+
+def ros_time(nanoseconds):
+    return Time(nanoseconds=nanoseconds, clock_type=ClockType.ROS_TIME)
+
+
+def at(nanoseconds, x=0.0):
+    message = PointStamped()
+    message.header.stamp = Time(nanoseconds=nanoseconds).to_msg()
+    message.point.x = x
+    return message
+
+
+@pytest.fixture
+def collected():
+    class Collected(list):
+        def __call__(self, *messages):
+            self.append(messages)
+
+        def stamps(self):
+            return [tuple(Time.from_msg(message.header.stamp).nanoseconds for message in messages) for messages in self]
+
+    return Collected()
+
+
+def test_callbacks_get_what_passes_and_their_own_arguments(collected):
+    first = SimpleFilter()
+    number = first.registerCallback(collected)
+    first.registerCallback(collected, "extra", 2)
+    first.signalMessage("message")
+    assert collected == [("message",), ("message", "extra", 2)]
+    first.disconnect(number)
+    first.signalMessage("a", "b")
+    assert collected[2:] == [("a", "b", "extra", 2)]
+
+
+def test_exact_sets_pass_in_the_order_of_time(collected):
+    filters = [SimpleFilter() for _ in range(3)]
+    synchronizer = TimeSynchronizer(filters, 10)
+    synchronizer.registerCallback(collected)
+    arrivals = [(index, stamp) for index in range(3) for stamp in range(1, 6)]
+    random.Random(3).shuffle(arrivals)
+    for index, stamp in arrivals:
+        filters[index].signalMessage(at(stamp, x=float(index)))
+    assert sorted(collected.stamps()) == [(stamp,) * 3 for stamp in range(1, 6)]
+    assert all([message.point.x for message in messages] == [0.0, 1.0, 2.0] for messages in collected)
+    assert synchronizer.queues == [{}, {}, {}]
+
+
+def test_exact_means_exact_and_the_queue_has_an_end(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    synchronizer = TimeSynchronizer([left, right], 2)
+    synchronizer.registerCallback(collected)
+    for stamp in (1, 2, 3):
+        left.signalMessage(at(stamp))
+    right.signalMessage(at(1))
+    assert collected == []
+    right.signalMessage(at(3))
+    right.signalMessage(at(4))
+    assert collected.stamps() == [(3, 3)]
+
+
+def test_a_callback_may_feed_the_synchronizer_again(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    synchronizer = TimeSynchronizer([left, right], 5)
+    synchronizer.registerCallback(collected)
+    synchronizer.registerCallback(lambda *_: left.signalMessage(at(99)))
+    left.signalMessage(at(1))
+    right.signalMessage(at(1))
+    assert collected.stamps() == [(1, 1)]
+    assert list(synchronizer.queues[0]) == [99]
+
+
+def test_near_sets_pass_once_and_the_closest_partner_is_taken(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    synchronizer = ApproximateTimeSynchronizer([left, right], 10, 1e-7)
+    synchronizer.registerCallback(collected)
+    for stamp in (1000, 1060, 1500):
+        left.signalMessage(at(stamp))
+    right.signalMessage(at(1050))
+    assert collected.stamps() == [(1060, 1050)]
+    right.signalMessage(at(1399))
+    assert len(collected) == 1
+    right.signalMessage(at(1401))
+    assert collected.stamps()[1:] == [(1500, 1401)]
+    right.signalMessage(at(1100))
+    assert len(collected) == 2, "exactly the slop is too far"
+
+
+def test_near_sets_of_three_are_near_altogether(collected):
+    filters = [SimpleFilter() for _ in range(3)]
+    ApproximateTimeSynchronizer(filters, 10, 1e-8).registerCallback(collected)
+    filters[0].signalMessage(at(100))
+    filters[1].signalMessage(at(109))
+    filters[2].signalMessage(at(91))
+    assert collected == [], "each is near the first, but the others are 18 ns apart"
+    filters[2].signalMessage(at(104))
+    assert collected.stamps() == [(100, 109, 104)]
+
+
+def test_random_traffic_gives_each_message_to_one_set_within_the_slop(collected):
+    chance = random.Random(7)
+    filters = [SimpleFilter() for _ in range(3)]
+    ApproximateTimeSynchronizer(filters, 20, 3e-8).registerCallback(collected)
+    arrivals = [(index, 100 * number + chance.randrange(-10, 11)) for number in range(1, 200) for index in range(3)]
+    for index, stamp in arrivals:
+        filters[index].signalMessage(at(stamp))
+    sets = collected.stamps()
+    assert len(sets) == 199
+    assert all(max(stamps) - min(stamps) < 30 for stamps in sets)
+    for index in range(3):
+        assert len({stamps[index] for stamps in sets}) == 199
+
+
+@pytest.mark.parametrize("make", [lambda fs: TimeSynchronizer(fs, 5), lambda fs: ApproximateTimeSynchronizer(fs, 5, 0.1)])
+def test_messages_without_a_stamp_are_refused(make, collected, capfd):
+    left = SimpleFilter()
+    make([left]).registerCallback(collected)
+    left.signalMessage(String(data="no header"))
+    assert collected == []
+    assert "allow_headerless" in capfd.readouterr().err
+
+
+def test_messages_without_a_stamp_can_be_allowed(collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    ApproximateTimeSynchronizer([left, right], 5, 10.0, allow_headerless=True).registerCallback(collected)
+    left.signalMessage(String(data="left"))
+    right.signalMessage(String(data="right"))
+    assert [[message.data for message in messages] for messages in collected] == [["left", "right"]]
+
+
+def test_the_cache_answers_by_time(collected):
+    source = SimpleFilter()
+    cache = Cache(source, cache_size=4)
+    cache.registerCallback(collected)
+    assert cache.getLast() is cache.getLatestTime() is cache.getOldestTime() is None
+    assert cache.getElemAfterTime(ros_time(0)) is cache.getElemBeforeTime(ros_time(0)) is None
+    for stamp in (30, 10, 40, 20, 50):
+        source.signalMessage(at(stamp, x=float(stamp)))
+    assert [time.nanoseconds for time in cache.cache_times] == [20, 30, 40, 50]
+    assert [message.point.x for message in cache.getInterval(ros_time(30), ros_time(40))] == [30.0, 40.0]
+    assert cache.getElemAfterTime(ros_time(30)).point.x == 30.0
+    assert cache.getElemAfterTime(ros_time(31)).point.x == 40.0
+    assert cache.getElemAfterTime(ros_time(51)) is None
+    assert cache.getElemBeforeTime(ros_time(30)).point.x == 30.0
+    assert cache.getElemBeforeTime(ros_time(29)).point.x == 20.0
+    assert cache.getElemBeforeTime(ros_time(19)) is None
+    assert (cache.getOldestTime().nanoseconds, cache.getLatestTime().nanoseconds, cache.getLastestros_time(0).nanoseconds) == (
+        20,
+        50,
+        50,
+    )
+    assert cache.getLast().point.x == 50.0
+    assert len(collected) == 5
+
+
+def test_the_cache_and_messages_without_a_stamp(capfd):
+    cache = Cache()
+    cache.add(String())
+    assert cache.getLast() is None
+    assert "allow_headerless" in capfd.readouterr().err
+    allowing = Cache(allow_headerless=True)
+    allowing.add(String(data="now"))
+    assert allowing.getLast().data == "now"
+
+
+def test_subscribers_on_topics(monkeypatch, collected):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    context = Context()
+    context.init(args=[])
+    node = Node("filters", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    left, right = Subscriber(node, PointStamped, "left"), Subscriber(node, PointStamped, "right", qos_profile=QoSProfile(depth=3))
+    third = Subscriber(node, PointStamped, "third", 7)
+    assert (left.getTopic(), left.topic_name, right.qos_profile.depth, third.qos_profile.depth) == ("left", "/left", 3, 7)
+    with pytest.raises(AttributeError):
+        _ = left.nothing
+    TimeSynchronizer([left, right], 5).registerCallback(collected)
+    for topic in ("left", "right"):
+        node.create_publisher(PointStamped, topic, 1).publish(at(5))
+    while not collected:
+        executor.spin_once(timeout_sec=10)
+    assert collected.stamps() == [(5, 5)]
+    left.unsubscribe()
+    assert node.count_subscribers("left") == 0
+    node.destroy_node()
+    context.try_shutdown()

@@ -1,0 +1,189 @@
+"""tf2_ros.MessageFilter: what can be transformed passes, what never can is dropped with a reason."""
+
+from __future__ import annotations
+
+import pytest
+
+from geometry_msgs.msg import PointStamped
+from message_filters import Subscriber, TimeSynchronizer
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.time import Time
+from tf2_ros import Buffer, FilterFailureReason, MessageFilter
+
+
+def point(stamp_s, frame="robot"):
+    message = PointStamped()
+    message.header.frame_id = frame
+    message.header.stamp = Time(seconds=stamp_s).to_msg()
+    return message
+
+
+class Setup:
+    """A filter, what passed it, and what it dropped."""
+
+    def __init__(self, context, node, *, target="world", queue_size=10, **options):
+        self.buffer = Buffer()
+        self.passed, self.failed = [], []
+        self.filter = MessageFilter(None, self.buffer, target, queue_size, node, **options)
+        self.filter.registerCallback(lambda message: self.passed.append(message.header.stamp.sec))
+        self.filter.registerFailureCallback(lambda message, reason: self.failed.append((message.header.stamp.sec, reason)))
+        self.executor = SingleThreadedExecutor(context=context)
+        self.executor.add_node(node)
+
+    def spin_until(self, condition):
+        for _ in range(1000):
+            if condition():
+                return
+            self.executor.spin_once(timeout_sec=10)
+        raise AssertionError((self.passed, self.failed))
+
+    def settle(self):
+        """Let the executor do all there is."""
+        for _ in range(20):
+            self.executor.spin_once(timeout_sec=0)
+
+
+@pytest.fixture
+def setup(context, node):
+    return lambda **options: Setup(context, node, **options)
+
+
+def test_a_message_passes_at_once_when_the_transform_is_there(setup, stamped):
+    s = setup()
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.filter.add(point(1))
+    assert s.passed == [1]
+
+
+def test_messages_wait_for_their_transforms(setup, stamped):
+    s = setup()
+    s.filter.add(point(1))
+    s.filter.add(point(2))
+    s.settle()
+    assert s.passed == []
+    s.buffer.set_transform(stamped(stamp_s=0), "me")
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.spin_until(lambda: s.passed == [1])
+    s.buffer.set_transform(stamped(stamp_s=5), "me")
+    s.spin_until(lambda: s.passed == [1, 2])
+    assert s.failed == []
+
+
+def test_callbacks_run_on_the_executor_not_where_the_data_come(setup, stamped):
+    s = setup()
+    s.filter.add(point(1))
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    assert s.passed == []
+    s.spin_until(lambda: s.passed == [1])
+
+
+def test_all_target_frames_must_be_known(setup, stamped):
+    s = setup(target=["world", "/map"])
+    assert s.filter.getTargetFramesString() == "world map"
+    s.filter.add(point(1))
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.settle()
+    assert s.passed == []
+    s.buffer.set_transform_static(stamped("map", "world"), "me")
+    s.spin_until(lambda: s.passed == [1])
+
+
+def test_another_target_frame_counts_for_those_that_wait(setup, stamped):
+    s = setup(target="nowhere")
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.filter.add(point(1))
+    s.filter.setTargetFrame("world")
+    s.spin_until(lambda: s.passed == [1])
+
+
+def test_the_tolerance_wants_later_data_too(setup, stamped):
+    s = setup(tolerance=Duration(seconds=2))
+    s.filter.add(point(1))
+    for second in (1, 2):
+        s.buffer.set_transform(stamped(stamp_s=second), "me")
+    s.settle()
+    assert s.passed == []
+    s.buffer.set_transform(stamped(stamp_s=3), "me")
+    s.spin_until(lambda: s.passed == [1])
+    s.filter.setTolerance(Duration())
+    s.filter.add(point(3))
+    assert s.passed == [1, 3]
+
+
+def test_the_oldest_is_dropped_when_too_many_wait(setup):
+    s = setup(queue_size=2)
+    for second in (1, 2, 3):
+        s.filter.add(point(second))
+    assert s.failed == [(1, FilterFailureReason.QueueFull)]
+    s.filter.setQueueSize(0)
+    for second in range(4, 30):
+        s.filter.add(point(second))
+    assert len(s.failed) == 1
+    assert s.filter.getQueueSize() == 0
+
+
+def test_a_message_without_a_frame_is_dropped(setup):
+    s = setup()
+    s.filter.add(point(1, frame=""))
+    assert s.failed == [(1, FilterFailureReason.EmptyFrameID)]
+
+
+def test_a_message_older_than_the_buffer_is_dropped(setup, stamped):
+    s = setup()
+    s.filter.add(point(1))
+    s.buffer.set_transform(stamped(stamp_s=100), "me")
+    s.spin_until(lambda: s.failed == [(1, FilterFailureReason.OutTheBack)])
+    s.filter.add(point(2))
+    assert s.failed[1:] == [(2, FilterFailureReason.OutTheBack)]
+
+
+def test_a_message_waits_no_longer_than_the_timeout(setup, stamped):
+    s = setup(timeout=Duration(seconds=0.05))
+    s.filter.add(point(1))
+    s.filter.add(point(2))
+    s.spin_until(lambda: len(s.failed) == 2)
+    assert s.failed == [(1, FilterFailureReason.NoTransformFound), (2, FilterFailureReason.NoTransformFound)]
+    s.filter.add(point(3))
+    s.buffer.set_transform(stamped(stamp_s=3), "me")
+    s.spin_until(lambda: s.passed == [3])
+
+
+def test_clear_forgets_silently(setup, stamped):
+    s = setup()
+    s.filter.add(point(1))
+    s.filter.clear()
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.settle()
+    assert (s.passed, s.failed) == ([], [])
+
+
+def test_equal_messages_each_pass(setup, stamped):
+    s = setup()
+    s.filter.add(point(1))
+    s.filter.add(point(1))
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.spin_until(lambda: s.passed == [1, 1])
+
+
+def test_it_ends_with_its_node(setup, node, stamped):
+    s = setup(timeout=Duration(seconds=1))
+    s.filter.add(point(1))
+    node.destroy_node()
+    s.buffer.set_transform(stamped(stamp_s=1), "me")
+    s.filter.destroy()
+    assert s.passed == []
+
+
+def test_it_is_one_filter_of_a_chain(context, node, stamped):
+    buffer, passed = Buffer(), []
+    filters = [MessageFilter(Subscriber(node, PointStamped, topic), buffer, "world", 10, node) for topic in ("left", "right")]
+    TimeSynchronizer(filters, 10).registerCallback(lambda *messages: passed.append(len(messages)))
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    for topic in ("left", "right"):
+        node.create_publisher(PointStamped, topic, 1).publish(point(1))
+    buffer.set_transform(stamped(stamp_s=1), "me")
+    while not passed:
+        executor.spin_once(timeout_sec=10)
+    assert passed == [2]
