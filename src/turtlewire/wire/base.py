@@ -336,7 +336,7 @@ class Graph(ABC):
 
     @abstractmethod
     def is_complete(self) -> bool:
-        """Whether everything on this host is known: all its participants where the system tells how many there are, and all that they announced.
+        """Whether everything on this host is known: its participants, where the system tells how many there are, and what they announced.
 
         Of participants on other hosts that are not known yet it says nothing.
         """
