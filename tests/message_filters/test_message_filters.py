@@ -162,7 +162,7 @@ def test_the_cache_answers_by_time(collected):
     assert cache.getElemBeforeTime(ros_time(30)).point.x == 30.0
     assert cache.getElemBeforeTime(ros_time(29)).point.x == 20.0
     assert cache.getElemBeforeTime(ros_time(19)) is None
-    assert (cache.getOldestTime().nanoseconds, cache.getLatestTime().nanoseconds, cache.getLastestros_time(0).nanoseconds) == (
+    assert (cache.getOldestTime().nanoseconds, cache.getLatestTime().nanoseconds, cache.getLastestTime().nanoseconds) == (
         20,
         50,
         50,
