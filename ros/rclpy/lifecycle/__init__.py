@@ -1,6 +1,4 @@
-"""Managed nodes."""
-
-from __future__ import annotations
+"""Nodes that are configured, activated, deactivated and shut down from outside."""
 
 from .managed_entity import ManagedEntity, SimpleManagedEntity
 from .node import LifecycleNode, LifecycleNodeMixin
@@ -8,8 +6,9 @@ from .publisher import LifecyclePublisher
 from .state_machine import LifecycleState, TransitionCallbackReturn
 
 Node = LifecycleNode
-Publisher = LifecyclePublisher
+NodeMixin = LifecycleNodeMixin
 State = LifecycleState
+Publisher = LifecyclePublisher
 
 __all__ = [
     "LifecycleNode",
@@ -18,6 +17,7 @@ __all__ = [
     "LifecycleState",
     "ManagedEntity",
     "Node",
+    "NodeMixin",
     "Publisher",
     "SimpleManagedEntity",
     "State",

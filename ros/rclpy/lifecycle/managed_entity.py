@@ -1,8 +1,8 @@
-"""Parts of a managed node that follow its transitions."""
-# ruff: noqa: ARG002 - subclasses use what these defaults do not
+"""What follows the states of a managed node."""
 
 from __future__ import annotations
 
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from .state_machine import LifecycleState, TransitionCallbackReturn
@@ -14,69 +14,65 @@ __all__ = ["ManagedEntity", "SimpleManagedEntity"]
 
 
 class ManagedEntity:
-    """Something that hears of its node's transitions; each callback gets the state before, and says whether it went well."""
+    """Told of the transitions of its node; each method gets the state before, and may refuse."""
 
-    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Get ready to work."""
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the signature of a callback
+        """The node is to be configured."""
         return TransitionCallbackReturn.SUCCESS
 
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Undo :meth:`on_configure`."""
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """The node is to be unconfigured."""
         return TransitionCallbackReturn.SUCCESS
 
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """End for good."""
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """The node is to be shut down."""
         return TransitionCallbackReturn.SUCCESS
 
-    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Start to work."""
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """The node is to be activated."""
         return TransitionCallbackReturn.SUCCESS
 
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop working."""
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """The node is to be deactivated."""
         return TransitionCallbackReturn.SUCCESS
 
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Recover from an error of another callback."""
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """A transition failed."""
         return TransitionCallbackReturn.SUCCESS
 
 
 class SimpleManagedEntity(ManagedEntity):
-    """Is enabled while its node is active."""
+    """Enabled while its node is active."""
 
     def __init__(self) -> None:
         self._enabled = False
 
-    @property
-    def is_activated(self) -> bool:
-        """Whether its node is active."""
-        return self._enabled
-
-    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Enable it."""
         self._enabled = True
         return TransitionCallbackReturn.SUCCESS
 
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Disable it."""
         self._enabled = False
         return TransitionCallbackReturn.SUCCESS
 
+    @property
+    def is_activated(self) -> bool:
+        """Whether the node is active."""
+        return self._enabled
+
     @staticmethod
-    def when_enabled(
-        wrapped: Callable[..., Any] | None = None, *, when_not_enabled: Callable[..., Any] | None = None
-    ) -> Callable[..., Any]:
-        """Decorate a method that shall do nothing while disabled, or call ``when_not_enabled()`` instead."""
+    def when_enabled(wrapped: Callable[..., Any] | None = None, *, when_not_enabled: Callable[..., Any] | None = None) -> Any:
+        """Decorator of a method that runs while the entity is enabled; else ``when_not_enabled`` runs, or nothing."""
 
         def decorate(method: Callable[..., Any]) -> Callable[..., Any]:
-            import functools
-
-            @functools.wraps(method)
-            def only_when_enabled(self: SimpleManagedEntity, *args: Any, **kwargs: Any) -> Any:
+            @wraps(method)
+            def run_if_enabled(self: SimpleManagedEntity, *args: Any, **kwargs: Any) -> Any:
                 if self._enabled:
                     return method(self, *args, **kwargs)
-                return None if when_not_enabled is None else when_not_enabled()
+                return None if when_not_enabled is None else when_not_enabled(self, *args, **kwargs)
 
-            return only_when_enabled
+            return run_if_enabled
 
         return decorate if wrapped is None else decorate(wrapped)

@@ -1,4 +1,4 @@
-"""Managed nodes: their work starts and stops by transitions that other programs can trigger."""
+"""Managed nodes."""
 
 from __future__ import annotations
 
@@ -9,214 +9,256 @@ from rclpy.node import Node
 
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
-from .state_machine import LifecycleState, StateMachine, TransitionCallbackReturn
+from .state_machine import STATES, TRANSITIONS, LifecycleState, StateMachine, Transition, TransitionCallbackReturn
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable
 
-    import lifecycle_msgs.msg
     from rclpy.callback_groups import CallbackGroup
     from rclpy.publisher import Publisher
 
-    from .state_machine import Transition
-
 __all__ = ["LifecycleNode", "LifecycleNodeMixin"]
 
-#: The state in which a callback runs, and the name of the callback.
-_CALLBACKS = {
-    "configuring": "on_configure",
-    "cleaningup": "on_cleanup",
-    "shuttingdown": "on_shutdown",
-    "activating": "on_activate",
-    "deactivating": "on_deactivate",
-    "errorprocessing": "on_error",
+_SUCCESS = TransitionCallbackReturn.SUCCESS
+
+#: State in which a callback runs, by the name of the callback.
+_CALLBACK_STATES = {
+    "on_configure": 10,
+    "on_cleanup": 11,
+    "on_shutdown": 12,
+    "on_activate": 13,
+    "on_deactivate": 14,
+    "on_error": 15,
 }
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """What makes a node a managed one; :class:`LifecycleNode` is the whole.
+    """Makes a :class:`rclpy.node.Node` a managed one; see :class:`LifecycleNode`.
 
     Args:
-        enable_communication_interface: Whether other nodes can ask for its state and trigger transitions.
-        callback_group: Of the services for that.
+        enable_communication_interface: Whether other nodes can see and change the state.
+        callback_group: Of the services for that; None takes the node's default.
     """
 
     def __init__(self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None) -> None:
         self._state_machine = StateMachine()
-        self._managed_entities: dict[ManagedEntity, None] = {}
+        self._managed_entities: list[ManagedEntity] = []
         self._transition_event_publisher: Publisher | None = None
+        self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
+            state: getattr(self, name) for name, state in _CALLBACK_STATES.items()
+        }
         if enable_communication_interface:
-            self._create_communication_interface(callback_group)
+            self._offer_services(callback_group)
+
+    def _offer_services(self, callback_group: CallbackGroup | None) -> None:
+        from lifecycle_msgs import msg, srv
+
+        node: Any = self
+        self._transition_event_publisher = node.create_publisher(msg.TransitionEvent, "~/transition_event", 10)
+        for srv_type, name, callback in (
+            (srv.ChangeState, "change_state", self._on_change_state),
+            (srv.GetState, "get_state", self._on_get_state),
+            (srv.GetAvailableStates, "get_available_states", self._on_get_available_states),
+            (srv.GetAvailableTransitions, "get_available_transitions", self._on_get_available_transitions),
+            (srv.GetAvailableTransitions, "get_transition_graph", self._on_get_transition_graph),
+        ):
+            node.create_service(srv_type, f"~/{name}", callback, callback_group=callback_group)
+
+    # Transitions
 
     def trigger_configure(self) -> TransitionCallbackReturn:
-        """Go from unconfigured to inactive; :class:`RCLError` when the node is in another state, as with the others."""
-        return self._change_state("configure")
+        """Go from unconfigured to inactive; RCLError in another state."""
+        return self._change_state(self._state_machine.by_label("configure"))
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """Go from inactive to unconfigured."""
-        return self._change_state("cleanup")
+        """Go from inactive to unconfigured; RCLError in another state."""
+        return self._change_state(self._state_machine.by_label("cleanup"))
 
     def trigger_activate(self) -> TransitionCallbackReturn:
-        """Go from inactive to active."""
-        return self._change_state("activate")
+        """Go from inactive to active; RCLError in another state."""
+        return self._change_state(self._state_machine.by_label("activate"))
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """Go from active to inactive."""
-        return self._change_state("deactivate")
+        """Go from active to inactive; RCLError in another state."""
+        return self._change_state(self._state_machine.by_label("deactivate"))
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """Go from unconfigured, inactive or active to finalized."""
-        if all(transition.label != "shutdown" for transition in self._state_machine.available_transitions):
-            raise RCLError("Shutdown transition not possible")
-        return self._change_state("shutdown")
+        """Go to finalized, from where no way leads on."""
+        if self._state_machine.current_state == STATES[4]:
+            return _SUCCESS
+        return self._change_state(self._state_machine.by_label("shutdown"))
 
-    def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Let ``entity`` hear of the transitions, as long as the node's own callbacks call those of this class."""
-        self._managed_entities[entity] = None
+    def _change_state(self, transition: Transition) -> TransitionCallbackReturn:
+        before = self._state_machine.current_state
+        self._enter(transition.goal)
+        outcome = self._run_callback(before)
+        self._enter(self._state_machine.by_label(outcome.to_label()).goal)
+        if outcome is TransitionCallbackReturn.ERROR:
+            self._enter(self._state_machine.by_label(self._run_callback(before).to_label()).goal)
+        return outcome
+
+    def _enter(self, state: LifecycleState) -> None:
+        start, self._state_machine.current_state = self._state_machine.current_state, state
+        if self._transition_event_publisher is not None:
+            from lifecycle_msgs.msg import TransitionEvent
+
+            event = TransitionEvent(start_state=_state_message(start), goal_state=_state_message(state))
+            self._transition_event_publisher.publish(event)
+
+    def _run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
+        state = self._state_machine.current_state
+        try:
+            outcome = self._callbacks[state.state_id](before)
+            if not isinstance(outcome, TransitionCallbackReturn):
+                raise TypeError(f"a transition callback has to return a TransitionCallbackReturn, not {outcome!r}")
+        except Exception as error:  # noqa: BLE001 - an error is one of the outcomes that the state machine knows
+            import traceback
+
+            logger = self.get_logger()  # type: ignore[attr-defined]
+            logger.error(f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}")
+            return TransitionCallbackReturn.ERROR
+        return outcome
+
+    # Callbacks
+
+    def _forward(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+        """Tell the managed entities; the first that does not succeed decides."""
+        for entity in self._managed_entities:
+            outcome: TransitionCallbackReturn = getattr(entity, name)(state)
+            if outcome is not _SUCCESS:
+                return outcome
+        return _SUCCESS
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called at ``configure``; this one calls those of the managed entities and stops at the first that does not succeed."""
-        return self._ask_entities("on_configure", state)
+        """Called to configure; programs override it."""
+        return self._forward("on_configure", state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called at ``cleanup``; see :meth:`on_configure`."""
-        return self._ask_entities("on_cleanup", state)
+        """Called to undo the configuration; programs override it."""
+        return self._forward("on_cleanup", state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called at ``shutdown``; see :meth:`on_configure`."""
-        return self._ask_entities("on_shutdown", state)
+        """Called to shut down; programs override it."""
+        return self._forward("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called at ``activate``; see :meth:`on_configure`."""
-        return self._ask_entities("on_activate", state)
+        """Called to activate; programs that override it call it as well, it enables the publishers."""
+        return self._forward("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called at ``deactivate``; see :meth:`on_configure`."""
-        return self._ask_entities("on_deactivate", state)
+        """Called to deactivate; programs that override it call it as well, it silences the publishers."""
+        return self._forward("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called when another callback ends in an error: SUCCESS leads to unconfigured, all else to finalized."""
-        return self._ask_entities("on_error", state)
+        """Called after an error; success leads to unconfigured, all else to finalized."""
+        return self._forward("on_error", state)
+
+    def register_on_configure(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_configure`."""
+        return self._register("on_configure", cb)
+
+    def register_on_cleanup(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_cleanup`."""
+        return self._register("on_cleanup", cb)
+
+    def register_on_shutdown(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_shutdown`."""
+        return self._register("on_shutdown", cb)
+
+    def register_on_activate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_activate`."""
+        return self._register("on_activate", cb)
+
+    def register_on_deactivate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_deactivate`."""
+        return self._register("on_deactivate", cb)
+
+    def register_on_error(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        """Call ``cb`` instead of :meth:`on_error`."""
+        return self._register("on_error", cb)
+
+    def _register(self, name: str, callback: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+        self._callbacks[_CALLBACK_STATES[name]] = callback
+        return True
+
+    # Managed entities
+
+    def add_managed_entity(self, entity: ManagedEntity) -> None:
+        """Tell ``entity`` of transitions."""
+        self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """Create a publisher that is silent while the node is not active; arguments as :meth:`Node.create_publisher`."""
+        """A publisher that is silent while the node is not active; the arguments are those of ``create_publisher``."""
         if "publisher_class" in kwargs:
             raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
-        publisher = self.create_publisher(*args, **kwargs, publisher_class=LifecyclePublisher)
+        node: Any = self
+        publisher: LifecyclePublisher = node.create_publisher(*args, **kwargs, publisher_class=LifecyclePublisher)
         self.add_managed_entity(publisher)
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
-        """Destroy it; False when it is not of this node."""
-        self._managed_entities.pop(publisher, None)
-        return self.destroy_publisher(publisher)
+        """Close a publisher; False when it is not of this node."""
+        if publisher in self._managed_entities:
+            self._managed_entities.remove(publisher)
+        node: Any = self
+        return bool(node.destroy_publisher(publisher))
 
-    def _ask_entities(self, callback: str, state: LifecycleState) -> TransitionCallbackReturn:
-        for entity in list(self._managed_entities):
-            answer = getattr(entity, callback)(state)
-            if answer is not TransitionCallbackReturn.SUCCESS:
-                return answer if isinstance(answer, TransitionCallbackReturn) else TransitionCallbackReturn.ERROR
-        return TransitionCallbackReturn.SUCCESS
-
-    def _change_state(self, which: int | str) -> TransitionCallbackReturn:
-        """Go through a transition and its callback, and through that of errors if it ends in one; returns how the first ended."""
-        before = self._state_machine.current_state
-        self._trigger(which)
-        answer = self._run_callback(before)
-        self._trigger(answer.to_label())
-        if answer is TransitionCallbackReturn.ERROR:
-            self._trigger(self._run_callback(before).to_label())
-        return answer
-
-    def _trigger(self, which: int | str) -> None:
-        transition = self._state_machine.trigger(which)
-        if self._transition_event_publisher is not None:
-            from lifecycle_msgs.msg import TransitionEvent
-
-            event = TransitionEvent(timestamp=self.get_clock().now().nanoseconds, transition=_transition_msg(transition))
-            event.start_state, event.goal_state = _state_msg(transition.start), _state_msg(transition.goal)
-            self._transition_event_publisher.publish(event)
-
-    def _run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
-        name = _CALLBACKS[self._state_machine.current_state.label]
-        try:
-            answer = getattr(self, name)(before)
-        except Exception as error:  # noqa: BLE001 - whatever it is, the node goes to errorprocessing
-            import traceback
-
-            self.get_logger().error(f"{name}() raised an exception: {''.join(traceback.format_exception(error)).rstrip()}")
-            return TransitionCallbackReturn.ERROR
-        if not isinstance(answer, TransitionCallbackReturn):
-            self.get_logger().error(f"{name}() returned {answer!r}; it has to return a TransitionCallbackReturn")
-            return TransitionCallbackReturn.ERROR
-        return answer
-
-    def _create_communication_interface(self, callback_group: CallbackGroup | None) -> None:
-        from lifecycle_msgs.msg import TransitionEvent
-        from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
-
-        self._transition_event_publisher = self.create_publisher(TransitionEvent, "~/transition_event", 10)
-        for service_type, name, callback in (
-            (ChangeState, "~/change_state", self._on_change_state),
-            (GetState, "~/get_state", self._on_get_state),
-            (GetAvailableStates, "~/get_available_states", self._on_get_available_states),
-            (GetAvailableTransitions, "~/get_available_transitions", self._on_get_available_transitions),
-            (GetAvailableTransitions, "~/get_transition_graph", self._on_get_transition_graph),
-        ):
-            self.create_service(service_type, name, callback, callback_group=callback_group)
+    # Services
 
     def _on_change_state(self, request: Any, response: Any) -> Any:
+        wanted = request.transition
         try:
-            answer = self._change_state(request.transition.label or request.transition.id)
-        except RCLError as error:  # the state machine has logged why; ROS 2 would end the whole program here
-            self.get_logger().error(str(error))
-            answer = TransitionCallbackReturn.FAILURE
-        response.success = answer is TransitionCallbackReturn.SUCCESS
+            machine = self._state_machine
+            transition = machine.by_label(wanted.label) if wanted.label else machine.by_id(wanted.id)
+        except RCLError as error:
+            self.get_logger().error(str(error))  # type: ignore[attr-defined]
+            response.success = False
+            return response
+        response.success = self._change_state(transition) is _SUCCESS
         return response
 
-    def _on_get_state(self, _request: Any, response: Any) -> Any:
-        response.current_state = _state_msg(self._state_machine.current_state)
+    def _on_get_state(self, request: Any, response: Any) -> Any:  # noqa: ARG002 - the signature of a service callback
+        response.current_state = _state_message(self._state_machine.current_state)
         return response
 
-    def _on_get_available_states(self, _request: Any, response: Any) -> Any:
-        response.available_states = [_state_msg(state) for state in self._state_machine.available_states]
+    def _on_get_available_states(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+        response.available_states = [_state_message(state) for state in STATES.values()]
         return response
 
-    def _on_get_available_transitions(self, _request: Any, response: Any) -> Any:
-        response.available_transitions = _descriptions(self._state_machine.available_transitions)
+    def _on_get_available_transitions(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+        response.available_transitions = [_description(transition) for transition in self._state_machine.available_transitions]
         return response
 
-    def _on_get_transition_graph(self, _request: Any, response: Any) -> Any:
-        response.available_transitions = _descriptions(self._state_machine.transition_graph)
+    def _on_get_transition_graph(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+        response.available_transitions = [_description(transition) for transition in TRANSITIONS]
         return response
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """A managed node; arguments as :class:`rclpy.node.Node`, and whether other nodes can trigger its transitions."""
+    """A node with states: unconfigured, inactive, active, finalized.
+
+    Args:
+        node_name: Base name.
+        enable_communication_interface: Whether other nodes can see and change the state.
+        **kwargs: The other arguments of :class:`rclpy.node.Node`.
+    """
 
     def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
         Node.__init__(self, node_name, **kwargs)
         LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)
 
 
-def _state_msg(state: LifecycleState) -> lifecycle_msgs.msg.State:
+def _state_message(state: LifecycleState) -> Any:
     from lifecycle_msgs.msg import State
 
     return State(id=state.state_id, label=state.label)
 
 
-def _transition_msg(transition: Transition) -> lifecycle_msgs.msg.Transition:
-    from lifecycle_msgs.msg import Transition as TransitionMsg
+def _description(transition: Transition) -> Any:
+    from lifecycle_msgs import msg
 
-    return TransitionMsg(id=transition.transition_id, label=transition.label)
-
-
-def _descriptions(transitions: Iterable[Transition]) -> list[lifecycle_msgs.msg.TransitionDescription]:
-    from lifecycle_msgs.msg import TransitionDescription
-
-    return [
-        TransitionDescription(
-            transition=_transition_msg(transition), start_state=_state_msg(transition.start), goal_state=_state_msg(transition.goal)
-        )
-        for transition in transitions
-    ]
+    return msg.TransitionDescription(
+        transition=msg.Transition(id=transition.transition_id, label=transition.label),
+        start_state=_state_message(transition.start),
+        goal_state=_state_message(transition.goal),
+    )

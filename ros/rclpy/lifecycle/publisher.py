@@ -1,4 +1,4 @@
-"""Publishers of a managed node."""
+"""Publishers that are silent while their node is not active."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["LifecyclePublisher"]
 
 
 class LifecyclePublisher(SimpleManagedEntity, Publisher):
-    """Publishes while its node is active, and drops messages otherwise."""
+    """Publishes while its node is active; messages at other times are dropped."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         SimpleManagedEntity.__init__(self)
@@ -20,5 +20,5 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
 
     @SimpleManagedEntity.when_enabled
     def publish(self, msg: Any) -> None:
-        """Send a message if the node is active."""
+        """Send a message if the node is active; see :meth:`rclpy.publisher.Publisher.publish`."""
         Publisher.publish(self, msg)

@@ -1,38 +1,29 @@
-"""The states and transitions of a managed node, with the numbers and labels of ROS 2. Knows no node.
-
-::
-
-    unconfigured ──configure──▶ inactive ──activate──▶ active
-         ▲  ◀──────cleanup──────   │  ◀───deactivate───  │
-         │                         ▼                     ▼
-    errorprocessing           shutdown (from any) ──▶ finalized
-"""
+"""The states of a managed node and the ways between them, with the numbers of lifecycle_msgs."""
 
 from __future__ import annotations
 
-import threading
-from enum import IntEnum
+from enum import Enum
 from typing import NamedTuple
 
 from rclpy._rclpy_pybind11 import RCLError
 
-__all__ = ["LifecycleState", "StateMachine", "Transition", "TransitionCallbackReturn"]
+__all__ = ["STATES", "TRANSITIONS", "LifecycleState", "StateMachine", "Transition", "TransitionCallbackReturn"]
 
 
-class TransitionCallbackReturn(IntEnum):
-    """What a transition's callback returns."""
+class TransitionCallbackReturn(Enum):
+    """What a transition callback reports."""
 
     SUCCESS = 97
     FAILURE = 98
     ERROR = 99
 
     def to_label(self) -> str:
-        """The label of the transition that follows."""
+        """For example ``transition_success``."""
         return f"transition_{self.name.lower()}"
 
 
 class LifecycleState(NamedTuple):
-    """A state of a managed node."""
+    """A state."""
 
     label: str
     state_id: int
@@ -47,106 +38,86 @@ class Transition(NamedTuple):
     goal: LifecycleState
 
 
-_UNKNOWN = LifecycleState("unknown", 0)
-_UNCONFIGURED = LifecycleState("unconfigured", 1)
-_INACTIVE = LifecycleState("inactive", 2)
-_ACTIVE = LifecycleState("active", 3)
-_FINALIZED = LifecycleState("finalized", 4)
-_CONFIGURING = LifecycleState("configuring", 10)
-_CLEANING_UP = LifecycleState("cleaningup", 11)
-_SHUTTING_DOWN = LifecycleState("shuttingdown", 12)
-_ACTIVATING = LifecycleState("activating", 13)
-_DEACTIVATING = LifecycleState("deactivating", 14)
-_ERROR_PROCESSING = LifecycleState("errorprocessing", 15)
+STATES = {
+    number: LifecycleState(label, number)
+    for number, label in (
+        (0, "unknown"),
+        (1, "unconfigured"),
+        (2, "inactive"),
+        (3, "active"),
+        (4, "finalized"),
+        (10, "configuring"),
+        (11, "cleaningup"),
+        (12, "shuttingdown"),
+        (13, "activating"),
+        (14, "deactivating"),
+        (15, "errorprocessing"),
+    )
+}
 
-STATES = (
-    _UNKNOWN,
-    _UNCONFIGURED,
-    _INACTIVE,
-    _ACTIVE,
-    _FINALIZED,
-    _CONFIGURING,
-    _CLEANING_UP,
-    _SHUTTING_DOWN,
-    _ACTIVATING,
-    _DEACTIVATING,
-    _ERROR_PROCESSING,
+_UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = 1, 2, 3, 4
+_CONFIGURING, _CLEANING_UP, _SHUTTING_DOWN, _ACTIVATING, _DEACTIVATING, _ERROR_PROCESSING = 10, 11, 12, 13, 14, 15
+
+_REQUESTED = (
+    (1, "configure", _UNCONFIGURED, _CONFIGURING),
+    (2, "cleanup", _INACTIVE, _CLEANING_UP),
+    (3, "activate", _INACTIVE, _ACTIVATING),
+    (4, "deactivate", _ACTIVE, _DEACTIVATING),
+    (5, "shutdown", _UNCONFIGURED, _SHUTTING_DOWN),
+    (6, "shutdown", _INACTIVE, _SHUTTING_DOWN),
+    (7, "shutdown", _ACTIVE, _SHUTTING_DOWN),
+)
+#: State in which a callback runs, number of its success, and the states after success, failure and error.
+_REPORTED = (
+    (_CONFIGURING, 10, _INACTIVE, _UNCONFIGURED, _ERROR_PROCESSING),
+    (_CLEANING_UP, 20, _UNCONFIGURED, _INACTIVE, _ERROR_PROCESSING),
+    (_ACTIVATING, 30, _ACTIVE, _INACTIVE, _ERROR_PROCESSING),
+    (_DEACTIVATING, 40, _INACTIVE, _ACTIVE, _ERROR_PROCESSING),
+    (_SHUTTING_DOWN, 50, _FINALIZED, _FINALIZED, _ERROR_PROCESSING),
+    (_ERROR_PROCESSING, 60, _UNCONFIGURED, _FINALIZED, _FINALIZED),
 )
 
 
-def _outcomes(first_id: int, during: LifecycleState, *goals: LifecycleState) -> list[Transition]:
-    """The three ends of a transition: success, failure, error."""
-    labels = [outcome.to_label() for outcome in TransitionCallbackReturn]
-    return [Transition(first_id + index, labels[index], during, goal) for index, goal in enumerate(goals)]
+def _all_transitions() -> list[Transition]:
+    transitions = [Transition(number, label, STATES[start], STATES[goal]) for number, label, start, goal in _REQUESTED]
+    for start, first, *goals in _REPORTED:
+        for offset, (outcome, goal) in enumerate(zip(TransitionCallbackReturn, goals, strict=True)):
+            transitions.append(Transition(first + offset, outcome.to_label(), STATES[start], STATES[goal]))
+    return transitions
 
 
-TRANSITIONS = (
-    Transition(1, "configure", _UNCONFIGURED, _CONFIGURING),
-    *_outcomes(10, _CONFIGURING, _INACTIVE, _UNCONFIGURED, _ERROR_PROCESSING),
-    Transition(2, "cleanup", _INACTIVE, _CLEANING_UP),
-    *_outcomes(20, _CLEANING_UP, _UNCONFIGURED, _INACTIVE, _ERROR_PROCESSING),
-    Transition(3, "activate", _INACTIVE, _ACTIVATING),
-    *_outcomes(30, _ACTIVATING, _ACTIVE, _INACTIVE, _ERROR_PROCESSING),
-    Transition(4, "deactivate", _ACTIVE, _DEACTIVATING),
-    *_outcomes(40, _DEACTIVATING, _INACTIVE, _ACTIVE, _ERROR_PROCESSING),
-    Transition(5, "shutdown", _UNCONFIGURED, _SHUTTING_DOWN),
-    Transition(6, "shutdown", _INACTIVE, _SHUTTING_DOWN),
-    Transition(7, "shutdown", _ACTIVE, _SHUTTING_DOWN),
-    *_outcomes(50, _SHUTTING_DOWN, _FINALIZED, _FINALIZED, _ERROR_PROCESSING),
-    *_outcomes(60, _ERROR_PROCESSING, _UNCONFIGURED, _FINALIZED, _FINALIZED),
-)
+TRANSITIONS = _all_transitions()
 
 
 class StateMachine:
-    """The present state of one node. Thread-safe."""
+    """Where a node is, and where it can go."""
 
     def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._state = _UNCONFIGURED
-
-    @property
-    def current_state(self) -> LifecycleState:
-        """Where the node is."""
-        return self._state
-
-    @property
-    def available_states(self) -> tuple[LifecycleState, ...]:
-        """All states."""
-        return STATES
-
-    @property
-    def transition_graph(self) -> tuple[Transition, ...]:
-        """All transitions."""
-        return TRANSITIONS
+        self.current_state = STATES[_UNCONFIGURED]
 
     @property
     def available_transitions(self) -> list[Transition]:
-        """The transitions that start here."""
-        return [transition for transition in TRANSITIONS if transition.start == self._state]
+        """The ways that lead on from here."""
+        return [transition for transition in TRANSITIONS if transition.start == self.current_state]
 
-    def trigger(self, which: int | str) -> Transition:
-        """Go through a transition that starts here.
-
-        Args:
-            which: Its number or label.
-
-        Returns:
-            The transition.
+    def by_label(self, label: str) -> Transition:
+        """The way of this name.
 
         Raises:
-            RCLError: None of that number or label starts here.
+            RCLError: None leads on from here.
         """
-        with self._lock:
-            for transition in self.available_transitions:
-                if which in (transition.transition_id, transition.label):
-                    self._state = transition.goal
-                    return transition
-            state = self._state
-        from rclpy.logging import get_logger
+        return self._find(label, [transition for transition in self.available_transitions if transition.label == label])
 
-        known = ", ".join(f"{transition.label} ({transition.transition_id})" for transition in TRANSITIONS if transition.start == state)
-        get_logger("rcl_lifecycle").warning(f"No transition matching {which} found for current state {state.label}")
-        error = RCLError("Failed to trigger lifecycle state machine transition: Transition is not registered.")
-        if hasattr(error, "add_note"):
-            error.add_note(f"From {state.label} these lead on: {known or 'none'}.")
-        raise error
+    def by_id(self, transition_id: int) -> Transition:
+        """The way of this number; raises as :meth:`by_label`."""
+        ways = [transition for transition in self.available_transitions if transition.transition_id == transition_id]
+        return self._find(str(transition_id), ways)
+
+    def _find(self, wanted: str, found: list[Transition]) -> Transition:
+        if not found:
+            possible = ", ".join(f"{transition.label} ({transition.transition_id})" for transition in self.available_transitions)
+            raise RCLError(
+                f"Failed to trigger lifecycle state machine transition: no transition matching {wanted} found for current state "
+                f"{self.current_state.label}; there are: {possible or 'none'}"
+            )
+        return found[0]

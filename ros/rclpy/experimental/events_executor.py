@@ -1,0 +1,11 @@
+"""The events executor of ROS 2. All executors here are driven by events; this one is the single-threaded one under its name."""
+
+from __future__ import annotations
+
+from rclpy.executors import SingleThreadedExecutor
+
+__all__ = ["EventsExecutor"]
+
+
+class EventsExecutor(SingleThreadedExecutor):
+    """Runs callbacks in the thread that spins, woken by events."""
