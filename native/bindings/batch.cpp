@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../core/batch.hpp"
+#include "arrays.hpp"
 #include "errors.hpp"
 
 namespace turtlewire::python {
@@ -19,52 +20,9 @@ namespace {
 
 using namespace nb::literals;
 
-using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Output = nb::ndarray<double, nb::c_contig, nb::device::cpu>;
 using Statuses = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using NewArray = nb::ndarray<nb::numpy, double>;
-
-// int64 stamps from an array or sequence of integers; floats are refused, as they cannot hold a present stamp.
-Stamps stamps_of(nb::handle object) {
-  Stamps stamps;
-  if (nb::try_cast(object, stamps, false)) return stamps;
-  const nb::module_ numpy = nb::module_::import_("numpy");
-  const nb::object array = numpy.attr("asarray")(object);
-  const std::string kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));
-  if (kind != "i" && kind != "u" && nb::cast<std::size_t>(array.attr("size")) != 0) {
-    throw nb::type_error("stamps must be integers (nanoseconds)");
-  }
-  const nb::object plain = numpy.attr("ascontiguousarray")(array, "dtype"_a = "int64");
-  if (nb::cast<int>(plain.attr("ndim")) != 1 || nb::cast<int>(array.attr("ndim")) != 1) {
-    throw nb::value_error("stamps must be one-dimensional");
-  }
-  return nb::cast<Stamps>(plain);
-}
-
-template <typename T>
-nb::ndarray<nb::numpy, T> new_array(std::initializer_list<std::size_t> shape) {
-  std::size_t size = 1;
-  for (const std::size_t extent : shape) size *= extent;
-  auto data = std::make_unique<T[]>(std::max<std::size_t>(size, 1));
-  T* const begin = data.get();
-  const nb::capsule owner(data.release(), [](void* p) noexcept { delete[] static_cast<T*>(p); });
-  return nb::ndarray<nb::numpy, T>(begin, shape, owner);
-}
-
-template <typename Array>
-void check_shape(const Array& array, std::initializer_list<std::size_t> shape, const char* name) {
-  bool fits = array.ndim() == shape.size();
-  std::size_t i = 0;
-  std::string wanted, given;
-  for (const std::size_t extent : shape) {
-    fits = fits && array.shape(i) == extent;
-    ++i;
-    wanted += (wanted.empty() ? "" : ", ") + std::to_string(extent);
-  }
-  if (fits) return;
-  for (i = 0; i < array.ndim(); ++i) given += (given.empty() ? "" : ", ") + std::to_string(array.shape(i));
-  throw nb::value_error((std::string(name) + " must have the shape (" + wanted + "), not (" + given + ")").c_str());
-}
 
 // The given array, or a new one; `begin` is its first number.
 nb::object output(nb::object out, std::initializer_list<std::size_t> shape, double*& begin) {

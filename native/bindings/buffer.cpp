@@ -16,8 +16,8 @@ Status ask(SharedBuffer& shared, const FullRequest& request, Found* found, Failu
 
 }  // namespace
 
-BufferObject::BufferObject(Stamp cache_time_ns) : shared(cache_time_ns) {
-  if (cache_time_ns < 0) throw nb::value_error("cache_time_ns must not be negative");
+BufferObject::BufferObject(std::optional<Stamp> cache_time_ns) : shared(cache_time_ns.value_or(kForever)) {
+  if (shared.buffer.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
 }
 
 BufferObject::~BufferObject() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +17,7 @@ namespace turtlewire::python {
 
 class BufferObject {
  public:
-  explicit BufferObject(Stamp cache_time_ns);
+  explicit BufferObject(std::optional<Stamp> cache_time_ns);
   BufferObject(const BufferObject&) = delete;
   BufferObject& operator=(const BufferObject&) = delete;
   ~BufferObject();

@@ -1,4 +1,5 @@
 // The Python class turtlewire.Buffer: arguments in, results out.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 
@@ -6,6 +7,7 @@
 #include "batch.hpp"
 #include "buffer.hpp"
 #include "errors.hpp"
+#include "inspection.hpp"
 #include "transform.hpp"
 
 namespace turtlewire::python {
@@ -213,7 +215,9 @@ nb::list frame_strings(BufferObject& self) {
   {
     const std::scoped_lock lock(self.shared.mutex);
     const Names& frames = self.shared.buffer.frames();
-    for (FrameId id = 1; id < frames.size(); ++id) names.emplace_back(frames[id]);
+    for (FrameId id = 1; id < frames.size(); ++id) {
+      if (!self.shared.buffer.is_forgotten(id)) names.emplace_back(frames[id]);
+    }
   }
   nb::list list;
   for (const std::string& name : names) list.append(name);
@@ -332,9 +336,15 @@ void add_buffer_type(nb::module_& module) {
       module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
       "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
       "Args:\n"
-      "    cache_time_ns: How long samples are kept, counted back from the newest of their link.");
-  cls.def(nb::init<Stamp>(), "cache_time_ns"_a = 10'000'000'000)
-      .def_prop_ro("cache_time_ns", [](BufferObject& self) { return self.shared.buffer.keep(); })
+      "    cache_time_ns: How long samples are kept, counted back from the newest of their link; None: forever.");
+  cls.def(nb::init<std::optional<Stamp>>(), "cache_time_ns"_a.none() = 10'000'000'000)
+      .def_prop_ro(
+          "cache_time_ns",
+          [](BufferObject& self) -> std::optional<Stamp> {
+            if (self.shared.buffer.keep() == kForever) return std::nullopt;
+            return self.shared.buffer.keep();
+          },
+          "How long samples are kept; None: forever.")
       .def(
           "latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
           "The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static.")
@@ -350,7 +360,8 @@ void add_buffer_type(nb::module_& module) {
           "frame_exists",
           [](BufferObject& self, std::string_view frame) {
             const std::scoped_lock lock(self.shared.mutex);
-            return self.shared.buffer.frames().find(frame).has_value();
+            const auto known = self.shared.buffer.frames().find(frame);
+            return known.has_value() && !self.shared.buffer.is_forgotten(*known);
           },
           "frame"_a, "Whether the frame was ever heard of.")
       .def(
@@ -379,6 +390,7 @@ void add_buffer_type(nb::module_& module) {
           "Makes every waiting lookup look at pending signals now, and go on waiting if there is none.\n\n"
           "For signal handling that does not interrupt the main thread's system call, such as rclpy's.");
   add_batch_methods(cls);
+  add_inspection_methods(cls);
 }
 
 }  // namespace turtlewire::python

@@ -222,6 +222,7 @@ Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t, std::v
   Pose root_from_target, root_from_frame;
   const bool at_once = t != 0 && forest.root_from(target_id, target_root, root_from_target);
   for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+    if (buffer.is_forgotten(frame)) continue;
     Pose pose;
     Stamp stamp = t;
     if (frame == target_id) {

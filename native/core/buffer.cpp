@@ -7,13 +7,18 @@ namespace {
 
 constexpr std::size_t kMostPaths = 1 << 16;
 
+Verdict judge_names(std::string_view parent, std::string_view child) {
+  if (child == parent) return Verdict::self_transform;
+  if (child.empty()) return Verdict::no_child_frame;
+  if (parent.empty()) return Verdict::no_parent_frame;
+  if (child == kNoParent || parent == kNoParent) return Verdict::reserved_name;
+  if (!is_frame_name(child) || !is_frame_name(parent)) return Verdict::bad_name;
+  return Verdict::accepted;
+}
+
 std::string_view without_slash(std::string_view name) {
   if (!name.empty() && name.front() == '/') name.remove_prefix(1);
   return name;
-}
-
-void add_time(Stamp stamp, Stamp& earliest) {
-  if (stamp != 0 && (earliest == 0 || stamp < earliest)) earliest = stamp;
 }
 
 }  // namespace
@@ -27,7 +32,11 @@ Buffer::Buffer(Stamp keep) : keep_(keep) {
 
 FrameId Buffer::frame(std::string_view name) {
   const FrameId id = frames_.intern(name);
-  if (links_.size() < frames_.size()) links_.push_back(std::make_unique<Link>());
+  if (links_.size() < frames_.size()) {
+    links_.push_back(std::make_unique<Link>());
+    forgotten_.push_back(false);
+  }
+  forgotten_[id] = false;
   return id;
 }
 
@@ -40,14 +49,13 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
   FrameId child_id = predicted(last_link_->follower, child);
   FrameId parent_id = child_id != 0 ? predicted(links_[child_id]->parent(), parent) : 0;
   if (parent_id == 0) [[unlikely]] {
-    if (child == parent) return Verdict::self_transform;
-    if (child.empty()) return Verdict::no_child_frame;
-    if (parent.empty()) return Verdict::no_parent_frame;
-    if (child == frames_[0] || parent == frames_[0]) return Verdict::reserved_name;
-    if (!is_frame_name(child) || !is_frame_name(parent)) return Verdict::bad_name;
+    const Verdict verdict = judge_names(parent, child);
+    if (verdict != Verdict::accepted) return refuse(verdict, parent, child, stamp, pose, source);
   }
   Sample sample{{pose.translation, canonical(pose.rotation)}, parent_id, source};
-  if (has_nan(pose.translation) || has_nan(sample.pose.rotation)) return Verdict::nan_value;
+  if (has_nan(pose.translation) || has_nan(sample.pose.rotation)) [[unlikely]] {
+    return refuse(Verdict::nan_value, parent, child, stamp, pose, source);
+  }
   if (parent_id == 0) [[unlikely]] {
     child_id = frame(child);
     parent_id = sample.parent = frame(parent);
@@ -67,9 +75,31 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
   }
   if (link.shape() != shape) [[unlikely]]
     ++version_;
-  if (!added) return Verdict::old_data;
-  link.sender = source;
+  if (!added) [[unlikely]]
+    return refuse(Verdict::old_data, parent, child, stamp, pose, source);
+  link.count_sender(source, parent_id, stamp);
   return Verdict::accepted;
+}
+
+Verdict Buffer::refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
+                       SourceId source) {
+  refusals_.add({verdict, parent, child, senders_[source], stamp, pose});
+  return verdict;
+}
+
+bool Buffer::remove(FrameId child) {
+  if (links_[child]->kind() == LinkKind::none) return false;
+  const FrameId parent = links_[child]->parent();
+  const FrameId follower = links_[child]->follower;
+  *links_[child] = Link();
+  links_[child]->follower = follower;
+  for (const FrameId frame : {child, parent}) {
+    const bool is_parent =
+        std::any_of(links_.begin(), links_.end(), [&](const auto& link) { return link->mentions(frame); });
+    if (frame != 0 && links_[frame]->kind() == LinkKind::none && !is_parent) forgotten_[frame] = true;
+  }
+  ++version_;
+  return true;
 }
 
 void Buffer::clear() {
@@ -83,7 +113,7 @@ Status Buffer::resolve(std::string_view name, FrameId& id) const {
   if (name.empty()) return Status::empty_name;
   if (name.front() == '/') return Status::slash_name;
   const auto known = frames_.find(name);
-  if (!known || *known == 0) return Status::unknown_frame;
+  if (!known || *known == 0 || forgotten_[*known]) return Status::unknown_frame;
   id = *known;
   return Status::ok;
 }
@@ -157,166 +187,6 @@ void Buffer::build(Path& path) const {
       path.up.push_back({nullptr, target_from_top});
     }
   }
-}
-
-// ---------------------------------------------------------------- questions
-
-Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const {
-  if (path.direct) [[likely]] {
-    const Stamp at = t != 0 ? t : turtlewire::latest_common_time(path);
-    if (follow(path, at, target_from_source)) [[likely]] {
-      t = at;
-      target_from_source.rotation = canonical(target_from_source.rotation);
-      return Status::ok;
-    }
-  }
-  return walk(path.target, path.source, t, &target_from_source, failure);
-}
-
-Status Buffer::can_transform(const Path& path, Stamp t, Failure* failure) const {
-  if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path))) return Status::ok;
-  return walk(path.target, path.source, t, nullptr, failure);
-}
-
-// By the newest parent of each link, whatever the time; the frames of one line ask for each link's newest stamp, and a
-// stamp of 0 counts as static.
-Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
-  t = 0;
-  if (target == source) {
-    t = newest(source);
-    return Status::ok;
-  }
-  std::vector<std::pair<Stamp, FrameId>> line;  // of the source: newest stamp and parent of each link
-  int depth = 0;
-  Stamp earliest = 0;
-  for (FrameId frame = source; links_[frame]->has_data();) {
-    const Link& link = *links_[frame];
-    add_time(link.newest(), earliest);
-    line.emplace_back(link.newest(), link.parent());
-    frame = link.parent();
-    if (frame == target) {
-      t = earliest;
-      return Status::ok;
-    }
-    if (++depth > kMaxGraphDepth) return fail_loop(failure);
-  }
-  depth = 0;
-  earliest = 0;
-  for (FrameId frame = target; links_[frame]->has_data();) {
-    const Link& link = *links_[frame];
-    add_time(link.newest(), earliest);
-    frame = link.parent();
-    const auto meeting =
-        std::find_if(line.begin(), line.end(), [&](const auto& entry) { return entry.second == frame; });
-    if (meeting != line.end()) {
-      for (auto it = line.begin(); it != meeting + 1; ++it) add_time(it->first, earliest);
-      t = earliest;
-      return Status::ok;
-    }
-    if (frame == source) {
-      t = earliest;
-      return Status::ok;
-    }
-    if (++depth > kMaxGraphDepth) return fail_loop(failure);
-  }
-  return fail_connection(target, source, failure);
-}
-
-// ---------------------------------------------------------------- the walk of tf2
-
-// One step upwards after another, from a start frame; remembers why it could not go on.
-struct Buffer::Climb {
-  const Buffer& buffer;
-  Stamp t;
-  FrameId frame;
-  Pose top_from_start{};
-  ReadStatus stopped = ReadStatus::ok;
-
-  // Reads the link above `frame`; false if that has no data at t.
-  bool read(Reading& reading) {
-    reading = buffer.links_[frame]->read(t);
-    stopped = reading.status;
-    return reading.status == ReadStatus::ok;
-  }
-  void step(const Reading& reading) {
-    top_from_start = reading.pose * top_from_start;
-    frame = reading.parent;
-  }
-};
-
-// tf2's own order of steps, which decides what happens with links that do not reach: those above the meeting point do
-// not hurt, the target's complaint comes before the source's, and the parents are those of the time asked for.
-Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source, Failure* failure) const {
-  if (t == 0) {
-    if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok) return status;
-  }
-  Reading reading;
-  Climb up{*this, t, source};
-  for (int depth = 0; links_[up.frame]->kind() != LinkKind::none && up.read(reading);) {
-    if (up.frame == target) {
-      if (target_from_source != nullptr) {
-        *target_from_source = {up.top_from_start.translation, canonical(up.top_from_start.rotation)};
-      }
-      return Status::ok;
-    }
-    up.step(reading);
-    if (++depth > kMaxGraphDepth) return fail_loop(failure);
-  }
-  Climb down{*this, t, target};
-  for (int depth = 0; down.frame != up.frame && links_[down.frame]->kind() != LinkKind::none;) {
-    if (!down.read(reading)) return fail_reading(down, target, source, failure);
-    if (down.frame == source) break;
-    down.step(reading);
-    if (++depth > kMaxGraphDepth) return fail_loop(failure);
-  }
-  const bool met = down.frame == up.frame;
-  if (!met && down.frame != source) {
-    if (up.stopped != ReadStatus::ok) return fail_reading(up, target, source, failure);
-    return fail_connection(target, source, failure);
-  }
-  if (target_from_source != nullptr) {
-    const Pose p = met ? between(down.top_from_start, up.top_from_start) : inverse(down.top_from_start);
-    *target_from_source = {p.translation, canonical(p.rotation)};
-  }
-  return Status::ok;
-}
-
-Status Buffer::fail_loop(Failure* failure) const {
-  if (failure != nullptr) {
-    failure->status = Status::loop;
-    failure->frames = frames_as_string();
-  }
-  return Status::loop;
-}
-
-Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure) const {
-  if (failure != nullptr) {
-    failure->status = Status::not_connected;
-    failure->target = name(target);
-    failure->source = name(source);
-    failure->target_root = name(root(target));
-    failure->source_root = name(root(source));
-  }
-  return Status::not_connected;
-}
-
-Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const {
-  const Status status = climb.stopped == ReadStatus::future ? Status::future
-                        : climb.stopped == ReadStatus::past ? Status::past
-                                                            : Status::no_data;
-  if (failure != nullptr) {
-    const Link& link = *links_[climb.frame];
-    failure->status = status;
-    failure->target = name(target);
-    failure->source = name(source);
-    failure->link_child = name(climb.frame);
-    failure->link_parent = name(link.parent());
-    failure->emptied = !link.has_data();
-    failure->requested = climb.t;
-    failure->oldest = link.oldest();
-    failure->newest = link.newest();
-  }
-  return status;
 }
 
 }  // namespace turtlewire

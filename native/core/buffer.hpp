@@ -13,10 +13,23 @@
 #include "link.hpp"
 #include "names.hpp"
 #include "path.hpp"
+#include "refusals.hpp"
 
 namespace turtlewire {
 
+inline constexpr std::string_view kNoParent = "NO_PARENT";
 inline constexpr int kMaxGraphDepth = 1000;  // tf2 takes more hops for a loop
+
+// What a link is asked for: its pose at a time; that, but up to `beyond` outside of its data; or its newest pose, if
+// that is not older than `max_age` at the time.
+struct Rule {
+  Stamp t = 0;
+  Stamp beyond = 0;
+  bool newest = false;
+  Stamp max_age = 0;  // 0: any
+
+  Reading read(const Link& link) const;
+};
 
 class Buffer {
  public:
@@ -25,16 +38,22 @@ class Buffer {
   Stamp keep() const { return keep_; }
 
   // -- in
-  // Adds one sample. `pose` is as received; a leading '/' of the names is dropped. `stored_pose` of a refusal's text is
-  // `pose`.
+  // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
   Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose, SourceId source,
               bool is_static);
   // Forgets all samples; frames, static transforms and senders stay, as in tf2.
   void clear();
+  // Forgets one link, its history and its static pose; and the names that then stand for nothing. False if there is
+  // none.
+  bool remove(FrameId child);
   SourceId sender(std::string_view name) { return senders_.intern(name); }
+  std::string_view sender_name(SourceId id) const { return senders_[id]; }
+  const Refusals& refusals() const { return refusals_; }
 
   // -- names
   const Names& frames() const { return frames_; }
+  // Whether the frame was removed: its number is not given again, but it counts as never heard of.
+  bool is_forgotten(FrameId frame) const { return forgotten_[frame]; }
   // ok, empty_name, slash_name or unknown_frame
   Status resolve(std::string_view name, FrameId& id) const;
 
@@ -49,6 +68,9 @@ class Buffer {
   Status lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const;
   Status can_transform(const Path& path, Stamp t, Failure* failure) const;
   Status latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const;
+  // target_from_source by other rules than tf2's for what a link answers. `used` receives the links on the way.
+  Status lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source, std::vector<FrameId>* used,
+                Failure* failure) const;
   // The link above a frame.
   const Link& link(FrameId frame) const { return *links_[frame]; }
   // Its newest stamp; 0 if there is none.
@@ -67,7 +89,11 @@ class Buffer {
   void build(Path& path) const;
   bool ancestors(FrameId frame, std::vector<FrameId>& line) const;
   void add_step(std::vector<Step>& arm, const Link& link) const;
+  Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
+                 SourceId source);
   Status walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source, Failure* failure) const;
+  Status climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source, std::vector<FrameId>* used,
+               Failure* failure) const;
   Status fail_loop(Failure* failure) const;
   Status fail_connection(FrameId first, FrameId second, Failure* failure) const;
   Status fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const;
@@ -76,10 +102,12 @@ class Buffer {
   std::string sender_of(FrameId child) const;
 
   Stamp keep_;
-  Names frames_{"NO_PARENT"};
+  Names frames_{kNoParent};
   Names senders_{"no recorded authority"};
   std::vector<std::unique_ptr<Link>> links_;  // by child frame; paths point to them
   Link* last_link_;                           // of the sample before this one
+  std::vector<bool> forgotten_{false};        // by frame
+  Refusals refusals_;
   std::uint64_t version_ = 1;
   std::unordered_map<std::uint64_t, std::unique_ptr<Path>> paths_;
   std::uint64_t path_epoch_ = 0;

@@ -51,6 +51,7 @@ enum class Verdict : std::uint8_t {
   reserved_name,
   bad_name,
 };
+inline constexpr std::size_t kVerdicts = 8;
 
 struct Refusal {
   Verdict verdict = Verdict::accepted;

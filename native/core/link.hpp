@@ -17,6 +17,14 @@ enum class ReadStatus : std::uint8_t { ok, no_data, future, past };
 
 enum class InsertStatus : std::uint8_t { added, duplicate, too_old };
 
+// Who has sent samples of one link, and with which parent.
+struct Sender {
+  SourceId id = 0;
+  FrameId parent = 0;
+  std::uint64_t samples = 0;
+  Stamp newest = 0;
+};
+
 struct Reading {
   ReadStatus status = ReadStatus::no_data;
   FrameId parent = 0;
@@ -25,7 +33,8 @@ struct Reading {
 
 class Link {
  public:
-  SourceId sender = 0;   // of the last accepted sample
+  static constexpr std::size_t kMostSenders = 16;  // beyond it the one that has been silent longest is forgotten
+
   FrameId follower = 0;  // the child that came after this one last time: saves hashing its name
 
   // Beyond this many values of one stamp only the first, the last and the count are kept: memory stays bounded.
@@ -51,6 +60,14 @@ class Link {
   }
   Stamp oldest() const { return is_static() || samples_.empty() ? 0 : samples_.oldest(); }
   Stamp newest() const { return is_static() || samples_.empty() ? 0 : samples_.newest(); }
+
+  // Whether the frame is a parent in the data.
+  bool mentions(FrameId frame) const {
+    if (!has_data()) return false;
+    bool found = parent_ == frame;
+    for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i) found |= samples_[i].parent == frame;
+    return found;
+  }
 
   // All that a path between two frames depends on, but for the samples themselves; equal shapes, equal paths.
   std::uint64_t shape() const {
@@ -80,7 +97,7 @@ class Link {
       append(stamp, sample, keep);
       return InsertStatus::added;
     }
-    const Stamp limit = before(samples_.newest(), keep);
+    const Stamp limit = earlier(samples_.newest(), keep);
     prune(limit);
     if (stamp > samples_.newest()) [[likely]] {
       append(stamp, sample, keep);
@@ -89,6 +106,23 @@ class Link {
     if (stamp < limit) return InsertStatus::too_old;
     return insert_late(stamp, sample, keep);
   }
+
+  // Counts an accepted sample for its sender.
+  void count_sender(SourceId id, FrameId parent, Stamp stamp) {
+    if (sender_.id != id || sender_.parent != parent || sender_.samples == 0) [[unlikely]]
+      change_sender(id, parent);
+    ++sender_.samples;
+    sender_.newest = stamp;
+  }
+  // Of the last accepted sample.
+  SourceId sender() const { return sender_.id; }
+  std::vector<Sender> senders() const {
+    std::vector<Sender> all = former_senders_;
+    if (sender_.samples > 0) all.push_back(sender_);
+    return all;
+  }
+  // How often the parent changes in the history kept.
+  std::size_t parent_changes() const { return parent_changes_; }
 
   // The history goes; a static pose stays.
   void clear() {
@@ -112,6 +146,19 @@ class Link {
     const Sample& older = samples_[i];
     const Sample& newer = samples_[i + 1];
     if (older.parent != newer.parent) return sample_reading(older);
+    return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
+  }
+
+  // As read, but up to `limit` before the oldest and after the newest sample: the motion between the two outermost
+  // samples is taken to go on.
+  Reading read_beyond(Stamp t, Stamp limit) const {
+    const Reading reading = read(t);
+    if (reading.status != ReadStatus::future && reading.status != ReadStatus::past) return reading;
+    const bool after = reading.status == ReadStatus::future;
+    const std::size_t i = after ? samples_.size() - 2 : 0;
+    const Stamp gap = after ? t - samples_.newest() : samples_.oldest() - t;
+    const Sample &older = samples_[i], &newer = samples_[i + 1];
+    if (gap > limit || older.parent != newer.parent || samples_.stamp(i) == samples_.stamp(i + 1)) return reading;
     return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
   }
 
@@ -144,11 +191,6 @@ class Link {
     Stamp stamp;
     std::size_t dropped;
   };
-
-  static Stamp before(Stamp stamp, Stamp span) {
-    constexpr Stamp first = std::numeric_limits<Stamp>::min();
-    return stamp < first + span ? first : stamp - span;
-  }
 
   static Reading sample_reading(const Sample& sample) { return {ReadStatus::ok, sample.parent, sample.pose}; }
 
@@ -192,6 +234,17 @@ class Link {
     }
   }
 
+  void change_sender(SourceId id, FrameId parent) {
+    if (sender_.samples > 0) former_senders_.push_back(sender_);
+    const auto known = std::find_if(former_senders_.begin(), former_senders_.end(),
+                                    [&](const Sender& s) { return s.id == id && s.parent == parent; });
+    sender_ = known != former_senders_.end() ? *known : Sender{id, parent};
+    if (known != former_senders_.end()) former_senders_.erase(known);
+    if (former_senders_.size() < kMostSenders) return;
+    former_senders_.erase(std::min_element(former_senders_.begin(), former_senders_.end(),
+                                           [](const Sender& a, const Sender& b) { return a.newest < b.newest; }));
+  }
+
   void note(const Sample& sample) {
     parent_ = samples_.back().parent;
     has_infinity_ = has_infinity_ || !is_finite(sample.pose.translation);
@@ -222,10 +275,12 @@ class Link {
   LinkKind kind_ = LinkKind::none;
   bool has_infinity_ = false;
   FrameId parent_ = 0;
+  Sender sender_;
   std::size_t parent_changes_ = 0;
   Samples samples_;
   Pose static_pose_;
   std::vector<Flood> floods_;
+  std::vector<Sender> former_senders_;
 };
 
 }  // namespace turtlewire

@@ -22,7 +22,7 @@ double rate(const Link& link) {
 
 std::string Buffer::name(FrameId id) const { return std::string(frames_[id]); }
 
-std::string Buffer::sender_of(FrameId child) const { return std::string(senders_[links_[child]->sender]); }
+std::string Buffer::sender_of(FrameId child) const { return std::string(senders_[links_[child]->sender()]); }
 
 std::string Buffer::frames_as_string() const {
   std::string text;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -16,6 +17,14 @@ namespace turtlewire {
 using FrameId = std::uint32_t;   // 0 is "NO_PARENT"
 using Stamp = std::int64_t;      // nanoseconds; 0 asks for the latest
 using SourceId = std::uint32_t;  // who sent it
+
+inline constexpr Stamp kForever = std::numeric_limits<Stamp>::max();
+
+// The time a span before another; the first of all times if there is none.
+inline Stamp earlier(Stamp t, Stamp span) {
+  constexpr Stamp first = std::numeric_limits<Stamp>::min();
+  return t < first + span ? first : t - span;
+}
 
 // As tf2 turns times and durations into seconds; its texts show the rounding.
 inline double seconds(Stamp t) {
@@ -37,6 +46,15 @@ class Samples {
   Samples() = default;
   Samples(const Samples&) = delete;
   Samples& operator=(const Samples&) = delete;
+  Samples& operator=(Samples&& other) noexcept {
+    std::swap(stamps_, other.stamps_);
+    std::swap(samples_, other.samples_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(head_, other.head_);
+    std::swap(size_, other.size_);
+    std::swap(per_ns_, other.per_ns_);
+    return *this;
+  }
   ~Samples() { release(); }
 
   std::size_t size() const { return size_; }

@@ -88,7 +88,7 @@ bool SharedBuffer::worth_waiting(const Failure& failure) const {
       return false;
     case Status::no_data:
     case Status::past:
-      return failure.emptied || failure.requested >= failure.newest - buffer.keep();
+      return failure.emptied || failure.requested >= earlier(failure.newest, buffer.keep());
     default:
       return true;
   }

@@ -1,0 +1,45 @@
+// NumPy arrays in and out.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+
+#include "../core/samples.hpp"
+
+namespace turtlewire::python {
+
+namespace nb = nanobind;
+
+using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+// int64 stamps from an array or sequence of integers; floats are refused, as they cannot hold a present stamp.
+Stamps stamps_of(nb::handle object);
+
+// A new array that owns its memory.
+template <typename T>
+nb::ndarray<nb::numpy, T> new_array(std::initializer_list<std::size_t> shape) {
+  std::size_t size = 1;
+  for (const std::size_t extent : shape) size *= extent;
+  auto data = std::make_unique<T[]>(std::max<std::size_t>(size, 1));
+  T* const begin = data.get();
+  const nb::capsule owner(data.release(), [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return nb::ndarray<nb::numpy, T>(begin, shape, owner);
+}
+
+// Throws a ValueError that names both shapes unless they are equal.
+template <typename Array>
+void check_shape(const Array& array, std::initializer_list<std::size_t> shape, const char* name) {
+  std::string wanted, given;
+  for (const std::size_t extent : shape) wanted += (wanted.empty() ? "" : ", ") + std::to_string(extent);
+  for (std::size_t i = 0; i < array.ndim(); ++i) given += (given.empty() ? "" : ", ") + std::to_string(array.shape(i));
+  if (wanted == given) return;
+  throw nb::value_error((std::string(name) + " must have the shape (" + wanted + "), not (" + given + ")").c_str());
+}
+
+}  // namespace turtlewire::python

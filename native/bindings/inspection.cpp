@@ -1,0 +1,305 @@
+#include "inspection.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "errors.hpp"
+#include "transform.hpp"
+
+namespace turtlewire::python {
+namespace {
+
+using namespace nb::literals;
+
+using PoseRows = nb::ndarray<const double, nb::shape<-1, 7>, nb::c_contig, nb::device::cpu>;
+
+nb::str text(std::string_view value) { return nb::str(value.data(), value.size()); }
+
+[[noreturn]] void raise_failure(BufferObject& self, const Failure& failure) {
+  raise(failure, Question::lookup, nb::find(self).ptr());
+  throw nb::python_error();
+}
+
+// Both names as frames; raises if one is none. Call with the lock held.
+bool resolve_both(const Buffer& buffer, std::string_view target, std::string_view source, FrameId& target_id,
+                  FrameId& source_id, Failure& failure) {
+  failure.status = buffer.resolve(target, target_id);
+  failure.name = target;
+  if (failure.status != Status::ok) return false;
+  failure.argument = Argument::source;
+  failure.status = buffer.resolve(source, source_id);
+  failure.name = source;
+  return failure.status == Status::ok;
+}
+
+nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source, Stamp t, Stamp limit) {
+  if (limit < 0) throw nb::value_error("limit_ns must not be negative");
+  Found found{t, {}};
+  Failure failure;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    FrameId target_id = 0, source_id = 0;
+    const Buffer& buffer = self.shared.buffer;
+    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) && target_id != source_id) {
+      failure.status = buffer.lookup(target_id, source_id, Rule{.t = t, .beyond = limit}, found.target_from_source,
+                                     nullptr, &failure);
+    }
+  }
+  if (failure.status != Status::ok) raise_failure(self, failure);
+  return nb::steal(make_transform(target.ptr(), source.ptr(), found));
+}
+
+nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age, Stamp now) {
+  if (max_age != 0 && now == 0)
+    throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
+  Found found;
+  Failure failure;
+  std::vector<FrameId> used;
+  std::vector<std::pair<std::string, Stamp>> stamps;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    FrameId target_id = 0, source_id = 0;
+    const Buffer& buffer = self.shared.buffer;
+    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) && target_id != source_id) {
+      const Rule rule{.t = now, .newest = true, .max_age = max_age};
+      failure.status = buffer.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
+    }
+    for (const FrameId frame : used) {
+      const Link& link = buffer.link(frame);
+      if (!link.is_static()) stamps.emplace_back(buffer.frames()[frame], link.newest());
+    }
+  }
+  if (failure.status != Status::ok) raise_failure(self, failure);
+  nb::dict by_child;
+  for (const auto& [child, stamp] : stamps) {
+    by_child[child.c_str()] = stamp;
+    found.stamp = found.stamp == 0 ? stamp : std::min(found.stamp, stamp);
+  }
+  return nb::make_tuple(nb::steal(make_transform(target.ptr(), source.ptr(), found)), by_child);
+}
+
+bool remove_frame(BufferObject& self, std::string_view child) {
+  const std::scoped_lock lock(self.shared.mutex);
+  FrameId id = 0;
+  return self.shared.buffer.resolve(child, id) == Status::ok && self.shared.buffer.remove(id);
+}
+
+nb::list remove_stale(BufferObject& self, Stamp before) {
+  std::vector<std::string> removed;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    Buffer& buffer = self.shared.buffer;
+    for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+      const Link& link = buffer.link(frame);
+      if (link.kind() == LinkKind::dynamic_link && link.newest() < before && buffer.remove(frame)) {
+        removed.emplace_back(buffer.frames()[frame]);
+      }
+    }
+  }
+  nb::list names;
+  for (const std::string& name : removed) names.append(text(name));
+  return names;
+}
+
+// ---------------------------------------------------------------- descriptions, for turtlewire.tf.inspection
+
+struct LinkDescription {
+  std::string child, parent;
+  bool is_static;
+  std::size_t length;
+  Stamp oldest, newest;
+  std::size_t parent_changes, bytes;
+  std::vector<std::tuple<std::string, std::string, std::uint64_t, Stamp>> senders;
+};
+
+nb::list describe_links(BufferObject& self) {
+  std::vector<LinkDescription> links;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    const Buffer& buffer = self.shared.buffer;
+    const auto name = [&](FrameId id) { return std::string(buffer.frames()[id]); };
+    for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+      const Link& link = buffer.link(frame);
+      if (link.kind() == LinkKind::none) continue;
+      links.push_back({name(frame),
+                       name(link.parent()),
+                       link.is_static(),
+                       link.has_data() ? link.length() : 0,
+                       link.oldest(),
+                       link.newest(),
+                       link.parent_changes(),
+                       link.samples().bytes(),
+                       {}});
+      for (const Sender& sender : link.senders()) {
+        links.back().senders.emplace_back(buffer.sender_name(sender.id), name(sender.parent), sender.samples,
+                                          sender.newest);
+      }
+    }
+  }
+  nb::list list;
+  for (const LinkDescription& d : links) {
+    nb::list senders;
+    for (const auto& [who, parent, samples, newest] : d.senders) {
+      senders.append(nb::make_tuple(text(who), text(parent), samples, newest));
+    }
+    list.append(nb::make_tuple(text(d.child), text(d.parent), d.is_static, d.length, d.oldest, d.newest,
+                               d.parent_changes, d.bytes, senders));
+  }
+  return list;
+}
+
+// By child frame: the counts by kind of refusal, and the text of the last one.
+nb::dict describe_refusals(BufferObject& self) {
+  static constexpr const char* kinds[kVerdicts] = {"accepted",  "self_transform", "no_child_frame", "no_parent_frame",
+                                                   "nan_value", "old_data",       "reserved_name",  "bad_name"};
+  std::map<std::string, RefusalRecord, std::less<>> records;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    records = self.shared.buffer.refusals().by_child();
+  }
+  nb::dict all;
+  for (const auto& [child, record] : records) {
+    nb::dict counts;
+    for (std::size_t kind = 1; kind < kVerdicts; ++kind) {
+      if (record.counts[kind] > 0) counts[kinds[kind]] = record.counts[kind];
+    }
+    const std::string last =
+        explain(Refusal{record.last, record.parent, child, record.authority, record.stamp, record.pose});
+    PyObject* decoded = PyUnicode_DecodeUTF8(last.data(), static_cast<Py_ssize_t>(last.size()), "replace");
+    PyObject* key = PyUnicode_DecodeUTF8(child.data(), static_cast<Py_ssize_t>(child.size()), "replace");
+    all[nb::steal(key)] = nb::make_tuple(counts, nb::steal(decoded));
+  }
+  return all;
+}
+
+// ---------------------------------------------------------------- whole histories
+
+struct Run {
+  std::string parent;
+  std::vector<Stamp> stamps;
+  std::vector<Pose> poses;
+};
+
+std::vector<Run> runs_of(const Buffer& buffer, const Link& link) {
+  std::vector<Run> runs;
+  if (link.is_static()) return {{std::string(buffer.frames()[link.parent()]), {0}, {link.static_pose()}}};
+  for (std::size_t i = 0; i < link.samples().size(); ++i) {
+    const Sample& sample = link.samples()[i];
+    const std::string_view parent = buffer.frames()[sample.parent];
+    if (runs.empty() || runs.back().parent != parent) runs.push_back({std::string(parent), {}, {}});
+    runs.back().stamps.push_back(link.samples().stamp(i));
+    runs.back().poses.push_back(sample.pose);
+  }
+  return runs;
+}
+
+nb::list samples(BufferObject& self, std::string_view child) {
+  std::vector<Run> runs;
+  Failure failure;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    FrameId id = 0;
+    failure.status = self.shared.buffer.resolve(child, id);
+    failure.name = child;
+    if (failure.status == Status::ok) runs = runs_of(self.shared.buffer, self.shared.buffer.link(id));
+  }
+  if (failure.status != Status::ok) raise_failure(self, failure);
+  nb::list list;
+  for (const Run& run : runs) {
+    const auto stamps = new_array<Stamp>({run.stamps.size()});
+    const auto poses = new_array<double>({run.stamps.size(), 7});
+    std::copy(run.stamps.begin(), run.stamps.end(), stamps.data());
+    for (std::size_t i = 0; i < run.poses.size(); ++i) {
+      const auto& [t, q] = run.poses[i];
+      const double row[7] = {t.x, t.y, t.z, q.x, q.y, q.z, q.w};
+      std::copy_n(row, 7, poses.data() + 7 * i);
+    }
+    list.append(nb::make_tuple(text(run.parent), stamps, poses));
+  }
+  return list;
+}
+
+std::size_t set_transforms(BufferObject& self, std::string_view parent, std::string_view child,
+                           nb::handle stamps_object, nb::handle poses_object, std::string_view authority) {
+  const Stamps stamps = stamps_of(stamps_object);
+  PoseRows rows;
+  const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(poses_object, "dtype"_a = "float64");
+  if (!nb::try_cast(array, rows, false)) throw nb::value_error("poses must have the shape (N, 7)");
+  check_shape(rows, {stamps.shape(0), 7}, "poses");
+  std::size_t accepted = 0;
+  {
+    const nb::gil_scoped_release unlocked;
+    const std::scoped_lock lock(self.shared.mutex);
+    const SourceId sender = self.shared.buffer.sender(authority);
+    for (std::size_t i = 0; i < stamps.shape(0); ++i) {
+      const double* v = rows.data() + 7 * i;
+      const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+      accepted += self.shared.buffer.set(parent, child, stamps.data()[i], pose, sender, false) == Verdict::accepted;
+    }
+    if (accepted > 0) self.shared.wake_waiters();
+  }
+  if (accepted > 0) self.call_listeners();
+  return accepted;
+}
+
+}  // namespace
+
+void add_inspection_methods(nb::class_<BufferObject>& cls) {
+  cls.def("extrapolate_transform", &extrapolate_transform, "target_frame"_a, "source_frame"_a, "stamp_ns"_a,
+          "limit_ns"_a,
+          "lookup_transform, but a time up to `limit_ns` outside of a link's data is answered as well.\n\n"
+          "The motion between the two outermost samples of the link is taken to go on. tf2 never does this; a lookup "
+          "that\n"
+          "does not name a limit never does either.\n\n"
+          "Raises:\n"
+          "    TransformException: As lookup_transform; the time lies still further outside.")
+      .def(
+          "lookup_latest", &lookup_latest, "target_frame"_a, "source_frame"_a, nb::kw_only(), "max_age_ns"_a = 0,
+          "now_ns"_a = 0,
+          "The transform made of the newest data of each link, whatever its time.\n\n"
+          "lookup_transform at time 0 takes all links at one time, the newest that all of them know; one link that is\n"
+          "late makes the whole answer late. Here each link gives its newest pose.\n\n"
+          "Args:\n"
+          "    target_frame: The frame in which the answer is expressed.\n"
+          "    source_frame: The frame whose pose is asked for.\n"
+          "    max_age_ns: How old the newest data of a link may be at `now_ns`; 0 allows any age.\n"
+          "    now_ns: The present, by the clock of the stamps.\n\n"
+          "Returns:\n"
+          "    The Transform, stamped with the oldest of the times used, and those times by child frame.\n\n"
+          "Raises:\n"
+          "    TransformException: A frame is unknown, the frames are not connected, or a link is too old.")
+      .def("remove_frame", &remove_frame, "child_frame"_a,
+           "Forgets how a frame lies in its parent: its history or its static transform.\n\n"
+           "Names that then stand for nothing are forgotten too.\n\n"
+           "Returns:\n"
+           "    Whether there was anything to forget.")
+      .def("remove_stale", &remove_stale, "before_ns"_a,
+           "Removes all frames that move and have no data since a time; returns their names.")
+      .def("samples", &samples, "child_frame"_a,
+           "The whole history of one frame, oldest first.\n\n"
+           "Returns:\n"
+           "    For each run of samples with one parent: the parent, the stamps (N,) in nanoseconds, and the poses (N, "
+           "7).\n"
+           "    A static transform is one sample with stamp 0.")
+      .def("set_transforms", &set_transforms, "parent_frame"_a, "child_frame"_a, "stamps"_a, "poses"_a,
+           "authority"_a = "default_authority",
+           "set_transform for many samples of one frame.\n\n"
+           "Args:\n"
+           "    parent_frame: The parent.\n"
+           "    child_frame: The child.\n"
+           "    stamps: Times in nanoseconds, int64, shape (N,).\n"
+           "    poses: x, y, z, qx, qy, qz, qw, shape (N, 7).\n"
+           "    authority: Who says so.\n\n"
+           "Returns:\n"
+           "    How many were accepted.")
+      .def("_describe_links", &describe_links)
+      .def("_describe_refusals", &describe_refusals);
+}
+
+}  // namespace turtlewire::python

@@ -1,0 +1,24 @@
+#include "refusals.hpp"
+
+namespace turtlewire {
+namespace {
+
+constexpr std::size_t kLongestShown = 4096;  // of the names: what is refused may be of any length
+
+std::string shown(std::string_view name) { return std::string(name.substr(0, kLongestShown)); }
+
+}  // namespace
+
+void Refusals::add(const Refusal& refusal) {
+  std::string child = shown(refusal.child);
+  if (records_.size() >= kMostFrames && !records_.contains(child)) child = "(others)";
+  RefusalRecord& record = records_[child];
+  ++record.counts[static_cast<std::size_t>(refusal.verdict)];
+  record.last = refusal.verdict;
+  record.parent = shown(refusal.parent);
+  record.authority = refusal.authority;
+  record.stamp = refusal.stamp;
+  record.pose = refusal.pose;
+}
+
+}  // namespace turtlewire

@@ -1,0 +1,34 @@
+// What was refused, counted and remembered by frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "failure.hpp"
+
+namespace turtlewire {
+
+// The last refused transform of one child frame, and how often it was refused for which reason.
+struct RefusalRecord {
+  std::array<std::uint64_t, kVerdicts> counts{};  // by Verdict
+  Verdict last = Verdict::accepted;
+  std::string parent, authority;
+  Stamp stamp = 0;
+  Pose pose;
+};
+
+class Refusals {
+ public:
+  static constexpr std::size_t kMostFrames = 1000;  // the refusals of further frames are counted together
+
+  void add(const Refusal& refusal);
+  const std::map<std::string, RefusalRecord, std::less<>>& by_child() const { return records_; }
+
+ private:
+  std::map<std::string, RefusalRecord, std::less<>> records_;
+};
+
+}  // namespace turtlewire

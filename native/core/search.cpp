@@ -1,0 +1,206 @@
+// The search between two frames as tf2 does it, step by step.
+#include <algorithm>
+#include <utility>
+
+#include "buffer.hpp"
+
+namespace turtlewire {
+namespace {
+
+void add_time(Stamp stamp, Stamp& earliest) {
+  if (stamp != 0 && (earliest == 0 || stamp < earliest)) earliest = stamp;
+}
+
+// The links of one arm or the other; those in both lie above the meeting point.
+void leave_difference(std::vector<FrameId>& up, const std::vector<FrameId>& down) {
+  std::vector<FrameId> both;
+  for (const FrameId frame : down) {
+    if (std::find(up.begin(), up.end(), frame) != up.end()) both.push_back(frame);
+  }
+  up.insert(up.end(), down.begin(), down.end());
+  std::erase_if(up, [&](FrameId frame) { return std::find(both.begin(), both.end(), frame) != both.end(); });
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------- questions
+
+Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const {
+  if (path.direct) [[likely]] {
+    const Stamp at = t != 0 ? t : turtlewire::latest_common_time(path);
+    if (follow(path, at, target_from_source)) [[likely]] {
+      t = at;
+      target_from_source.rotation = canonical(target_from_source.rotation);
+      return Status::ok;
+    }
+  }
+  return walk(path.target, path.source, t, &target_from_source, failure);
+}
+
+Status Buffer::can_transform(const Path& path, Stamp t, Failure* failure) const {
+  if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path))) return Status::ok;
+  return walk(path.target, path.source, t, nullptr, failure);
+}
+
+// By the newest parent of each link, whatever the time; the frames of one line ask for each link's newest stamp, and a
+// stamp of 0 counts as static.
+Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
+  t = 0;
+  if (target == source) {
+    t = newest(source);
+    return Status::ok;
+  }
+  std::vector<std::pair<Stamp, FrameId>> line;  // of the source: newest stamp and parent of each link
+  int depth = 0;
+  Stamp earliest = 0;
+  for (FrameId frame = source; links_[frame]->has_data();) {
+    const Link& link = *links_[frame];
+    add_time(link.newest(), earliest);
+    line.emplace_back(link.newest(), link.parent());
+    frame = link.parent();
+    if (frame == target) {
+      t = earliest;
+      return Status::ok;
+    }
+    if (++depth > kMaxGraphDepth) return fail_loop(failure);
+  }
+  depth = 0;
+  earliest = 0;
+  for (FrameId frame = target; links_[frame]->has_data();) {
+    const Link& link = *links_[frame];
+    add_time(link.newest(), earliest);
+    frame = link.parent();
+    const auto meeting =
+        std::find_if(line.begin(), line.end(), [&](const auto& entry) { return entry.second == frame; });
+    if (meeting != line.end()) {
+      for (auto it = line.begin(); it != meeting + 1; ++it) add_time(it->first, earliest);
+      t = earliest;
+      return Status::ok;
+    }
+    if (frame == source) {
+      t = earliest;
+      return Status::ok;
+    }
+    if (++depth > kMaxGraphDepth) return fail_loop(failure);
+  }
+  return fail_connection(target, source, failure);
+}
+
+// ---------------------------------------------------------------- the walk of tf2
+
+Reading Rule::read(const Link& link) const {
+  if (newest) {
+    const Stamp age = max_age != 0 && !link.is_static() ? t - link.newest() : 0;
+    return age <= max_age ? link.read(0) : Reading{ReadStatus::future};
+  }
+  return beyond != 0 ? link.read_beyond(t, beyond) : link.read(t);
+}
+
+// One step upwards after another, from a start frame; remembers why it could not go on.
+struct Buffer::Climb {
+  const Buffer& buffer;
+  const Rule& rule;
+  FrameId frame;
+  Pose top_from_start{};
+  ReadStatus stopped = ReadStatus::ok;
+
+  bool at_root() const { return buffer.links_[frame]->kind() == LinkKind::none; }
+  // Reads the link above `frame`; false if that has no answer.
+  bool read(Reading& reading) {
+    reading = rule.read(*buffer.links_[frame]);
+    stopped = reading.status;
+    return reading.status == ReadStatus::ok;
+  }
+  void step(const Reading& reading, std::vector<FrameId>* used) {
+    if (used != nullptr) used->push_back(frame);
+    top_from_start = reading.pose * top_from_start;
+    frame = reading.parent;
+  }
+};
+
+Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source, Failure* failure) const {
+  if (t == 0) {
+    if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok) return status;
+  }
+  return climb(target, source, Rule{.t = t}, target_from_source, nullptr, failure);
+}
+
+Status Buffer::lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source,
+                      std::vector<FrameId>* used, Failure* failure) const {
+  return climb(target, source, rule, &target_from_source, used, failure);
+}
+
+// tf2's own order of steps, which decides what happens with links that do not reach: those above the meeting point do
+// not hurt, the target's complaint comes before the source's, and the parents are those of the time asked for.
+Status Buffer::climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
+                     std::vector<FrameId>* used, Failure* failure) const {
+  Reading reading;
+  Climb up{*this, rule, source};
+  for (int depth = 0; !up.at_root() && up.read(reading);) {
+    if (up.frame == target) {
+      up.stopped = ReadStatus::ok;
+      break;
+    }
+    up.step(reading, used);
+    if (++depth > kMaxGraphDepth) return fail_loop(failure);
+  }
+  Climb down{*this, rule, target};
+  std::vector<FrameId> down_used;
+  for (int depth = 0; down.frame != up.frame && !down.at_root();) {
+    if (!down.read(reading)) return fail_reading(down, target, source, failure);
+    if (down.frame == source) break;
+    down.step(reading, used != nullptr ? &down_used : nullptr);
+    if (++depth > kMaxGraphDepth) return fail_loop(failure);
+  }
+  const bool met = down.frame == up.frame;
+  if (!met && down.frame != source) {
+    if (up.stopped != ReadStatus::ok) return fail_reading(up, target, source, failure);
+    return fail_connection(target, source, failure);
+  }
+  if (target_from_source != nullptr) {
+    const Pose p = met ? between(down.top_from_start, up.top_from_start) : inverse(down.top_from_start);
+    *target_from_source = {p.translation, canonical(p.rotation)};
+  }
+  if (used != nullptr) leave_difference(*used, down_used);
+  return Status::ok;
+}
+
+Status Buffer::fail_loop(Failure* failure) const {
+  if (failure != nullptr) {
+    failure->status = Status::loop;
+    failure->frames = frames_as_string();
+  }
+  return Status::loop;
+}
+
+Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure) const {
+  if (failure != nullptr) {
+    failure->status = Status::not_connected;
+    failure->target = name(target);
+    failure->source = name(source);
+    failure->target_root = name(root(target));
+    failure->source_root = name(root(source));
+  }
+  return Status::not_connected;
+}
+
+Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const {
+  const Status status = climb.stopped == ReadStatus::future ? Status::future
+                        : climb.stopped == ReadStatus::past ? Status::past
+                                                            : Status::no_data;
+  if (failure != nullptr) {
+    const Link& link = *links_[climb.frame];
+    failure->status = status;
+    failure->target = name(target);
+    failure->source = name(source);
+    failure->link_child = name(climb.frame);
+    failure->link_parent = name(link.parent());
+    failure->emptied = !link.has_data();
+    failure->requested = climb.rule.t;
+    failure->oldest = link.oldest();
+    failure->newest = link.newest();
+  }
+  return status;
+}
+
+}  // namespace turtlewire
