@@ -1,36 +1,75 @@
-"""Participants of this host are counted by their ports."""
+"""Processes of this host are counted by their ports."""
 
 from __future__ import annotations
 
+import subprocess
 import sys
 
 import pytest
+
 from turtlewire.wire import environment, open_context
-from turtlewire.wire.cyclone.ports import participants_on_host
+from turtlewire.wire.cyclone.ports import process_of, processes_on_host
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the bound ports")
 
 
-def test_participants_are_counted_while_they_are_there():
+PARTICIPANT = """
+import sys
+from turtlewire.wire import open_context
+context = open_context()
+context.create_node(sys.argv[1])
+print("ready", flush=True)
+sys.stdin.read()
+context.close()
+"""
+
+
+@pytest.fixture
+def participant():
+    """Starts processes with a node each; they end when their input does."""
+    processes = []
+
+    def start(name):
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        processes.append(subprocess.Popen([sys.executable, "-c", PARTICIPANT, name], **pipes))
+        assert processes[-1].stdout.readline() == b"ready\n"
+        return processes[-1]
+
+    yield start
+    for process in processes:
+        process.communicate(timeout=30)
+
+
+def test_processes_are_counted_while_they_are_there(participant):
     domain = environment.domain_id()
-    before = participants_on_host(domain)
+    before = processes_on_host(domain)
+    process = participant("one")
+    assert processes_on_host(domain) == before + 1
+    participant("two")
+    assert processes_on_host(domain) == before + 2
+    process.communicate(timeout=30)
+    assert processes_on_host(domain) == before + 1
+
+
+def test_a_graph_is_complete_when_it_knows_all_processes(participant):
+    names = {f"node{number}" for number in range(5)}
+    for name in names:
+        participant(name)
+    context = open_context()
+    try:
+        assert context.graph.wait_for(context.graph.is_complete, timeout_ns=20_000_000_000)
+        assert names <= {info.name for info in context.graph.nodes()}
+    finally:
+        context.close()
+
+
+def test_participants_of_one_process_are_told_apart_from_others():
     first, second = open_context(), open_context()
-    assert participants_on_host(domain) == before + 2
+    assert process_of(first.gid) == process_of(second.gid)
     first.close()
     second.close()
-    assert participants_on_host(domain) == before
-
-
-def test_a_graph_is_incomplete_until_it_knows_the_others():
-    one = open_context()
-    node = one.create_node("early")
-    other = open_context()
-    assert other.graph.wait_for(other.graph.is_complete, timeout_ns=20_000_000_000)
-    node_names = [info.name for info in other.graph.nodes()]
-    other.close()
-    node.close()
-    one.close()
-    assert "early" in node_names
+    fast = bytes.fromhex("010f1234567800000000000000 0001c1".replace(" ", ""))
+    assert process_of(fast) == fast[:12]
 
 
 def test_where_the_system_does_not_tell_nothing_is_counted(monkeypatch):
@@ -38,4 +77,4 @@ def test_where_the_system_does_not_tell_nothing_is_counted(monkeypatch):
         raise FileNotFoundError
 
     monkeypatch.setattr("builtins.open", refuse)
-    assert participants_on_host(7) is None
+    assert processes_on_host(7) is None

@@ -15,7 +15,7 @@ from turtlewire.wire.report import warn_once
 
 from . import library as dds
 from .endpoint import EndpointSpec
-from .ports import participants_on_host
+from .ports import process_of, processes_on_host
 from .qos import read_qos, read_user_data
 from .subscription import CycloneSubscription
 
@@ -148,9 +148,9 @@ class CycloneGraph(GraphView):
 
     def is_complete(self) -> bool:
         """See :meth:`Graph.is_complete`: each ROS participant has announced its nodes, and each endpoint of theirs is known."""
-        on_host = participants_on_host(self._domain_id)
+        on_host = processes_on_host(self._domain_id)
         with self._lock:
-            if on_host is not None and len(self._enclaves) < on_host:
+            if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:
                 return False
             others = {gid for gid, enclave in self._enclaves.items() if enclave} - {self._participant_gid}
             gids = (gid for nodes in self._announced.values() for node in nodes for gid in (*node.readers, *node.writers))
