@@ -5,24 +5,26 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any
 
-from .entity import Entity, Work
-from .task import Future
-from .wait_for_response import wait_for_response
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
+
+from .service_introspection import EventType, IntrospectedEndpoint
+from .task import Future
+from .wait_for_response import wait_for_response
 
 if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .context import Context
-    from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
     from turtlewire.wire import base
 
+    from .entity import Work
+
 __all__ = ["Client"]
 
 
-class Client(Entity):
+class Client(IntrospectedEndpoint):
     """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`. Thread-safe.
 
     Responses are handed to their futures whatever the callback group is doing: a callback that awaits a response, or blocks for it
@@ -46,22 +48,15 @@ class Client(Entity):
         callback_group: CallbackGroup,
         context: Context,
         logger: RcutilsLogger,
+        wire_node: base.Node,
     ) -> None:
-        super().__init__(callback_group)
-        self.srv_type = srv_type
+        super().__init__(wire, wire_node, srv_type, callback_group)
         self.srv_name = srv_name
         self.qos_profile = qos_profile
-        self._wire = wire
         self._context = context
         self._logger = logger
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
-
-    @property
-    def service_name(self) -> str:
-        """Fully qualified name of the service."""
-        self._check_usable()
-        return self._wire.service
 
     @property
     def logger_name(self) -> str:
@@ -84,6 +79,8 @@ class Client(Entity):
         with self._lock:  # the response may be faster than we are: it has to find the future
             sequence_number = self._wire.send_request(serialize(request))
             self._pending[sequence_number] = future
+        if self._events is not None:
+            self._events.publish(EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request)
         future._add_waiter(lambda: self._pending.pop(sequence_number, None))
         return future
 
@@ -110,7 +107,7 @@ class Client(Entity):
     def remove_pending_request(self, future: Future) -> None:
         """Forget a request: its response will be ignored."""
         with self._lock:
-            for sequence_number, pending in self._pending.items():
+            for sequence_number, pending in list(self._pending.items()):
                 if pending is future:
                     del self._pending[sequence_number]
                     return
@@ -133,12 +130,6 @@ class Client(Entity):
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
         return self._context._wait_for_graph(self._wire.is_ready, timeout_ns)
 
-    def _attach(self, executor: Executor) -> None:
-        executor._watch(self._wire, self)
-
-    def _detach(self, executor: Executor) -> None:
-        executor._unwatch(self._wire)
-
     def _take(self) -> Work | None:
         for sequence_number, cdr in self._wire.take(1):
             with self._lock:
@@ -149,9 +140,8 @@ class Client(Entity):
                 response = deserialize(self.srv_type.Response, cdr)
             except CdrError as error:
                 return future.set_exception, (error,)
+            if self._events is not None:
+                self._events.publish(EventType.RESPONSE_RECEIVED, self._wire.client_id, sequence_number, response=response)
             future._set_executor(None if self._executor is None else self._executor())
             return future.set_result, (response,)
         return None
-
-    def _close(self) -> None:
-        self._wire.close()

@@ -153,7 +153,7 @@ class NodeEndpoints:
         name = self.resolve_service(srv_name)
         wire = self._node.wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger())
+        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger(), self._node.wire)
 
     def create_service(
         self,
@@ -180,7 +180,7 @@ class NodeEndpoints:
         name = self.resolve_service(srv_name)
         wire = self._node.wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger())
+        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger(), self._node.wire)
 
     def create_timer(
         self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool

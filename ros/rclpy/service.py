@@ -5,23 +5,26 @@ from __future__ import annotations
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
-from .entity import Entity, Work
+
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
+
+from .service_introspection import EventType, IntrospectedEndpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .callback_groups import CallbackGroup
-    from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
     from turtlewire.wire import base
 
+    from .entity import Work
+
 __all__ = ["Service"]
 
 
-class Service(Entity):
+class Service(IntrospectedEndpoint):
     """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
 
     The callback is called with a request and an empty response, and returns the response.
@@ -44,20 +47,13 @@ class Service(Entity):
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
         logger: RcutilsLogger,
+        wire_node: base.Node,
     ) -> None:
-        super().__init__(callback_group)
-        self.srv_type = srv_type
+        super().__init__(wire, wire_node, srv_type, callback_group)
         self.srv_name = srv_name
         self.callback = callback
         self.qos_profile = qos_profile
-        self._wire = wire
         self._logger = logger
-
-    @property
-    def service_name(self) -> str:
-        """Fully qualified name of the service."""
-        self._check_usable()
-        return self._wire.service
 
     @property
     def logger_name(self) -> str:
@@ -74,12 +70,8 @@ class Service(Entity):
         if not isinstance(response, self.srv_type.Response):
             raise TypeError
         self._wire.send_response(header, serialize(response))
-
-    def _attach(self, executor: Executor) -> None:
-        executor._watch(self._wire, self)
-
-    def _detach(self, executor: Executor) -> None:
-        executor._unwatch(self._wire)
+        if self._events is not None:
+            self._events.publish(EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response)
 
     def _take(self) -> Work | None:
         for header, cdr in self._wire.take(1):
@@ -88,6 +80,8 @@ class Service(Entity):
             except CdrError as error:
                 self._logger.error(f"Ignoring a malformed request to service '{self._wire.service}': {error}", throttle_duration_sec=5.0)
                 return None
+            if self._events is not None:
+                self._events.publish(EventType.REQUEST_RECEIVED, header.client_id, header.sequence_number, request=request)
             return self._answer, (header, request)
         return None
 
@@ -100,6 +94,3 @@ class Service(Entity):
 
     async def _answer_later(self, header: base.RequestId, outcome: Any) -> None:
         self.send_response(await outcome, header)
-
-    def _close(self) -> None:
-        self._wire.close()

@@ -1,0 +1,120 @@
+"""Watching a service: clients and servers publish what they send and receive on ``<service>/_service_event``."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire.msg import serialize, type_name
+
+from .entity import Entity
+from .type_support import type_id
+
+if TYPE_CHECKING:
+    from turtlewire.wire import base
+
+    from .callback_groups import CallbackGroup
+    from .clock import Clock
+    from .executors import Executor
+    from .qos import QoSProfile
+
+__all__ = ["EventType", "IntrospectedEndpoint", "ServiceIntrospectionState"]
+
+_GID_SIZE = 16
+
+
+class ServiceIntrospectionState(IntEnum):
+    """How much is published."""
+
+    OFF = 0
+    METADATA = 1
+    CONTENTS = 2
+
+
+class EventType(IntEnum):
+    """What happened, as in ``service_msgs/msg/ServiceEventInfo``."""
+
+    REQUEST_SENT = 0
+    REQUEST_RECEIVED = 1
+    RESPONSE_SENT = 2
+    RESPONSE_RECEIVED = 3
+
+
+class IntrospectedEndpoint(Entity):
+    """What clients and services have in common: a place on the wire, and events for who watches.
+
+    Args:
+        wire: Its side on the wire.
+        wire_node: The node that publishes the events.
+        srv_type: The service class.
+        callback_group: Its callback group.
+    """
+
+    srv_type: Any
+
+    def __init__(self, wire: base.Client | base.Service, wire_node: base.Node, srv_type: Any, callback_group: CallbackGroup) -> None:
+        super().__init__(callback_group)
+        self.srv_type = srv_type
+        self._wire: Any = wire
+        self._wire_node = wire_node
+        self._events: _EventPublisher | None = None
+
+    @property
+    def service_name(self) -> str:
+        """Fully qualified name of the service."""
+        self._check_usable()
+        return str(self._wire.service)
+
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish what is sent and received on ``<service>/_service_event``.
+
+        Args:
+            clock: Gives the stamps.
+            service_event_qos_profile: Quality of service of the events.
+            introspection_state: Whether nothing, the circumstances, or the contents too are published.
+        """
+        self._check_usable()
+        former, self._events = self._events, None
+        if former is not None:
+            former.wire.close()
+        if introspection_state != ServiceIntrospectionState.OFF:
+            event_type = type_id(f"{type_name(self.srv_type)}_Event")
+            topic = f"{self._wire.service}/_service_event"
+            wire = self._wire_node.create_publisher(topic, event_type, service_event_qos_profile.to_wire())
+            self._events = _EventPublisher(wire, self.srv_type, clock, introspection_state == ServiceIntrospectionState.CONTENTS)
+
+    def _attach(self, executor: Executor) -> None:
+        executor._watch(self._wire, self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._unwatch(self._wire)
+
+    def _close(self) -> None:
+        if self._events is not None:
+            self._events.wire.close()
+        self._wire.close()
+
+
+class _EventPublisher(NamedTuple):
+    """The events of one client or server."""
+
+    wire: base.Publisher
+    srv_type: Any
+    clock: Clock
+    with_contents: bool
+
+    def publish(self, event_type: EventType, client_id: int, sequence_number: int, **content: Any) -> None:
+        """Publish that ``content`` (``request=`` or ``response=``) of this client's request with this number passed by."""
+        if self.wire.subscription_count() == 0:
+            return
+        event = self.srv_type.Event()
+        event.info.event_type = int(event_type)
+        event.info.stamp = self.clock.now().to_msg()
+        event.info.client_gid = list(client_id.to_bytes(8, "little").ljust(_GID_SIZE, b"\0"))
+        event.info.sequence_number = sequence_number
+        if self.with_contents:
+            for part, message in content.items():
+                setattr(event, part, [message])
+        self.wire.publish(serialize(event))

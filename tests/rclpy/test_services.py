@@ -1,0 +1,230 @@
+"""Clients and services, on both middlewares."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+from example_interfaces.srv import AddTwoInts
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.client import Client
+from rclpy.context import Context
+from rclpy.exceptions import InvalidServiceNameException
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, qos_profile_services_default, qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
+from std_msgs.msg import Int32
+from std_srvs.srv import SetBool
+
+from turtlewire.wire.base import RequestId
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def context(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+
+
+def ask(executor, client, a, b):
+    future = client.call_async(AddTwoInts.Request(a=a, b=b))
+    executor.spin_until_future_complete(future, timeout_sec=10)
+    assert future.done()
+    return future.result().sum
+
+
+def test_request_and_response(node, executor):
+    service = node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    assert client.service_is_ready()
+    assert ask(executor, client, 2, 3) == 5
+    assert (service.service_name, client.service_name) == ("/add", "/add")
+    assert (service.srv_name, client.srv_name) == ("add", "add")
+    assert (service.srv_type, client.srv_type) == (AddTwoInts, AddTwoInts)
+    assert service.qos_profile == client.qos_profile == qos_profile_services_default
+    assert service.logger_name == client.logger_name == "tested"
+    assert service in list(node.services)
+    assert client in list(node.clients)
+
+
+def test_responses_find_their_requests(node, executor, context):
+    node.create_service(AddTwoInts, "add", add)
+    clients = [node.create_client(AddTwoInts, "add") for _ in range(2)]
+    for client in clients:
+        assert client.wait_for_service(timeout_sec=10)
+    futures = [(number, clients[number % 2].call_async(AddTwoInts.Request(a=number, b=100))) for number in range(8)]
+    for number, future in futures:
+        executor.spin_until_future_complete(future, timeout_sec=10)
+        assert future.result().sum == number + 100
+    assert [client._pending for client in clients] == [{}, {}]
+
+
+def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, executor, context):
+    client = node.create_client(AddTwoInts, "add")
+    assert not client.service_is_ready()
+    assert not client.wait_for_service(timeout_sec=0)
+    assert not client.wait_for_service(timeout_sec=0.05)
+    offering = threading.Timer(0.1, node.create_service, args=(AddTwoInts, "add", add))
+    offering.start()
+    assert client.wait_for_service(timeout_sec=10)
+    offering.join()
+    assert ask(executor, client, 1, 1) == 2
+
+
+def test_a_service_that_goes_is_not_ready(node, context):
+    service = node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    assert node.destroy_service(service)
+    assert context._wait_for_graph(lambda: not client.service_is_ready(), 10_000_000_000)
+
+
+def test_done_callbacks_of_a_response_run_on_the_executor(node, executor, spin_until):
+    node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    sums = []
+    client.call_async(AddTwoInts.Request(a=1, b=2)).add_done_callback(lambda future: sums.append(future.result().sum))
+    spin_until(lambda: sums)
+    assert sums == [3]
+
+
+def test_blocking_call_from_another_thread(node, executor):
+    node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    spinning = threading.Thread(target=executor.spin)
+    spinning.start()
+    assert client.wait_for_service(timeout_sec=10)
+    assert client.call(AddTwoInts.Request(a=3, b=4)).sum == 7
+    with pytest.raises(TimeoutError):
+        node.create_client(AddTwoInts, "nobody").call(AddTwoInts.Request(), timeout_sec=0.05)
+    executor.shutdown()
+    spinning.join(10)
+
+
+def test_a_shutdown_ends_a_blocking_call(context, node):
+    client = node.create_client(AddTwoInts, "nobody")
+    ending = threading.Timer(0.05, context.shutdown)
+    ending.start()
+    with pytest.raises(ExternalShutdownException):
+        client.call(AddTwoInts.Request())
+    ending.join()
+
+
+def test_a_cancelled_request_is_forgotten(node):
+    client = node.create_client(AddTwoInts, "nobody")
+    future = client.call_async(AddTwoInts.Request())
+    future.cancel()
+    assert client._pending == {}
+
+
+def test_wrong_types(node, executor):
+    client = node.create_client(AddTwoInts, "add")
+    for wrong in (SetBool.Request(), AddTwoInts.Response(), None):
+        with pytest.raises(TypeError):
+            client.call_async(wrong)
+    with pytest.raises(AttributeError, match="This might be a ROS 1 message type"):
+        node.create_client(int, "add")
+    with pytest.raises(RuntimeError, match="The service type provided is not valid"):
+        node.create_service(Int32, "add", add)
+    service = node.create_service(AddTwoInts, "add", lambda request, response: None)
+    with pytest.raises(TypeError):
+        service.send_response(AddTwoInts.Request(), RequestId(1, 1))
+    assert client.wait_for_service(timeout_sec=10)
+    client.call_async(AddTwoInts.Request())
+    with pytest.raises(TypeError):
+        executor.spin_once(timeout_sec=10)
+
+
+def test_an_exception_of_a_service_leaves_spin_and_the_client_gets_no_answer(node, executor):
+    node.create_service(AddTwoInts, "add", lambda request, response: 1 / 0)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    future = client.call_async(AddTwoInts.Request())
+    with pytest.raises(ZeroDivisionError):
+        executor.spin_until_future_complete(future, timeout_sec=10)
+    executor.spin_once(timeout_sec=0.05)
+    assert not future.done()
+
+
+@pytest.mark.parametrize("name", ["", "9lives", "a//b", "a/", "with space", "~x"])
+def test_names_are_checked(node, name):
+    with pytest.raises(InvalidServiceNameException, match="^Invalid service name: "):
+        node.create_client(AddTwoInts, name)
+    with pytest.raises(InvalidServiceNameException):
+        node.create_service(AddTwoInts, name, add)
+
+
+def test_quality_of_service_and_destruction(node):
+    profile = QoSProfile(depth=3)
+    client = node.create_client(AddTwoInts, "add", qos_profile=profile)
+    assert client.qos_profile == profile
+    assert node.destroy_client(client)
+    assert not node.destroy_client(client)
+    for use in (client.service_is_ready, lambda: client.call_async(AddTwoInts.Request()), lambda: client.service_name):
+        with pytest.raises(InvalidHandle, match="cannot use Destroyable because destruction was requested"):
+            use()
+
+
+def test_a_malformed_request_is_told_once_and_the_service_lives(node, executor, capfd):
+    node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    for _ in range(3):
+        client._wire.send_request(b"\x00\x01\x00\x00\x01")
+    assert ask(executor, client, 1, 2) == 3
+    assert capfd.readouterr().err.count("Ignoring a malformed request to service '/add'") == 1
+
+
+def test_introspection(node, executor, context, spin_until):
+    service = node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    events = []
+    subscription = node.create_subscription(AddTwoInts.Event, "add/_service_event", events.append, 10)
+    clock = node.get_clock()
+    client.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.METADATA)
+    service.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
+    assert context._wait_for_graph(lambda: subscription.get_publisher_count() == 2, 10_000_000_000)
+    assert client.wait_for_service(timeout_sec=10)
+    assert context._wait_for_graph(lambda: all(each._events.wire.subscription_count() for each in (client, service)), 10_000_000_000)
+    ask(executor, client, 5, 6)
+    spin_until(lambda: len(events) == 4)
+    kinds = {event.info.event_type: event for event in events}
+    assert sorted(kinds) == [0, 1, 2, 3]
+    assert [len(kinds[kind].request) + len(kinds[kind].response) for kind in range(4)] == [0, 1, 1, 0]
+    assert kinds[1].request[0].a == 5
+    assert kinds[2].response[0].sum == 11
+    assert len({bytes(event.info.client_gid) for event in events}) == 1
+    assert len({event.info.sequence_number for event in events}) == 1
+    service.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.OFF)
+    client.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.OFF)
+    assert context._wait_for_graph(lambda: subscription.get_publisher_count() == 0, 10_000_000_000)
+
+
+def test_a_client_in_another_context(context, node, executor):
+    """Two participants: discovery, matching and the reply reach across."""
+    node.create_service(AddTwoInts, "add", add)
+    with Context() as other:
+        other.init(args=[])
+        asker = Node("asker", context=other)
+        client = asker.create_client(AddTwoInts, "add")
+        assert isinstance(client, Client)
+        assert client.wait_for_service(timeout_sec=10)
+        spinning = threading.Thread(target=executor.spin)
+        spinning.start()
+        from rclpy.executors import SingleThreadedExecutor
+
+        with SingleThreadedExecutor(context=other) as mine:
+            mine.add_node(asker)
+            assert ask(mine, client, 20, 22) == 42
+        executor.shutdown()
+        spinning.join(10)
+        asker.destroy_node()
