@@ -29,14 +29,18 @@ from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, StaticTransformListener, TransformListener
 
 if TYPE_CHECKING:
+    from .buffer_client import BufferClient
+    from .buffer_server import BufferServer
     from .message_filter import FilterFailureReason, MessageFilter
 
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",
     "DEFAULT_TF_TOPIC",
     "Buffer",
+    "BufferClient",
     "BufferCore",
     "BufferInterface",
+    "BufferServer",
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",
@@ -57,7 +61,12 @@ __all__ = [
     "convert",
 ]
 
-_LAZY = {"FilterFailureReason": "message_filter", "MessageFilter": "message_filter"}
+_LAZY = {
+    "BufferClient": "buffer_client",
+    "BufferServer": "buffer_server",
+    "FilterFailureReason": "message_filter",
+    "MessageFilter": "message_filter",
+}
 
 
 def __getattr__(name: str) -> Any:

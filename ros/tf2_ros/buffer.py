@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import functools
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
 from tf2_py.times import to_nanoseconds
+from turtlewire.errors import TransformException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .transform_futures import TransformFutures
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import turtlewire
     from geometry_msgs.msg import TransformStamped
     from rclpy.clock import TimeJump
     from rclpy.node import Node
@@ -131,33 +136,97 @@ class Buffer(BufferCore, BufferInterface):
         reason = self.engine.can_transform_full_reason(target_frame, times[0], source_frame, times[1], fixed_frame, timeout_ns)
         return (int(not reason), reason) if return_debug_tuple else int(not reason)
 
-    async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Any) -> TransformStamped:
-        """:meth:`lookup_transform` for ``async def`` callbacks and asyncio: waits until the transform is known."""
-        return await self.wait_for_transform_async(target_frame, source_frame, time)
+    async def lookup_transform_async(
+        self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None
+    ) -> TransformStamped:
+        """:meth:`lookup_transform` for ``async def`` callbacks and asyncio: waits until the transform is known.
+
+        Args:
+            target_frame: The frame in which the answer is expressed.
+            source_frame: The frame whose pose is asked for.
+            time: When; ``Time()`` asks for the latest time.
+            timeout: How long to wait; without limit unless given.
+
+        Raises:
+            TransformException: As :meth:`lookup_transform`, when the time is over, or when the answer cannot come any more.
+        """
+        return await self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
 
     async def lookup_transform_full_async(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        *,
+        timeout: Duration | Any = None,
     ) -> TransformStamped:
-        """:meth:`lookup_transform_full` for ``async def`` callbacks and asyncio: waits until the transform is known."""
-        return await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
+        """:meth:`lookup_transform_full` for ``async def`` callbacks and asyncio; waits as :meth:`lookup_transform_async`."""
+        return await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame, timeout=timeout)
 
-    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any) -> Future:
+    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None) -> Future:
         """A future whose result will be the transform, once it is known. Cancel it when it is not wanted any more.
 
-        Done-callbacks run on the thread that brings the data, and should be short.
+        Done-callbacks run on the thread that brings the data, and should be short. Arguments and errors as
+        :meth:`lookup_transform_async`.
         """
-        stamp = to_nanoseconds(time)
-        return self._futures.add(
-            lambda: self.engine.can_transform(target_frame, source_frame, stamp),
-            lambda: self.lookup_transform_core(target_frame, source_frame, time),
-        )
+        leg = _Leg(self.engine, target_frame, source_frame, to_nanoseconds(time))
+        return self._futures.add(_Question((leg,), lambda: self.lookup_transform_core(target_frame, source_frame, time)), _limit(timeout))
 
     def wait_for_transform_full_async(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        *,
+        timeout: Duration | Any = None,
     ) -> Future:
         """As :meth:`wait_for_transform_async`, for :meth:`lookup_transform_full`."""
-        times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        return self._futures.add(
-            lambda: self.engine.can_transform_full(target_frame, times[0], source_frame, times[1], fixed_frame),
-            lambda: self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame),
+        legs = (
+            _Leg(self.engine, target_frame, fixed_frame, to_nanoseconds(target_time)),
+            _Leg(self.engine, fixed_frame, source_frame, to_nanoseconds(source_time)),
         )
+        answer = functools.partial(self.lookup_transform_full_core, target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._futures.add(_Question(legs, answer), _limit(timeout))
+
+
+class _Leg(NamedTuple):
+    """One way between two frames at one time."""
+
+    engine: turtlewire.Buffer
+    target: str
+    source: str
+    stamp_ns: int
+
+    def known(self) -> bool:
+        return self.engine.can_transform(self.target, self.source, self.stamp_ns)
+
+    def lost(self) -> bool:
+        """Whether its time has fallen out of the cache; the latest time (0) never does."""
+        if self.stamp_ns == 0:
+            return False
+        try:
+            newest_ns = self.engine.latest_common_time(self.target, self.source)
+        except TransformException:
+            return False  # a frame is not known yet
+        return self.stamp_ns + self.engine.cache_time_ns < newest_ns
+
+
+class _Question(NamedTuple):
+    """What a future waits for."""
+
+    legs: tuple[_Leg, ...]
+    answer: Callable[[], TransformStamped]
+
+    def can(self) -> bool:
+        return all(leg.known() for leg in self.legs)
+
+    def never(self) -> bool:
+        return any(leg.lost() for leg in self.legs)
+
+
+def _limit(timeout: Duration | Any) -> int | None:
+    return None if timeout is None else to_nanoseconds(timeout, "duration")

@@ -3,24 +3,48 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from rclpy.task import Future
 from turtlewire.errors import InvalidArgumentException, TransformException
 
+from .deadlines import Deadlines
+
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from typing import Protocol
 
     import turtlewire
     from geometry_msgs.msg import TransformStamped
 
+    class Question(Protocol):
+        """What is asked of the buffer."""
+
+        def can(self) -> bool:
+            """Whether there is an answer now."""
+            ...
+
+        def never(self) -> bool:
+            """Whether there will not be one any more, because the time has fallen out of the cache."""
+            ...
+
+        def answer(self) -> TransformStamped:
+            """The answer; raises :class:`TransformException` while there is none."""
+            ...
+
+
 __all__ = ["TransformFutures"]
 
+_deadlines = Deadlines()
 
-class _Waiting(NamedTuple):
-    future: Future
-    can: Callable[[], bool]
-    lookup: Callable[[], TransformStamped]
+
+class _Waiting:
+    __slots__ = ("cancel_deadline", "future", "question")
+
+    def __init__(self, question: Question) -> None:
+        self.question = question
+        self.future = Future()
+        self.cancel_deadline: Callable[[], None] | None = None
 
 
 class TransformFutures:
@@ -36,26 +60,33 @@ class TransformFutures:
         self._waiting: list[_Waiting] = []
         self._stop_listening: Callable[[], None] | None = None
 
-    def add(self, can: Callable[[], bool], lookup: Callable[[], TransformStamped]) -> Future:
-        """A future for the result of ``lookup()``, which is called when ``can()`` has become true.
+    def add(self, question: Question, timeout_ns: int | None = None) -> Future:
+        """A future for the answer.
 
-        A request that can never be answered, because a frame id is not valid, ends the future with the exception at once.
+        It ends with the exception of the lookup when the time is over, and at once when there can be no answer: a frame id is not valid, or
+        the time asked for has fallen out of the cache.
+
+        Args:
+            question: What is asked.
+            timeout_ns: How long to wait; None without limit.
         """
-        waiting = _Waiting(Future(), can, lookup)
+        waiting = _Waiting(question)
         with self._lock:
             self._waiting.append(waiting)
             if self._stop_listening is None:
                 self._stop_listening = self._buffer.add_change_listener(self._look_again)
         try:
-            result = lookup()
+            result = question.answer()
         except InvalidArgumentException as error:
-            if self._claim(waiting):
-                waiting.future.set_exception(error)
-        except TransformException:
-            pass  # not yet: that is what the future is for
+            self._finish(waiting, error)
+        except TransformException as error:
+            if question.never() or timeout_ns == 0:
+                self._finish(waiting, error)
         else:
-            if self._claim(waiting):
-                waiting.future.set_result(result)
+            self._finish(waiting, result)
+        if timeout_ns is not None and not waiting.future.done():
+            waiting.cancel_deadline = _deadlines.call_after(timeout_ns / 1e9, lambda: self._give_up(waiting))
+        waiting.future.add_done_callback(lambda _future: self._claim(waiting))
         return waiting.future
 
     def _look_again(self) -> None:
@@ -63,21 +94,30 @@ class TransformFutures:
         with self._lock:
             candidates = list(self._waiting)
         for waiting in candidates:
-            if waiting.future.cancelled():
-                self._claim(waiting)
-            elif waiting.can():
-                self._finish(waiting)
+            if waiting.question.can():
+                try:
+                    self._finish(waiting, waiting.question.answer())
+                except TransformException:
+                    continue  # another thread has cleared the buffer, or pushed the time out of it
+            elif waiting.question.never():
+                self._give_up(waiting)
 
-    def _finish(self, waiting: _Waiting) -> None:
+    def _give_up(self, waiting: _Waiting) -> None:
         try:
-            result = waiting.lookup()
-        except TransformException:
-            return  # another thread has cleared the buffer, or pushed the time out of it
-        if self._claim(waiting):
-            waiting.future.set_result(result)
+            self._finish(waiting, waiting.question.answer())
+        except TransformException as error:
+            self._finish(waiting, error)
+
+    def _finish(self, waiting: _Waiting, outcome: TransformStamped | TransformException) -> None:
+        if not self._claim(waiting):
+            return
+        if isinstance(outcome, TransformException):
+            waiting.future.set_exception(outcome)
+        else:
+            waiting.future.set_result(outcome)
 
     def _claim(self, waiting: _Waiting) -> bool:
-        """Whether this call took it off the list, so that of two threads one finishes it."""
+        """Take it off the list: of several threads, and of a cancellation, one finishes it."""
         with self._lock:
             if waiting not in self._waiting:
                 return False
@@ -85,4 +125,6 @@ class TransformFutures:
             if not self._waiting and self._stop_listening is not None:
                 self._stop_listening()
                 self._stop_listening = None
-            return True
+        if waiting.cancel_deadline is not None:
+            waiting.cancel_deadline()
+        return True

@@ -229,3 +229,61 @@ def test_cache_time():
     assert buffer.engine.cache_time_ns == 2_000_000_000
     assert Buffer(Duration(seconds=3)).engine.cache_time_ns == 3_000_000_000
     assert Buffer().engine.cache_time_ns == 10_000_000_000
+
+
+def test_futures_may_have_a_timeout(buffer, stamped):
+    late = buffer.wait_for_transform_async("world", "robot", Time(), timeout=Duration(seconds=0.05))
+    in_time = buffer.wait_for_transform_async("world", "other", Time(), timeout=LONG)
+    finished = threading.Event()
+    late.add_done_callback(lambda _future: finished.set())
+    assert finished.wait(10)
+    with pytest.raises(tf2_ros.LookupException):
+        late.result()
+    buffer.set_transform(stamped(child="other"), "me")
+    assert in_time.result().child_frame_id == "other"
+    with pytest.raises(tf2_ros.LookupException):
+        buffer.wait_for_transform_async("world", "robot", Time(), timeout=Duration()).result()
+
+
+def test_an_awaited_lookup_may_have_a_timeout(buffer):
+    with pytest.raises(tf2_ros.LookupException):
+        asyncio.run(buffer.lookup_transform_async("world", "robot", Time(), timeout=Duration(seconds=0.05)))
+    with pytest.raises(tf2_ros.LookupException):
+        asyncio.run(buffer.lookup_transform_full_async("world", at(1), "robot", at(1), "world", timeout=Duration(seconds=0.05)))
+
+
+def test_a_future_fails_when_its_time_has_fallen_out_of_the_cache(buffer, stamped):
+    future = buffer.wait_for_transform_async("world", "robot", at(1))
+    full = buffer.wait_for_transform_full_async("world", at(50), "robot", at(1), "world")
+    buffer.set_transform(stamped(stamp_s=5), "me")
+    assert not future.done()
+    buffer.set_transform(stamped(stamp_s=50), "me")
+    for each in (future, full, buffer.wait_for_transform_async("world", "robot", at(2))):
+        with pytest.raises(tf2_ros.ExtrapolationException):
+            each.result()
+
+
+def test_a_cancelled_future_is_forgotten(buffer):
+    future = buffer.wait_for_transform_async("world", "robot", Time(), timeout=LONG)
+    future.cancel()
+    assert buffer._futures._waiting == []
+    assert buffer._futures._stop_listening is None
+
+
+def test_deadlines_come_in_order_and_leave_no_thread():
+    from tf2_ros.deadlines import Deadlines
+
+    deadlines, calls, last = Deadlines(), [], threading.Event()
+    deadlines.call_after(0.06, lambda: (calls.append("late"), last.set()))
+    deadlines.call_after(0.03, lambda: calls.append("early"))
+    cancel = deadlines.call_after(0.04, lambda: calls.append("cancelled"))
+    cancel()
+    cancel()
+    assert last.wait(10)
+    for thread in threading.enumerate():
+        if thread.name == "tf2-deadlines":
+            thread.join(10)
+    assert calls == ["early", "late"]
+    again = threading.Event()
+    deadlines.call_after(0.0, again.set)
+    assert again.wait(10)

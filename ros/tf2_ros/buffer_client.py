@@ -1,0 +1,212 @@
+"""Lookups in the buffer of another process."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from rclpy.action import ActionClient
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_msgs.action import LookupTransform
+from tf2_msgs.msg import TF2Error
+from tf2_py.times import to_nanoseconds
+from turtlewire.errors import TimeoutException, TransformException
+
+from .buffer_interface import NO_TIMEOUT, BufferInterface
+from .buffer_server import exception_for
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.task import Future
+
+__all__ = ["BufferClient"]
+
+_SUCCEEDED = 4
+_NOT_READY = "The BufferServer is not ready."
+_NOT_BACK = (
+    "The LookupTransform goal sent to the BufferServer did not come back in the specified time. Something is likely wrong with the server."
+)
+_NOT_ACCEPTED = (
+    "The LookupTransform goal sent to the BufferServer did not come back with accepted status. Something is likely wrong with the server."
+)
+_NO_RESULT = "The BufferServer returned None for result or result.error!  Something is likely wrong with the server."
+
+
+class BufferClient(BufferInterface):
+    """Has the interface of a buffer, and asks a :class:`~tf2_ros.BufferServer`. Thread-safe.
+
+    It has a node and a thread of its own, so that a lookup works in any callback, whether the user's node is being spun or not.
+
+    Args:
+        node: Whose context and namespace it takes.
+        ns: Name of the server's action.
+        check_frequency: Of no effect: it waits for answers, it does not look for them again and again.
+        timeout_padding: How much longer than the lookup's own timeout to wait for the server.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        ns: str,
+        check_frequency: float | None = 10.0,  # noqa: ARG002 -- ROS 2's signature
+        timeout_padding: Duration | float = Duration(seconds=2.0),  # noqa: B008 -- never changed
+    ) -> None:
+        super().__init__()
+        padding = timeout_padding if isinstance(timeout_padding, Duration) else Duration(seconds=timeout_padding)
+        self.timeout_padding = padding
+        self.node = node
+        self._node = Node(
+            f"_{node.get_name()}_buffer_client",
+            context=node.context,
+            namespace=node.get_namespace(),
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        self.action_client = ActionClient(self._node, LookupTransform, node.resolve_topic_name(ns))
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, name="buffer-client", daemon=True)
+        self._thread.start()
+
+    def _spin(self) -> None:
+        with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
+            self._executor.spin()
+
+    def destroy(self) -> bool:
+        """End the thread and leave the graph."""
+        self._executor.shutdown()
+        self._thread.join()
+        self.action_client.destroy()
+        self._node.destroy_node()
+        return True
+
+    def lookup_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT) -> TransformStamped:
+        """The transform that takes data of ``source_frame`` into ``target_frame``, as the server knows it.
+
+        Args:
+            target_frame: The frame in which the answer is expressed.
+            source_frame: The frame whose pose is asked for.
+            time: When.
+            timeout: How long the server may wait for the data.
+
+        Raises:
+            TimeoutException: The server is not there, or does not answer.
+            TransformException: What the lookup raised there.
+            TypeError: ``time`` is no time.
+        """
+        goal = LookupTransform.Goal(
+            target_frame=target_frame, source_frame=source_frame, source_time=_message(time), timeout=_duration(timeout), advanced=False
+        )
+        return self._ask(goal, timeout)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration | Any = NO_TIMEOUT,
+    ) -> TransformStamped:
+        """The transform from ``source_frame`` at ``source_time`` into ``target_frame`` at ``target_time``, as the server knows it.
+
+        Raises:
+            TransformException: As :meth:`lookup_transform`.
+        """
+        goal = LookupTransform.Goal(
+            target_frame=target_frame,
+            source_frame=source_frame,
+            source_time=_message(source_time),
+            timeout=_duration(timeout),
+            target_time=_message(target_time),
+            fixed_frame=fixed_frame,
+            advanced=True,
+        )
+        return self._ask(goal, timeout)
+
+    def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT) -> bool:
+        """Whether :meth:`lookup_transform` succeeds."""
+        try:
+            self.lookup_transform(target_frame, source_frame, time, timeout)
+        except TransformException:
+            return False
+        return True
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration | Any = NO_TIMEOUT,
+    ) -> bool:
+        """Whether :meth:`lookup_transform_full` succeeds."""
+        try:
+            self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+        except TransformException:
+            return False
+        return True
+
+    def _ask(self, goal: Any, timeout: Duration | Any) -> TransformStamped:
+        timeout_s = to_nanoseconds(timeout, "duration") / 1e9
+        if not self.action_client.wait_for_server(timeout_sec=timeout_s):
+            raise TimeoutException(_NOT_READY)
+        limit = timeout_s + self.timeout_padding.nanoseconds / 1e9
+        handle = _wait(self.action_client.send_goal_async(goal), limit)
+        if not handle.accepted:
+            raise TimeoutException(_NOT_ACCEPTED)
+        try:
+            response = _wait(handle.get_result_async(), limit)
+        except TimeoutException:
+            handle.cancel_goal_async()
+            raise
+        return _transform(response)
+
+
+def _transform(response: Any) -> TransformStamped:
+    """What the server found.
+
+    Raises:
+        TransformException: It found nothing.
+    """
+    result = response.result
+    if result is None or result.error is None:
+        raise TransformException(_NO_RESULT)
+    if result.error.error != TF2Error.NO_ERROR:
+        raise exception_for(result.error)
+    if response.status != _SUCCEEDED:  # a server of ROS 2 in C++ says nothing else when the time is over
+        raise TimeoutException("The BufferServer gave up: the transform was not available in time.")
+    return result.transform
+
+
+def _wait(future: Future, seconds: float) -> Any:
+    done = threading.Event()
+    future.add_done_callback(lambda _future: done.set())
+    if not done.wait(seconds):
+        raise TimeoutException(_NOT_BACK)
+    return future.result()
+
+
+def _message(time: Time | Any) -> Any:
+    """A time message.
+
+    Raises:
+        TypeError: It is no time.
+    """
+    if isinstance(time, Time):
+        return time.to_msg()
+    if hasattr(time, "sec") and hasattr(time, "nanosec"):
+        warnings.warn("Passing a builtin_interfaces.msg.Time is deprecated, pass a rclpy.time.Time object.", UserWarning, stacklevel=3)
+        return time
+    raise TypeError("Must pass a rclpy.time.Time object.")
+
+
+def _duration(duration: Duration | Any) -> Any:
+    return Duration(nanoseconds=to_nanoseconds(duration, "duration")).to_msg()

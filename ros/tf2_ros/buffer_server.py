@@ -1,0 +1,112 @@
+"""Answers lookups of other processes from a buffer here, so that they need not listen to all transforms themselves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rclpy.action import ActionServer, CancelResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from tf2_msgs.action import LookupTransform
+from tf2_msgs.msg import TF2Error
+from turtlewire.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+if TYPE_CHECKING:
+    from rclpy.action.server import ServerGoalHandle
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+    from .buffer import Buffer
+
+__all__ = ["BufferServer", "error_number", "exception_for"]
+
+_NUMBERS: dict[type[TransformException], int] = {
+    LookupException: TF2Error.LOOKUP_ERROR,
+    ConnectivityException: TF2Error.CONNECTIVITY_ERROR,
+    ExtrapolationException: TF2Error.EXTRAPOLATION_ERROR,
+    InvalidArgumentException: TF2Error.INVALID_ARGUMENT_ERROR,
+    TimeoutException: TF2Error.TIMEOUT_ERROR,
+    TransformException: TF2Error.TRANSFORM_ERROR,
+}
+
+
+def error_number(error: TransformException) -> int:
+    """The number that ``tf2_msgs/msg/TF2Error`` has for an exception."""
+    return next(number for kind, number in _NUMBERS.items() if isinstance(error, kind))
+
+
+def exception_for(error: TF2Error) -> TransformException:
+    """The exception that a ``tf2_msgs/msg/TF2Error`` stands for."""
+    kinds = {number: kind for kind, number in _NUMBERS.items()}
+    return kinds.get(error.error, TransformException)(error.error_string)
+
+
+class BufferServer:
+    """Offers lookups in a buffer as the action ``tf2_msgs/action/LookupTransform``.
+
+    A goal that waits holds up nobody; it can be cancelled. One that cannot be answered in time is aborted with the error of the lookup,
+    never with an empty transform.
+
+    Args:
+        buffer: What is asked.
+        node: Who offers it.
+        ns: Name of the action.
+    """
+
+    def __init__(self, buffer: Buffer, node: Node, ns: str) -> None:
+        self._buffer = buffer
+        self._waiting: dict[bytes, Future] = {}
+        self._server = ActionServer(
+            node,
+            LookupTransform,
+            ns,
+            self._execute,
+            cancel_callback=self._cancel,
+            callback_group=ReentrantCallbackGroup(),
+        )
+
+    def destroy(self) -> None:
+        """Offer it no longer; goals that wait are given up."""
+        for future in list(self._waiting.values()):
+            future.cancel()
+        self._server.destroy()
+
+    async def _execute(self, goal_handle: ServerGoalHandle) -> Any:
+        result = LookupTransform.Result()
+        future = self._ask(goal_handle.request)
+        key = bytes(goal_handle.goal_id.uuid)
+        self._waiting[key] = future
+        try:
+            result.transform = await future or result.transform  # None after a cancellation
+        except TransformException as error:
+            result.error = TF2Error(error=error_number(error), error_string=str(error))
+        finally:
+            del self._waiting[key]
+        if future.cancelled():
+            result.error = TF2Error(error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was given up.")
+            (goal_handle.canceled if goal_handle.is_cancel_requested else goal_handle.abort)()
+        elif result.error.error == TF2Error.NO_ERROR:
+            goal_handle.succeed()
+        else:
+            goal_handle.abort()
+        return result
+
+    def _ask(self, goal: Any) -> Future:
+        if goal.advanced:
+            return self._buffer.wait_for_transform_full_async(
+                goal.target_frame, goal.target_time, goal.source_frame, goal.source_time, goal.fixed_frame, timeout=goal.timeout
+            )
+        return self._buffer.wait_for_transform_async(goal.target_frame, goal.source_frame, goal.source_time, timeout=goal.timeout)
+
+    def _cancel(self, goal_handle: ServerGoalHandle) -> CancelResponse:
+        future = self._waiting.get(bytes(goal_handle.goal_id.uuid))
+        if future is None:
+            return CancelResponse.REJECT
+        future.cancel()
+        return CancelResponse.ACCEPT
