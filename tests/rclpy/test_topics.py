@@ -1,0 +1,307 @@
+"""Publishers and subscriptions, on both middlewares."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from geometry_msgs.msg import Twist, Vector3
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.context import Context
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.serialization import deserialize_message, serialize_message
+from rclpy.subscription import Subscription
+from rclpy.wait_for_message import wait_for_message
+from std_msgs.msg import Int32, String
+from std_srvs.srv import Trigger
+
+from turtlewire.errors import CdrError
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def context(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+def matched(context, publisher):
+    assert context._wait_for_graph(lambda: publisher.get_subscription_count() > 0, 10_000_000_000)
+
+
+def test_messages_arrive(context, node, spin_until):
+    got = []
+    subscription = node.create_subscription(Twist, "cmd_vel", got.append, 10)
+    publisher = node.create_publisher(Twist, "cmd_vel", 10)
+    matched(context, publisher)
+    sent = Twist(linear=Vector3(x=1.5), angular=Vector3(z=-2))
+    publisher.publish(sent)
+    spin_until(lambda: got)
+    assert got == [sent]
+    assert (publisher.topic_name, subscription.topic_name) == ("/cmd_vel", "/cmd_vel")
+    assert (publisher.topic, subscription.topic) == ("/cmd_vel", "/cmd_vel")
+    assert (publisher.msg_type, subscription.msg_type) == (Twist, Twist)
+    assert publisher.get_subscription_count() == 1
+    assert subscription.get_publisher_count() == 1
+    assert publisher in list(node.publishers)
+    assert subscription in list(node.subscriptions)
+
+
+def test_raw_bytes_both_ways(context, node, spin_until):
+    got = []
+    node.create_subscription(String, "chatter", got.append, 10, raw=True)
+    publisher = node.create_publisher(String, "chatter", 10)
+    matched(context, publisher)
+    data = serialize_message(String(data="abc"))
+    publisher.publish(data)
+    publisher.publish(String(data="abc"))
+    spin_until(lambda: len(got) == 2)
+    for each in got:
+        assert isinstance(each, bytes)
+        assert each.rstrip(b"\0") == data.rstrip(b"\0")
+        assert deserialize_message(each, String) == String(data="abc")
+
+
+def test_message_info(context, node, spin_until):
+    got = []
+
+    def take(message, info):
+        got.append((message.data, info))
+
+    subscription = node.create_subscription(Int32, "number", take, 10)
+    assert subscription._callback_type is Subscription.CallbackType.WithMessageInfo
+    publisher = node.create_publisher(Int32, "number", 10)
+    matched(context, publisher)
+    before = time.time_ns()
+    publisher.publish(Int32(data=4))
+    spin_until(lambda: got)
+    data, info = got[0]
+    assert data == 4
+    assert set(info) == {"source_timestamp", "received_timestamp", "publication_sequence_number", "reception_sequence_number"}
+    assert before - 1_000_000 <= info["source_timestamp"] <= info["received_timestamp"] + 1_000_000 <= time.time_ns() + 2_000_000
+
+
+class Callbacks:
+    def __init__(self):
+        self.got = []
+
+    def one(self, message):
+        self.got.append(1)
+
+    def two(self, message, info):
+        self.got.append(2)
+
+    def one_and_more(self, message, *, extra=None):
+        self.got.append(1)
+
+    def __call__(self, message, info):
+        self.got.append(2)
+
+    @staticmethod
+    def static(message):
+        """Takes one."""
+
+    async def later(self, message):
+        self.got.append(1)
+
+
+@pytest.mark.parametrize(
+    ("callback", "arguments"),
+    [
+        (Callbacks().one, 1),
+        (Callbacks().two, 2),
+        (Callbacks().one_and_more, 1),
+        (Callbacks(), 2),
+        (Callbacks.static, 1),
+        (Callbacks().later, 1),
+        (lambda message: None, 1),
+        (lambda message, info: None, 2),
+        (lambda message, info=None: None, 1),
+        (lambda *everything: None, 1),
+        ([].append, 1),
+        (print, 1),
+    ],
+)
+def test_how_many_arguments_a_callback_takes(node, callback, arguments):
+    subscription = node.create_subscription(Int32, "number", callback, 10)
+    assert subscription._callback_type.value == arguments - 1
+    assert subscription.callback == callback
+
+
+@pytest.mark.parametrize("callback", [lambda: None, lambda a, b, c: None])
+def test_a_callback_with_another_number_of_arguments_is_refused(node, callback):
+    with pytest.raises(RuntimeError, match="callback should be either be callable with one argument"):
+        node.create_subscription(Int32, "number", callback, 10)
+
+
+def test_a_late_joiner_gets_what_transient_local_keeps(context, node, spin_until):
+    latched = QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publisher = node.create_publisher(Int32, "map", latched)
+    for number in range(4):
+        publisher.publish(Int32(data=number))
+    got = []
+    node.create_subscription(Int32, "map", lambda message: got.append(message.data), latched)
+    spin_until(lambda: len(got) == 2)
+    assert got == [2, 3]
+
+
+def test_depth_keeps_the_newest(context, node, executor):
+    got = []
+    node.create_subscription(Int32, "number", lambda message: got.append(message.data), 3)
+    publisher = node.create_publisher(Int32, "number", 10)
+    matched(context, publisher)
+    for number in range(8):
+        publisher.publish(Int32(data=number))
+    for _ in range(5):
+        executor.spin_once(timeout_sec=0.05)
+    assert got == [5, 6, 7]
+
+
+def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
+    encoded = []
+    monkeypatch.setattr("rclpy.publisher.serialize", lambda message: encoded.append(message) or b"\x00\x01\x00\x00\x01\x00\x00\x00")
+    volatile = node.create_publisher(Int32, "volatile", 10)
+    volatile.publish(Int32(data=1))
+    assert encoded == []
+    latched = node.create_publisher(Int32, "latched", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    latched.publish(Int32(data=1))
+    assert len(encoded) == 1
+    node.create_subscription(Int32, "volatile", lambda _: None, 10)
+    matched(context, volatile)
+    volatile.publish(Int32(data=1))
+    assert len(encoded) == 2
+
+
+def test_what_cannot_be_published(context, node):
+    publisher = node.create_publisher(Int32, "number", 10)
+    for wrong in (String(), "text", 3, None, Int32):
+        with pytest.raises(TypeError, match="^Expected <class 'std_msgs.msg._int32.Int32'>, got <class"):
+            publisher.publish(wrong)
+    node.create_subscription(Int32, "number", lambda _: None, 10)
+    matched(context, publisher)
+    with pytest.raises(CdrError, match="data"):
+        publisher.publish(Int32(data="three"))
+
+
+@pytest.mark.parametrize("wrong", ["10", None, 1.5])
+def test_quality_of_service_is_a_profile_or_a_depth(node, wrong):
+    with pytest.raises(TypeError, match="^Expected QoSProfile or int, but received <class '"):
+        node.create_publisher(Int32, "number", wrong)
+    with pytest.raises(TypeError):
+        node.create_subscription(Int32, "number", lambda _: None, wrong)
+
+
+def test_depths(node):
+    assert node.create_publisher(Int32, "number", 7).qos_profile == QoSProfile(depth=7, history=HistoryPolicy.KEEP_LAST)
+    with pytest.raises(ValueError, match="^history depth must be greater than or equal to zero$"):
+        node.create_publisher(Int32, "number", -1)
+
+
+def test_types_are_checked(node):
+    with pytest.raises(AttributeError, match="This might be a ROS 1 message type but it should be a ROS 2 message type"):
+        node.create_publisher(int, "number", 10)
+    with pytest.raises(AttributeError):
+        node.create_subscription("std_msgs/msg/Int32", "number", lambda _: None, 10)
+    with pytest.raises(RuntimeError, match="The message type provided is not valid, this might be a service or action"):
+        node.create_publisher(Trigger, "number", 10)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("", "topic name must not be empty string:\n  ''\n   ^"),
+        ("a?b", "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}':\n  'a?b'\n    ^"),
+        ("{wrong}", "unknown substitution"),
+    ],
+)
+def test_names_are_checked(node, name, text):
+    with pytest.raises(InvalidTopicNameException) as caught:
+        node.create_publisher(Int32, name, 10)
+    assert str(caught.value).startswith(f"Invalid topic name: {text}")
+    with pytest.raises(InvalidTopicNameException):
+        node.create_subscription(Int32, name, lambda _: None, 10)
+
+
+def test_destruction(node):
+    publisher = node.create_publisher(Int32, "number", 10)
+    subscription = node.create_subscription(Int32, "number", lambda _: None, 10)
+    assert node.destroy_publisher(publisher)
+    assert not node.destroy_publisher(publisher)
+    assert node.destroy_subscription(subscription)
+    assert not node.destroy_subscription(subscription)
+    for use in (lambda: publisher.publish(Int32()), publisher.get_subscription_count, lambda: subscription.topic_name):
+        with pytest.raises(InvalidHandle, match="^cannot use Destroyable because destruction was requested$"):
+            use()
+    assert publisher not in list(node.publishers)
+    assert subscription not in list(node.subscriptions)
+
+
+def test_incompatible_ends_do_not_match_and_both_are_warned(context, node, executor, capfd):
+    got = []
+    node.create_subscription(Int32, "number", got.append, QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE))
+    publisher = node.create_publisher(Int32, "number", qos_profile_sensor_data)
+    deadline = time.monotonic() + 10
+    seen = ""
+    while "No messages will be sent" not in seen or "No messages will be received" not in seen:
+        assert time.monotonic() < deadline
+        executor.spin_once(timeout_sec=0.1)
+        seen += capfd.readouterr().err
+    publisher.publish(Int32())
+    executor.spin_once(timeout_sec=0)
+    assert got == []
+    assert "[tested]: New publisher discovered on topic '/number', offering incompatible QoS." in seen
+    assert "Last incompatible policy: RELIABILITY" in seen
+
+
+def test_a_malformed_message_is_told_once_and_later_ones_arrive(context, node, spin_until, capfd):
+    got = []
+    node.create_subscription(String, "chatter", lambda message: got.append(message.data), 10)
+    publisher = node.create_publisher(String, "chatter", 10)
+    matched(context, publisher)
+    for _ in range(3):
+        publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
+    publisher.publish(String(data="good"))
+    spin_until(lambda: got)
+    assert got == ["good"]
+    assert capfd.readouterr().err.count("Ignoring a malformed message on topic '/chatter'") == 1
+
+
+def test_two_contexts(context, node, spin_until):
+    got = []
+    node.create_subscription(Int32, "number", lambda message: got.append(message.data), 10)
+    with Context() as other:
+        other.init(args=[])
+        talker = Node("talker", context=other)
+        publisher = talker.create_publisher(Int32, "number", 10)
+        matched(other, publisher)
+        publisher.publish(Int32(data=9))
+        spin_until(lambda: got)
+        talker.destroy_node()
+    assert got == [9]
+
+
+def test_wait_for_message(context, node):
+    publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    publisher.publish(Int32(data=6))
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=10) == (True, Int32(data=6))
+    start = time.monotonic()
+    assert wait_for_message(Int32, node, "silence", time_to_wait=0.05) == (False, None)
+    assert time.monotonic() - start >= 0.05
+    assert not any(each.topic_name in ("/number", "/silence") for each in node.subscriptions)
+
+
+def test_wait_for_message_in_a_callback(context, node):
+    publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    publisher.publish(Int32(data=6))
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    results = []
+    node.create_guard_condition(lambda: results.append(wait_for_message(Int32, node, "number", qos_profile=latched))).trigger()
+    with SingleThreadedExecutor(context=context) as executor:
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=10)
+    assert results == [(True, Int32(data=6))]
