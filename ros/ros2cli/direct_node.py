@@ -41,7 +41,7 @@ class DirectNode:
         """The graph."""
         return self.node.context.wire.graph
 
-    def __enter__(self) -> DirectNode:
+    def __enter__(self) -> DirectNode:  # noqa: PYI034  Self is not in Python 3.10
         """Wait for discovery."""
         wait_until_discovered(self.graph, self._spin_time)
         return self

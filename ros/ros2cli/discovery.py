@@ -25,7 +25,12 @@ _SPIN_S = 0.5
 
 _NODE_TOPICS = (
     ("/rosout", "rcl_interfaces/msg/Log", "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac", 10_000_000_000),
-    ("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204", 0),
+    (
+        "/parameter_events",
+        "rcl_interfaces/msg/ParameterEvent",
+        "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204",
+        0,
+    ),
 )
 
 

@@ -32,7 +32,9 @@ def add_qos_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again")
     parser.add_argument("--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages")
     parser.add_argument("--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive")
-    parser.add_argument("--qos-liveliness-lease-duration-seconds", type=positive_float, help="How long it counts as alive without saying so")
+    parser.add_argument(
+        "--qos-liveliness-lease-duration-seconds", type=positive_float, help="How long it counts as alive without saying so"
+    )
 
 
 def asked_for(args: argparse.Namespace) -> bool:

@@ -21,7 +21,9 @@ def read_values(text: str) -> dict[str, Any]:
     if values is None:
         return {}
     if not isinstance(values, dict):
-        raise RuntimeError("The passed value needs to be a dictionary in YAML format")
+        raise RuntimeError(  # noqa: TRY004  what the commands print as one line
+            "The passed value needs to be a dictionary in YAML format"
+        )
     return values
 
 

@@ -1,7 +1,7 @@
 """Where ROS packages live: colcon workspaces, this distribution's own prefix, and packages installed by pip.
 
-A *prefix* is a folder with ``share/ament_index``, as ``/opt/ros/jazzy`` is one. ``AMENT_PREFIX_PATH`` lists those of the workspaces that were
-sourced; the prefix this distribution was installed into needs no sourcing and comes last.
+A *prefix* is a folder with ``share/ament_index``, as ``/opt/ros/jazzy`` is one. ``AMENT_PREFIX_PATH`` lists those of the workspaces that
+were sourced; the prefix this distribution was installed into needs no sourcing and comes last.
 """
 
 from __future__ import annotations

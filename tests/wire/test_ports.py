@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -57,7 +58,10 @@ def test_a_graph_is_complete_when_it_knows_all_processes(participant):
         participant(name)
     context = open_context()
     try:
-        assert context.graph.wait_for(context.graph.is_complete, timeout_ns=20_000_000_000)
+        deadline = time.monotonic() + 60
+        while not context.graph.is_complete():  # ports of other processes come and go without a change of the graph
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
         assert names <= {info.name for info in context.graph.nodes()}
     finally:
         context.close()

@@ -7,16 +7,12 @@ __all__ = ["COMMANDS"]
 COMMANDS = {
     "action": "Goals that take time: list them, send one",
     "daemon": "Status of the daemon (there is none, and none is needed)",
-    "doctor": "Look for what is wrong with the setup and the traffic",
     "interface": "Show the definitions of messages, services and actions",
     "launch": "Run a launch file",
-    "lifecycle": "States of managed nodes",
-    "multicast": "Try whether multicast gets through",
     "node": "List nodes, show what one of them offers",
     "param": "Read and set parameters of nodes",
-    "pkg": "List and create packages",
+    "pkg": "List packages, show where they are",
     "run": "Run an executable of a package",
     "service": "List services, call one",
     "topic": "List topics, listen to one, publish to one",
-    "wtf": "The same as doctor",
 }

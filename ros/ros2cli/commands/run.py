@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import shlex
 import signal
@@ -45,12 +46,10 @@ def main(args: argparse.Namespace) -> int | str:
 
 
 def _run(command: list[str]) -> int:
-    with subprocess.Popen(command) as process:
+    with subprocess.Popen(command) as process:  # noqa: S603  what the user asked for
         while process.returncode is None:
-            try:
+            with contextlib.suppress(KeyboardInterrupt):  # the terminal has sent it to the executable as well, which decides
                 process.wait()
-            except KeyboardInterrupt:
-                continue  # the terminal has sent it to the executable as well; it decides
     status = process.returncode
     if status < 0:
         print(f"[ros2run]: {signal.strsignal(-status)}")

@@ -207,9 +207,15 @@ class Subscription(Entity):
 
 
 class Client(Entity):
-    """Sends requests to a service. Waitable (ready: responses can be taken)."""
+    """Sends requests to a service. Waitable (ready: responses can be taken).
+
+    Attributes:
+        service: Fully qualified ROS name.
+        client_id: What :class:`RequestId` says of its requests.
+    """
 
     service: str
+    client_id: int
 
     @abstractmethod
     def send_request(self, cdr: bytes) -> int:

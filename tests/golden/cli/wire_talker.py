@@ -10,8 +10,9 @@ import json
 import re
 from pathlib import Path
 
-import rclpy
 import yaml
+
+import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rosidl_runtime_py import set_message_fields

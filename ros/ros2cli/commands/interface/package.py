@@ -29,8 +29,8 @@ def main(args: argparse.Namespace) -> str | None:
     if args.package_name not in packages:
         return f"Unknown package '{args.package_name}'"
     wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
-    for kind in wanted:
-        if wanted[kind] or not any(wanted.values()):
+    for kind, is_wanted in wanted.items():
+        if is_wanted or not any(wanted.values()):
             for name in packages[args.package_name][kind]:
                 print(f"{args.package_name}/{kind}/{name}")
     return None

@@ -21,6 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> None:
     """Print all values as YAML."""
     import yaml
+
     from rclpy.parameter import parameter_value_to_python
 
     with DirectNode(args) as direct:

@@ -37,7 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--lost-messages", action="store_true", help="Accepted for compatibility: lost messages are reported by default")
     parser.add_argument("--no-lost-messages", action="store_true", help="Do not report lost messages")
     parser.add_argument("--raw", action="store_true", help="Show the bytes of the messages")
-    parser.add_argument("--filter", dest="filter_expr", metavar="FILTER-EXPR", help="Only messages m for which this Python expression is true")
+    parser.add_argument(
+        "--filter", dest="filter_expr", metavar="FILTER-EXPR", help="Only messages m for which this Python expression is true"
+    )
     parser.add_argument("--once", action="store_true", help="End after the first message")
     parser.add_argument("--timeout", metavar="N", type=positive_float, help="End after N seconds without messages")
     parser.add_argument("-i", "--include-message-info", action="store_true", help="Show when a message was sent and received")
@@ -123,7 +125,7 @@ def _field(message: Any, path: str | None) -> Any:
     for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path or ""):
         try:
             message = getattr(message, name) if name else message[int(index)]
-        except (AttributeError, IndexError, TypeError) as error:
+        except (AttributeError, IndexError, TypeError) as error:  # noqa: PERF203  a path has few parts
             raise RuntimeError(f"Invalid field '{path}': {error}") from error
     return message
 

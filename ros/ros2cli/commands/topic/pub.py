@@ -46,9 +46,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Publish."""
-    from rosidl_runtime_py import set_message_fields
     from ros2cli.direct_node import DirectNode
     from ros2cli.topic_type import message_class
+    from rosidl_runtime_py import set_message_fields
 
     message = message_class(args.message_type)()
     values = read_values(sys.stdin.read() if args.stdin else args.values)
@@ -60,7 +60,9 @@ def main(args: argparse.Namespace) -> str | None:
     with DirectNode(args, name=args.node_name) as direct:
         publisher = direct.node.create_publisher(type(message), args.topic_name, with_options(args, "default"))
         wanted = args.wait_matching_subscriptions
-        message_or_none = _wait_for_subscriptions(direct, publisher, (1 if times else 0) if wanted is None else wanted, args.max_wait_time_secs)
+        message_or_none = _wait_for_subscriptions(
+            direct, publisher, (1 if times else 0) if wanted is None else wanted, args.max_wait_time_secs
+        )
         if message_or_none is not None:
             return message_or_none
         print("publisher: beginning loop")
@@ -73,11 +75,11 @@ def main(args: argparse.Namespace) -> str | None:
 def _wait_for_subscriptions(direct: DirectNode, publisher: Any, wanted: int, limit: float | None) -> str | None:
     """Wait; a text when the time is over."""
     deadline = None if limit is None else time.monotonic() + limit
-    while publisher.get_subscription_count() < wanted:
+    while (count := publisher.get_subscription_count()) < wanted:
         print(f"Waiting for at least {wanted} matching subscription(s)...")
         rest = _SAY_WAITING_EVERY_NS if deadline is None else min(_SAY_WAITING_EVERY_NS, int((deadline - time.monotonic()) * 1e9))
         if rest <= 0:
-            return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {publisher.get_subscription_count()} subscribers"
+            return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {count} subscribers"
         direct.graph.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
     return None
 

@@ -10,7 +10,7 @@ from turtlewire.errors import CdrError
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
 from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, GraphView, NodeEndpoints, parse_user_data, unpack_discovery_info
-from turtlewire.wire.qos import Durability, History, QoS
+from turtlewire.wire.qos import INFINITE_NS, Durability, History, QoS
 from turtlewire.wire.report import warn_once
 
 from . import library as dds
@@ -171,7 +171,8 @@ class CycloneGraph(GraphView):
 def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:
     topic = names.topic_from_dds(endpoint.dds_topic)
     type_name = names.type_from_dds(endpoint.dds_type)
-    qos = endpoint.qos
+    # a lifespan is the writer's alone; ROS 2 shows readers with an infinite one
+    qos = endpoint.qos if endpoint.kind == "publisher" else endpoint.qos._replace(lifespan_ns=INFINITE_NS)
     if topic is None:
         topic = endpoint.dds_topic
         qos = qos._replace(avoid_ros_namespace_conventions=names.service_from_dds(topic) is None)
