@@ -299,7 +299,14 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
            "Returns:\n"
            "    How many were accepted.")
       .def("_describe_links", &describe_links)
-      .def("_describe_refusals", &describe_refusals);
+      .def("_describe_refusals", &describe_refusals)
+      .def(
+          "_fault",
+          [](BufferObject& self) {
+            const std::scoped_lock lock(self.shared.mutex);
+            return self.shared.buffer.fault();
+          },
+          "What is wrong with the buffer's own state; for tests.");
 }
 
 }  // namespace turtlewire::python

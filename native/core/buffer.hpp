@@ -76,6 +76,9 @@ class Buffer {
   // Its newest stamp; 0 if there is none.
   Stamp newest(FrameId frame) const { return links_[frame]->newest(); }
 
+  // What is wrong with the buffer's own state; empty if nothing is.
+  std::string fault() const;
+
   std::string frames_as_string() const;
   std::string frames_as_yaml(double now) const;
   std::string frames_as_dot(double now) const;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <string>
 #include <vector>
 
 #include "interpolate.hpp"
@@ -60,6 +60,9 @@ class Link {
   }
   Stamp oldest() const { return is_static() || samples_.empty() ? 0 : samples_.oldest(); }
   Stamp newest() const { return is_static() || samples_.empty() ? 0 : samples_.newest(); }
+
+  // What is wrong with the link's own state; empty if nothing is.
+  std::string fault() const;
 
   // Whether the frame is a parent in the data.
   bool mentions(FrameId frame) const {

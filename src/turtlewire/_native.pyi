@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 @final
 class Transform:
@@ -36,9 +36,9 @@ class Transform:
     def __eq__(self, other: object) -> bool: ...
 
 class Buffer:
-    def __init__(self, cache_time_ns: int = ...) -> None: ...
+    def __init__(self, cache_time_ns: int | None = ...) -> None: ...
     @property
-    def cache_time_ns(self) -> int: ...
+    def cache_time_ns(self) -> int | None: ...
     def set_transform(
         self,
         parent_frame: str,
@@ -71,6 +71,55 @@ class Buffer:
     def all_frames_as_dot(self, now: float = 0.0) -> str: ...
     def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]: ...
     def wake(self) -> None: ...
+    def lookup_batch(
+        self,
+        target_frame: str,
+        source_frame: str,
+        stamps: ArrayLike,
+        *,
+        matrices: bool = False,
+        out: NDArray[np.float64] | None = None,
+        status: NDArray[np.uint8] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def lookup_all(self, target_frame: str, stamp_ns: int = 0) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]: ...
+    def transform_points(
+        self,
+        target_frame: str,
+        source_frame: str,
+        points: ArrayLike,
+        stamps: int | ArrayLike = 0,
+        *,
+        fixed_frame: str | None = None,
+        target_stamp_ns: int = 0,
+        out: NDArray[Any] | None = None,
+        status: NDArray[np.uint8] | None = None,
+    ) -> NDArray[Any]: ...
+    def lookup_velocity(
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        stamps: int | ArrayLike = 0,
+        *,
+        interval_ns: int = ...,
+        reference_frame: str | None = None,
+        point: tuple[float, float, float] = ...,
+        point_frame: str | None = None,
+        out: NDArray[np.float64] | None = None,
+        status: NDArray[np.uint8] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def extrapolate_transform(self, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int) -> Transform: ...
+    def lookup_latest(
+        self, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
+    ) -> tuple[Transform, dict[str, int]]: ...
+    def remove_frame(self, child_frame: str) -> bool: ...
+    def remove_stale(self, before_ns: int) -> list[str]: ...
+    def samples(self, child_frame: str) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]: ...
+    def set_transforms(
+        self, parent_frame: str, child_frame: str, stamps: ArrayLike, poses: ArrayLike, authority: str = "default_authority"
+    ) -> int: ...
+    def _describe_links(self) -> list[tuple[str, str, bool, int, int, int, int, int, list[tuple[str, str, int, int]]]]: ...
+    def _describe_refusals(self) -> dict[str, tuple[dict[str, int], str]]: ...
+    def _fault(self) -> str: ...
 
 class MessageLookup:
     def __init__(self, buffer: Buffer, example: Any) -> None: ...

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import TransformException
+from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.cdr import decode_tf_message
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
 from turtlewire.tf.plain.texts import ERRORS, Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
@@ -22,27 +23,43 @@ if TYPE_CHECKING:
 
 _Answer = TypeVar("_Answer")
 
+FOREVER = 2**63 - 1
+
 
 class Buffer:
     """The transforms of a tree of frames over time. Safe for use from many threads.
 
     Args:
-        cache_time_ns: How long samples are kept, counted back from the newest of their link.
+        cache_time_ns: How long samples are kept, counted back from the newest of their link; None: forever.
     """
 
     __module__ = "turtlewire"
 
-    def __init__(self, cache_time_ns: int = 10_000_000_000) -> None:
-        if cache_time_ns < 0:
+    def __init__(self, cache_time_ns: int | None = 10_000_000_000) -> None:
+        if cache_time_ns is not None and cache_time_ns < 0:
             raise ValueError("cache_time_ns must not be negative")
-        self._tree = Tree(cache_time_ns)
+        self._tree = Tree(FOREVER if cache_time_ns is None else cache_time_ns)
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
 
     @property
-    def cache_time_ns(self) -> int:
-        """How long samples are kept."""
-        return self._tree.keep
+    def cache_time_ns(self) -> int | None:
+        """How long samples are kept; None: forever."""
+        return None if self._tree.keep == FOREVER else self._tree.keep
+
+    lookup_batch = batch.lookup_batch
+    lookup_all = batch.lookup_all
+    transform_points = batch.transform_points
+    lookup_velocity = batch.lookup_velocity
+    extrapolate_transform = inspection.extrapolate_transform
+    lookup_latest = inspection.lookup_latest
+    remove_frame = inspection.remove_frame
+    remove_stale = inspection.remove_stale
+    samples = inspection.samples
+    set_transforms = inspection.set_transforms
+    _describe_links = inspection.describe_links
+    _describe_refusals = inspection.describe_refusals
+    _fault = inspection.fault
 
     # -- data in
 
@@ -227,6 +244,13 @@ class Buffer:
     def _raising(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
         try:
             return self._waiting(ask, timeout_ns)
+        except Failure as failure:
+            raise self._error(failure) from None
+
+    def _checked(self, ask: Callable[[], _Answer]) -> _Answer:
+        """Ask, with the lock held already."""
+        try:
+            return ask()
         except Failure as failure:
             raise self._error(failure) from None
 

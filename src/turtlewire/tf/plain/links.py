@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
+from itertools import pairwise
 from typing import NamedTuple
 
 from turtlewire.tf.plain.poses import Pose, interpolate
 from turtlewire.tf.status import LookupStatus
+
+MOST_SENDERS = 16
+"""Beyond it the one that has been silent longest is forgotten."""
 
 MOST_PER_STAMP = 1000
 """Beyond this many values of one stamp only the first, the last and the count are kept."""
@@ -25,7 +29,7 @@ class Link:
 
     def __init__(self, *, static: bool) -> None:
         self.static = static
-        self.sender = "no recorded authority"
+        self.senders: dict[tuple[str, str], list[int]] = {}  # (name, parent) -> samples, newest stamp; the last sender is last
         self.fixed: Sample | None = None
         self.stamps: list[int] = []
         self.samples: list[Sample] = []
@@ -56,6 +60,27 @@ class Link:
     def length(self) -> int:
         """How many values tf2 would hold."""
         return (1 if self.fixed else len(self.stamps)) + sum(self.dropped.values())
+
+    @property
+    def sender(self) -> str:
+        """Who sent the last accepted sample."""
+        return next(reversed(self.senders), ("no recorded authority", ""))[0]
+
+    @property
+    def parent_changes(self) -> int:
+        """How often the parent changes in the history kept."""
+        return sum(a.parent != b.parent for a, b in pairwise(self.samples))
+
+    def count_sender(self, name: str, parent: str, stamp: int) -> None:
+        """Count an accepted sample for its sender."""
+        samples, _ = self.senders.pop((name, parent), [0, 0])
+        self.senders[name, parent] = [samples + 1, stamp]
+        if len(self.senders) > MOST_SENDERS:
+            del self.senders[min(self.senders, key=lambda sender: self.senders[sender][1])]
+
+    def sender_rows(self) -> list[tuple[str, str, int, int]]:
+        """(name, parent, samples, newest stamp) of all senders."""
+        return [(name, parent, samples, newest) for (name, parent), (samples, newest) in self.senders.items()]
 
     def clear(self) -> None:
         """Forget the samples; a static pose stays."""
@@ -104,11 +129,33 @@ class Link:
 
     def _between(self, stamp: int) -> Sample:
         i = bisect_right(self.stamps, stamp)
-        older, newer = self.samples[i - 1], self.samples[i]
-        if older.parent != newer.parent:
-            return older
-        ratio = (stamp - self.stamps[i - 1]) / (self.stamps[i] - self.stamps[i - 1])
+        if self.samples[i - 1].parent != self.samples[i].parent:
+            return self.samples[i - 1]
+        return self._mix(i - 1, stamp)
+
+    def _mix(self, i: int, stamp: int) -> Sample:
+        older, newer = self.samples[i], self.samples[i + 1]
+        ratio = (stamp - self.stamps[i]) / (self.stamps[i + 1] - self.stamps[i])
         return Sample(older.parent, interpolate(older.pose, newer.pose, ratio))
+
+    def read_beyond(self, stamp: int, limit: int) -> Sample | LookupStatus:
+        """As read, but up to ``limit`` outside of the data: the motion between the two outermost samples is taken to go on."""
+        reading = self.read(stamp)
+        if reading not in {LookupStatus.FUTURE, LookupStatus.PAST}:
+            return reading
+        after = reading == LookupStatus.FUTURE
+        i = len(self.samples) - 2 if after else 0
+        gap = stamp - self.newest if after else self.oldest - stamp
+        same_parent = self.samples[i].parent == self.samples[i + 1].parent
+        if gap > limit or not same_parent or self.stamps[i] == self.stamps[i + 1]:
+            return reading
+        return self._mix(i, stamp)
+
+    def read_newest(self, now: int, max_age: int) -> Sample | LookupStatus:
+        """The newest pose, unless it is older than ``max_age`` (0: any age)."""
+        if max_age and not self.static and now - self.newest > max_age:
+            return LookupStatus.FUTURE
+        return self.read(0)
 
 
 def is_nan(pose: Pose) -> bool:

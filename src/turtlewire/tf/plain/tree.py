@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from typing import TYPE_CHECKING, TypeAlias
+
 from turtlewire.tf.plain.links import Link, Sample, is_nan
 from turtlewire.tf.plain.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
 from turtlewire.tf.plain.texts import (
@@ -15,11 +18,36 @@ from turtlewire.tf.plain.texts import (
 )
 from turtlewire.tf.status import LookupStatus
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 MAX_GRAPH_DEPTH = 1000
 """tf2 takes more hops for a loop."""
 
 NO_PARENT = "NO_PARENT"
+_MOST_REFUSED = 1000
+
+VERDICT_NAMES = {
+    "self": "self_transform",
+    "no child": "no_child_frame",
+    "no parent": "no_parent_frame",
+    "nan": "nan_value",
+    "old": "old_data",
+    "reserved": "reserved_name",
+    "name": "bad_name",
+}
+"""How refusals are counted, by the keys of texts.refusal."""
+
+Reader: TypeAlias = "Callable[[Link], Sample | LookupStatus]"
 _LONGEST_NAME = 4096
+
+
+class Refusals:
+    """What was refused of one child frame: how often for which reason, and what texts.refusal needs to tell of the last."""
+
+    def __init__(self) -> None:
+        self.counts: Counter[str] = Counter()
+        self.last: tuple[str, str, int, Pose, str] = ("", "", 0, IDENTITY, "")
 
 
 class Tree:
@@ -29,10 +57,22 @@ class Tree:
         self.keep = keep
         self.frames: dict[str, None] = {}  # a set in order of arrival
         self.links: dict[str, Link] = {}
+        self.refusals: dict[str, Refusals] = {}  # by child frame
 
     def set(self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool) -> str:
         """Add a sample. Returns the key of a refusal's text (see texts.refusal), or an empty string."""
         parent, child = parent.removeprefix("/"), child.removeprefix("/")
+        verdict = self._insert(parent, child, stamp, pose, static=static)
+        if verdict:
+            known = child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
+            record = self.refusals.setdefault(known, Refusals())
+            record.counts[VERDICT_NAMES[verdict]] += 1
+            record.last = (verdict, child, stamp, pose, authority)
+        else:
+            self.links[child].count_sender(authority, parent, stamp)
+        return verdict
+
+    def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> str:
         fault = _name_fault(parent, child)
         if fault:
             return fault
@@ -46,14 +86,22 @@ class Tree:
             known = link
             link = Link(static=static)
             if known is not None:
-                link.sender = known.sender
+                link.senders = known.senders
             self.links[child] = link
             if known is None:
                 self._sort_links()
-        if not link.insert(stamp, Sample(parent, stored), self.keep):
-            return "old"
-        link.sender = authority
-        return ""
+        return "" if link.insert(stamp, Sample(parent, stored), self.keep) else "old"
+
+    def remove(self, child: str) -> bool:
+        """Forget a link, and the names that then stand for nothing; False if there is none."""
+        link = self.links.pop(child, None)
+        if link is None:
+            return False
+        in_use = {sample.parent for other in self.links.values() for sample in (*other.samples, other.fixed) if sample}
+        for frame in (child, link.parent):
+            if frame not in in_use and frame not in self.links:
+                self.frames.pop(frame, None)
+        return True
 
     def _sort_links(self) -> None:
         # Descriptions list the links in the order in which their frames were first named.
@@ -85,36 +133,49 @@ class Tree:
         self.check_name(source, question, "source_frame")
         if stamp == 0:
             stamp = self.latest_common_time(target, source)
-        return stamp, canonical(self._walk(target, source, stamp))
+        return stamp, canonical(self._walk(target, source, stamp, lambda link: link.read(stamp))[0])
 
-    def _walk(self, target: str, source: str, stamp: int) -> Pose:
+    def lookup_by(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
+        """The pose by another rule than tf2's for what a link answers, and the children of the links on the way."""
+        self.check_name(target, "lookupTransform", "target_frame")
+        self.check_name(source, "lookupTransform", "source_frame")
+        if target == source:
+            return IDENTITY, []
+        pose, used = self._walk(target, source, stamp, read)
+        return canonical(pose), used
+
+    def _walk(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
         """Source to the top, then target up to there. A link without data ends the first walk and fails the second."""
+        up: list[str] = []
+        down: list[str] = []
         source_to_top, stopped = IDENTITY, None
         top = source
         for depth in range(MAX_GRAPH_DEPTH + 2):
             link = self.links.get(top)
             if link is None:
                 break
-            reading = link.read(stamp)
+            reading = read(link)
             if isinstance(reading, LookupStatus):
                 stopped = time_failure(reading, top, link, stamp, target, source, self.keep)
                 break
             if top == target:
-                return source_to_top
+                return source_to_top, up
+            up.append(top)
             source_to_top, top = compose(reading.pose, source_to_top), reading.parent
             self._check_depth(depth + 1)
         target_to_top, frame = IDENTITY, target
         for depth in range(MAX_GRAPH_DEPTH + 2):
             link = self.links.get(frame)
             if frame == top:
-                return between(target_to_top, source_to_top)
+                return between(target_to_top, source_to_top), [f for f in up + down if (f in up) != (f in down)]
             if link is None:
                 break
-            reading = link.read(stamp)
+            reading = read(link)
             if isinstance(reading, LookupStatus):
                 raise time_failure(reading, frame, link, stamp, target, source, self.keep)
             if frame == source:
-                return between(target_to_top, IDENTITY)
+                return between(target_to_top, IDENTITY), down
+            down.append(frame)
             target_to_top, frame = compose(reading.pose, target_to_top), reading.parent
             self._check_depth(depth + 1)
         raise stopped or self._connection_failure(target, source)

@@ -1,0 +1,215 @@
+"""The methods that take and give NumPy arrays: loops over the single ones, as the compiled core documents them."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.tf.plain.poses import IDENTITY, Pose, Quaternion, Vector, compose, conjugate, multiply, rotate
+from turtlewire.tf.plain.texts import Failure
+from turtlewire.tf.status import LookupStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from turtlewire.tf.plain.buffer import Buffer
+
+
+def lookup_batch(
+    self: Buffer,
+    target_frame: str,
+    source_frame: str,
+    stamps: ArrayLike,
+    *,
+    matrices: bool = False,
+    out: NDArray[np.float64] | None = None,
+    status: NDArray[np.uint8] | None = None,
+) -> NDArray[np.float64]:
+    """lookup_transform at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
+    times = _stamps(stamps)
+    result = _output(out, (len(times), 4, 4) if matrices else (len(times), 7))
+    for i, pose in enumerate(_poses(self, target_frame, source_frame, times, status)):
+        result[i] = _matrix(pose) if matrices else pose
+    return result
+
+
+def lookup_all(self: Buffer, target_frame: str, stamp_ns: int = 0) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
+    """The poses of all frames in one frame at one time."""
+    import numpy as np
+
+    frames, poses, stamps = [], [], []
+    with self._changed:
+        self._checked(lambda: self._tree.check_name(target_frame, "lookupTransform", "target_frame"))
+        for frame in self._tree.frames:
+            found = _attempt(lambda frame=frame: self._tree.lookup(target_frame, frame, stamp_ns, "lookupTransform"))  # type: ignore[misc]
+            if isinstance(found, tuple):
+                frames.append(frame)
+                stamps.append(found[0])
+                poses.append(found[1])
+    return frames, np.array(poses, dtype=np.float64).reshape(-1, 7), np.array(stamps, dtype=np.int64)
+
+
+def transform_points(
+    self: Buffer,
+    target_frame: str,
+    source_frame: str,
+    points: ArrayLike,
+    stamps: int | ArrayLike = 0,
+    *,
+    fixed_frame: str | None = None,
+    target_stamp_ns: int = 0,
+    out: NDArray[Any] | None = None,
+    status: NDArray[np.uint8] | None = None,
+) -> NDArray[Any]:
+    """Express points (N, 3) of the source frame in the target frame, at one time or at a time for each."""
+    import numpy as np
+
+    given = np.asarray(points)
+    given = np.ascontiguousarray(given, dtype=np.float32 if given.dtype == np.float32 else np.float64)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError("points must have the shape (N, 3)")
+    if out is not None and (out.dtype != given.dtype or not out.flags.c_contiguous or not out.flags.writeable):
+        raise TypeError("out must be a writable, C-contiguous (N, 3) array of the same type as points")
+    _check_shape(out, given.shape, "out")
+    result = np.empty_like(given) if out is None else out
+    last: Pose = IDENTITY
+    if fixed_frame is not None:
+        last = _pose(self, target_frame, fixed_frame, target_stamp_ns)
+    own_target = target_frame if fixed_frame is None else fixed_frame
+    if isinstance(stamps, int):
+        if status is not None:
+            raise ValueError("status is for a stamp for each point")
+        poses: Iterable[Pose] = [_pose(self, own_target, source_frame, stamps)] * len(given)
+    else:
+        times = _stamps(stamps)
+        if len(times) != len(given):
+            raise ValueError("stamps must be one int, or one for each point")
+        poses = _poses(self, own_target, source_frame, times, status)
+    for i, pose in enumerate(poses):
+        x, y, z = (float(value) for value in given[i])
+        result[i] = compose(last, compose(pose, (x, y, z, 0.0, 0.0, 0.0, 1.0)))[:3]
+    return result
+
+
+def lookup_velocity(
+    self: Buffer,
+    tracking_frame: str,
+    observation_frame: str,
+    stamps: int | ArrayLike = 0,
+    *,
+    interval_ns: int = 100_000_000,
+    reference_frame: str | None = None,
+    point: Vector = (0.0, 0.0, 0.0),
+    point_frame: str | None = None,
+    out: NDArray[np.float64] | None = None,
+    status: NDArray[np.uint8] | None = None,
+) -> NDArray[np.float64]:
+    """How a body moves: vx, vy, vz in m/s and wx, wy, wz in rad/s, shape (6,), or (N, 6) for an array of stamps."""
+    if interval_ns <= 0:
+        raise ValueError("interval_ns must be positive")
+    single = isinstance(stamps, int)
+    times = [stamps] if isinstance(stamps, int) else _stamps(stamps)
+    result = _output(out, (6,) if single else (len(times), 6))
+    _check_shape(status, (len(times),), "status")
+    latest = _attempt(lambda: self._tree.latest_common_time(observation_frame, tracking_frame))
+    newest = latest if isinstance(latest, int) else 0
+    axes, fixed = reference_frame or observation_frame, point_frame or tracking_frame
+    for i, stamp in enumerate(times):
+        t = stamp or newest
+        end = min(t + interval_ns // 2, newest) if t <= newest else t
+
+        def measure(t: int = t, end: int = end) -> tuple[float, ...]:
+            last = _bare(self, observation_frame, tracking_frame, end)
+            first = _bare(self, observation_frame, tracking_frame, end - interval_ns)
+            turn = _bare(self, axes, observation_frame, t)[3:]
+            at = compose(_bare(self, tracking_frame, fixed, t), (*point, 0.0, 0.0, 0.0, 1.0))[:3]
+            linear, angular = _mean_velocity(first, last, at, interval_ns / 1e9)
+            return (*rotate(turn, linear), *rotate(turn, angular))
+
+        with self._changed:
+            row = _with_status(self, measure, status, i)
+        target = result if single else result[i]
+        target[:] = math.nan if row is None else row
+    return result
+
+
+def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tuple[Vector, Vector]:
+    """The chord of a point's way, and the turn in the observer's axes, by time."""
+    begin, end = (compose(pose, (*point, 0.0, 0.0, 0.0, 1.0)) for pose in (first, last))
+    linear = ((end[0] - begin[0]) / seconds, (end[1] - begin[1]) / seconds, (end[2] - begin[2]) / seconds)
+    x, y, z, w = multiply(last[3:], conjugate(first[3:]))
+    sine = math.sqrt(x * x + y * y + z * z)
+    factor = math.copysign(2.0 if sine < 1e-9 else 2.0 * math.atan2(sine, abs(w)) / sine, w) / seconds
+    return linear, (factor * x, factor * y, factor * z)
+
+
+def _bare(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
+    return buffer._tree.lookup(target, source, stamp, "lookupTransform")[1]
+
+
+def _pose(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
+    with buffer._changed:
+        return buffer._checked(lambda: _bare(buffer, target, source, stamp))
+
+
+def _poses(buffer: Buffer, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None) -> Iterable[Pose]:
+    _check_shape(status, (len(stamps),), "status")
+    for i, stamp in enumerate(stamps):
+        with buffer._changed:
+            pose = _with_status(buffer, lambda stamp=stamp: _bare(buffer, target, source, stamp), status, i)  # type: ignore[misc]
+        yield pose or (math.nan,) * 7
+
+
+def _attempt(ask: Callable[[], Any]) -> Any:
+    try:
+        return ask()
+    except Failure as failure:
+        return failure.status
+
+
+def _with_status(buffer: Buffer, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int) -> Any:
+    """The answer; without one None, and its status noted, or the exception if nobody wants a status."""
+    if status is None:
+        return buffer._checked(ask)
+    answer = _attempt(ask)
+    status[i] = answer if isinstance(answer, LookupStatus) else LookupStatus.OK
+    return None if isinstance(answer, LookupStatus) else answer
+
+
+def _stamps(stamps: ArrayLike) -> list[int]:
+    import numpy as np
+
+    array = np.asarray(stamps)
+    if array.ndim != 1:
+        raise ValueError("stamps must be one-dimensional")
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError("stamps must be integers (nanoseconds)")
+    return [int(stamp) for stamp in array]
+
+
+def _check_shape(array: NDArray[Any] | None, shape: tuple[int, ...], name: str) -> None:
+    if array is not None and array.shape != shape:
+        wanted, given = (", ".join(map(str, sizes)) for sizes in (shape, array.shape))
+        raise ValueError(f"{name} must have the shape ({wanted}), not ({given})")
+
+
+def _output(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    import numpy as np
+
+    if out is None:
+        return np.empty(shape)
+    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise TypeError("out must be a writable, C-contiguous float64 array")
+    _check_shape(out, shape, "out")
+    return out
+
+
+def _matrix(pose: Pose) -> NDArray[np.float64]:
+    from turtlewire.tf.arrays import pose_matrix
+    from turtlewire.tf.plain.transform import Transform
+
+    rotation: Quaternion = pose[3:]
+    return pose_matrix(Transform("", "", 0, pose[:3], rotation))

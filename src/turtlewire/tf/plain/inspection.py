@@ -1,0 +1,121 @@
+"""The methods that look into the buffer, and change it by other ways than new data; the compiled core documents them."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.tf.plain.texts import refusal
+from turtlewire.tf.plain.transform import Transform
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from turtlewire.tf.plain.buffer import Buffer
+
+
+def extrapolate_transform(self: Buffer, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int) -> Transform:
+    """lookup_transform, but a time up to ``limit_ns`` outside of a link's data is answered as well."""
+    if limit_ns < 0:
+        raise ValueError("limit_ns must not be negative")
+    with self._changed:
+        pose, _ = self._checked(
+            lambda: self._tree.lookup_by(target_frame, source_frame, stamp_ns, lambda link: link.read_beyond(stamp_ns, limit_ns))
+        )
+    return Transform(target_frame, source_frame, stamp_ns, pose[:3], pose[3:])
+
+
+def lookup_latest(
+    self: Buffer, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
+) -> tuple[Transform, dict[str, int]]:
+    """The transform made of the newest data of each link, whatever its time; and those times by child frame."""
+    if max_age_ns and not now_ns:
+        raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
+    with self._changed:
+        pose, used = self._checked(
+            lambda: self._tree.lookup_by(target_frame, source_frame, now_ns, lambda link: link.read_newest(now_ns, max_age_ns))
+        )
+        stamps = {child: link.newest for child in used if not (link := self._tree.links[child]).static}
+    return Transform(target_frame, source_frame, min(stamps.values(), default=0), pose[:3], pose[3:]), stamps
+
+
+def remove_frame(self: Buffer, child_frame: str) -> bool:
+    """Forget how a frame lies in its parent; whether there was anything to forget."""
+    with self._changed:
+        return self._tree.remove(child_frame)
+
+
+def remove_stale(self: Buffer, before_ns: int) -> list[str]:
+    """Remove all frames that move and have no data since a time; their names."""
+    with self._changed:
+        stale = [child for child, link in self._tree.links.items() if not link.static and link.newest < before_ns]
+        return [child for child in stale if self._tree.remove(child)]
+
+
+def samples(self: Buffer, child_frame: str) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
+    """The whole history of one frame, oldest first: for each run with one parent the parent, the stamps and the poses."""
+    import numpy as np
+
+    with self._changed:
+        self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
+        link = self._tree.links.get(child_frame)
+        if link is None:
+            return []
+        history = [(0, link.fixed)] if link.fixed else list(zip(link.stamps, link.samples, strict=True))
+    return [
+        (parent, np.array([stamp for stamp, _ in rows], dtype=np.int64), np.array([sample.pose for _, sample in rows]))
+        for parent, run in groupby(history, key=lambda entry: entry[1].parent)
+        if (rows := list(run))
+    ]
+
+
+def set_transforms(
+    self: Buffer, parent_frame: str, child_frame: str, stamps: ArrayLike, poses: ArrayLike, authority: str = "default_authority"
+) -> int:
+    """set_transform for many samples of one frame; how many were accepted."""
+    import numpy as np
+
+    from turtlewire.tf.plain.batch import _check_shape, _stamps
+
+    times = _stamps(stamps)
+    rows = np.ascontiguousarray(poses, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != 7:
+        raise ValueError("poses must have the shape (N, 7)")
+    _check_shape(rows, (len(times), 7), "poses")
+    accepted = 0
+    with self._changed:
+        for stamp, row in zip(times, rows.tolist(), strict=True):
+            x, y, z, qx, qy, qz, qw = row
+            accepted += not self._tree.set(parent_frame, child_frame, stamp, (x, y, z, qx, qy, qz, qw), authority, static=False)
+        if accepted:
+            self._changed.notify_all()
+    if accepted:
+        self._call_listeners()
+    return accepted
+
+
+def describe_links(self: Buffer) -> list[tuple[Any, ...]]:
+    """For turtlewire.tf.inspection."""
+    with self._changed:
+        return [
+            (child, link.parent, link.static, link.length, link.oldest, link.newest, link.parent_changes, 0, link.sender_rows())
+            for child, link in self._tree.links.items()
+        ]
+
+
+def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
+    """For turtlewire.tf.inspection."""
+    with self._changed:
+        return {child: (dict(record.counts), refusal(*record.last)) for child, record in self._tree.refusals.items()}
+
+
+def fault(self: Buffer) -> str:
+    """What is wrong with the buffer's own state; for tests."""
+    with self._changed:
+        for child, link in self._tree.links.items():
+            if child not in self._tree.frames or (link.has_data and link.parent not in self._tree.frames):
+                return f"{child}: forgotten, but in use"
+            if link.stamps != sorted(link.stamps) or len(link.stamps) != len(link.samples):
+                return f"{child}: stamps are not in order"
+    return ""

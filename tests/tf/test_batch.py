@@ -1,0 +1,220 @@
+"""Arrays in and out, on both cores: each item equals the single lookup."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from turtlewire import LookupStatus, errors
+
+if TYPE_CHECKING:
+    import turtlewire
+
+MS = 1_000_000
+START = 1_700_000_000_000_000_000
+
+
+@pytest.fixture
+def chain(buffer: turtlewire.Buffer) -> turtlewire.Buffer:
+    """map <- odom <- base <- camera, and base <- lidar <- chip: moving, moving, fixed; fixed, moving in leaps above 10 degrees."""
+    for i in range(200):
+        a = 0.01 * i
+        t = START + i * 5 * MS + (i % 7) * 1000
+        buffer.set_transform("map", "odom", t, (i, math.sin(a), 0), (0, 0, math.sin(a), math.cos(a)))
+        buffer.set_transform("odom", "base", t + 2 * MS, (0, math.cos(a), 1), (math.sin(2 * a), 0, 0, math.cos(2 * a)))
+        buffer.set_transform("lidar", "chip", t, (0, 0, a), (0, math.sin(30 * a), 0, math.cos(30 * a)))
+    buffer.set_transform("base", "camera", 0, (1, 2, 3), (0.48, 0.36, 0.0, 0.8), static=True)
+    buffer.set_transform("base", "lidar", 0, (0, 0, 1), (0, 0, 1, 0), static=True)
+    return buffer
+
+
+def stamps(n: int, seed: int = 1) -> np.ndarray[Any, np.dtype[np.int64]]:
+    return START + np.random.default_rng(seed).integers(5 * MS, 990 * MS, n)
+
+
+PAIRS = [("map", "camera"), ("camera", "map"), ("camera", "chip"), ("base", "lidar"), ("odom", "odom"), ("chip", "odom")]
+
+
+@pytest.mark.parametrize(("target", "source"), PAIRS)
+@pytest.mark.parametrize("n", [0, 1, 11, 12, 64, 65, 200])
+def test_equals_single_lookups(chain: turtlewire.Buffer, target: str, source: str, n: int) -> None:
+    for times in (stamps(n), np.sort(stamps(n))):
+        poses = chain.lookup_batch(target, source, times)
+        assert poses.shape == (n, 7)
+        singles = [np.asarray(chain.lookup_transform(target, source, int(t))) for t in times]
+        assert poses == pytest.approx(np.array(singles).reshape(n, 7), abs=1e-12)
+        matrices = chain.lookup_batch(target, source, times, matrices=True)
+        expected = [chain.lookup_transform(target, source, int(t)).as_matrix() for t in times]
+        assert matrices == pytest.approx(np.array(expected).reshape(n, 4, 4), abs=1e-12)
+
+
+def test_zero_is_the_latest(chain: turtlewire.Buffer) -> None:
+    poses = chain.lookup_batch("map", "camera", np.zeros(20, dtype=np.int64))
+    assert poses == pytest.approx(np.tile(np.asarray(chain.lookup_transform("map", "camera")), (20, 1)), abs=1e-12)
+
+
+def test_out_and_status(chain: turtlewire.Buffer) -> None:
+    times = stamps(100)
+    times[3], times[70] = START - 1, START + 10_000 * MS
+    out, status = np.empty((100, 7)), np.full(100, 99, dtype=np.uint8)
+    assert chain.lookup_batch("map", "camera", times, out=out, status=status) is out
+    assert (status[3], status[70]) == (LookupStatus.PAST, LookupStatus.FUTURE)
+    assert np.count_nonzero(status) == 2
+    assert np.isnan(out[[3, 70]]).all()
+    assert np.isfinite(np.delete(out, [3, 70], axis=0)).all()
+    chain.lookup_batch("map", "nobody", times, status=status)
+    assert set(status) == {LookupStatus.UNKNOWN_FRAME}
+    chain.set_transform("island", "palm", 1, (0, 0, 0), (0, 0, 0, 1))
+    chain.lookup_batch("map", "palm", times[:3], status=status[:3])
+    assert set(status[:3]) == {LookupStatus.NO_DATA}
+
+
+def test_raises_for_the_first(chain: turtlewire.Buffer) -> None:
+    times = stamps(100)
+    times[70] = START + 10_000 * MS
+    with pytest.raises(errors.ForwardExtrapolationException) as caught:
+        chain.lookup_batch("map", "camera", times)
+    assert caught.value.requested_ns == times[70]
+    with pytest.raises(errors.LookupException):
+        chain.lookup_batch("map", "nobody", times)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        ({"stamps": [1.5]}, TypeError),
+        ({"stamps": [[1]]}, ValueError),
+        ({"stamps": [1], "out": np.empty((2, 7))}, ValueError),
+        ({"stamps": [1], "out": np.empty((1, 7), dtype=np.float32)}, TypeError),
+        ({"stamps": [1, 2], "out": np.empty((7, 2)).T}, TypeError),
+        ({"stamps": [1], "status": np.empty(2, dtype=np.uint8)}, ValueError),
+    ],
+)
+def test_wrong_arrays(chain: turtlewire.Buffer, arguments: Any, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        chain.lookup_batch("map", "odom", **arguments)
+
+
+def test_stamps_of_other_kinds(chain: turtlewire.Buffer) -> None:
+    expected = np.asarray(chain.lookup_transform("map", "odom", START + 5 * MS))
+    for times in ([START + 5 * MS], np.array([START + 5 * MS], dtype=np.uint64), np.array([START + 5 * MS, 0])[::2]):
+        assert chain.lookup_batch("map", "odom", times)[0] == pytest.approx(expected)
+
+
+def test_all_frames(chain: turtlewire.Buffer) -> None:
+    chain.set_transform("island", "palm", START, (0, 0, 0), (0, 0, 0, 1))
+    for t in (START + 500 * MS + 1, 0):
+        frames, poses, times = chain.lookup_all("camera", t)
+        assert set(frames) == {"map", "odom", "base", "lidar", "chip", "camera"}
+        for frame, pose, time in zip(frames, poses, times, strict=True):
+            found = chain.lookup_transform("camera", frame, t)
+            assert pose == pytest.approx(np.asarray(found), abs=1e-12)
+            assert time == found.stamp_ns
+    with pytest.raises(errors.LookupException):
+        chain.lookup_all("nobody")
+
+
+def test_all_frames_of_a_reparented_and_looping_tree(buffer: turtlewire.Buffer) -> None:
+    still = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    for t in (1, 2, 3):
+        buffer.set_transform("a", "b", t, *still)
+        buffer.set_transform("a" if t < 3 else "b", "c", t, *still)
+        buffer.set_transform("y", "x", t, *still)
+        buffer.set_transform("x", "y", t, *still)
+    assert set(buffer.lookup_all("a", 2)[0]) == {"a", "b", "c"}
+    assert set(buffer.lookup_all("x", 2)[0]) <= {"x", "y"}
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_points(chain: turtlewire.Buffer, dtype: Any) -> None:
+    points = np.random.default_rng(2).normal(size=(130, 3)).astype(dtype)
+    t = START + 333 * MS
+    matrix = chain.lookup_transform("map", "camera", t).as_matrix()
+    moved = chain.transform_points("map", "camera", points, t)
+    assert moved.dtype == dtype
+    tolerance = 1e-4 if dtype == np.float32 else 1e-11
+    assert moved == pytest.approx((points @ matrix[:3, :3].T + matrix[:3, 3]).astype(dtype), abs=tolerance)
+    same = points.copy()
+    assert chain.transform_points("map", "camera", same, t, out=same) is same
+    assert np.array_equal(same, moved)
+
+
+def test_points_at_their_own_times(chain: turtlewire.Buffer) -> None:
+    points, times = np.random.default_rng(2).normal(size=(130, 3)), stamps(130)
+    moved = chain.transform_points("map", "camera", points, times)
+    expected = [
+        (m := chain.lookup_transform("map", "camera", int(t)).as_matrix())[:3, :3] @ p + m[:3, 3]
+        for p, t in zip(points, times, strict=True)
+    ]
+    assert moved == pytest.approx(np.array(expected), abs=1e-11)
+    deskewed = chain.transform_points("camera", "camera", points, times, fixed_frame="map", target_stamp_ns=START + 900 * MS)
+    last = chain.lookup_transform("camera", "map", START + 900 * MS).as_matrix()
+    assert deskewed == pytest.approx(moved @ last[:3, :3].T + last[:3, 3], abs=1e-11)
+    status = np.empty(130, dtype=np.uint8)
+    times[5] = START - 5
+    assert np.isnan(chain.transform_points("map", "camera", points, times, status=status)[5]).all()
+    assert status[5] == LookupStatus.PAST
+    with pytest.raises(ValueError, match="one for each point"):
+        chain.transform_points("map", "camera", points, times[:5])
+    with pytest.raises(ValueError, match="shape"):
+        chain.transform_points("map", "camera", points[:, :2])
+
+
+class TestVelocity:
+    """A disc of frame `disc` turns at 2 rad/s about z and moves at 3 m/s along x of `world`; `rim` is fixed to it, 1 m out."""
+
+    @pytest.fixture
+    def disc(self, buffer: turtlewire.Buffer) -> turtlewire.Buffer:
+        for i in range(2001):
+            t = i * 0.001
+            stamp = START + i * MS
+            buffer.set_transform("world", "disc", stamp, (3 * t, 0, 0), (0, 0, math.sin(t), math.cos(t)))
+        buffer.set_transform("disc", "rim", 0, (1, 0, 0), (0, 0, 0, 1), static=True)
+        buffer.set_transform("world", "tilted", 0, (5, 5, 5), (math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4)), static=True)
+        return buffer
+
+    def test_of_the_body(self, disc: turtlewire.Buffer) -> None:
+        seen = disc.lookup_velocity("disc", "world", START + 1000 * MS, interval_ns=10 * MS)
+        assert seen == pytest.approx([3, 0, 0, 0, 0, 2], abs=1e-9)
+
+    def test_of_a_point(self, disc: turtlewire.Buffer) -> None:
+        t = START + 1000 * MS
+        expected = [3 - 2 * math.sin(2), 2 * math.cos(2), 0, 0, 0, 2]
+        assert disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, point=(1, 0, 0)) == pytest.approx(expected, abs=1e-5)
+        assert disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, point_frame="rim") == pytest.approx(expected, abs=1e-5)
+        assert disc.lookup_velocity("rim", "world", t, interval_ns=2 * MS) == pytest.approx(expected, abs=1e-5)
+
+    def test_in_other_axes(self, disc: turtlewire.Buffer) -> None:
+        t = START + 500 * MS
+        body = disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, reference_frame="disc")
+        assert body == pytest.approx([3 * math.cos(1), -3 * math.sin(1), 0, 0, 0, 2], abs=1e-5)
+        tilted = disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, reference_frame="tilted")
+        assert tilted == pytest.approx([3, 0, 0, 0, 2, 0], abs=1e-9)
+
+    def test_the_other_way_round(self, disc: turtlewire.Buffer) -> None:
+        seen = disc.lookup_velocity("world", "disc", START + 1000 * MS, interval_ns=2 * MS)
+        assert seen[3:] == pytest.approx([0, 0, -2], abs=1e-9)
+
+    def test_many_and_latest(self, disc: turtlewire.Buffer) -> None:
+        times = START + np.arange(100, 1900, 10) * MS
+        many = disc.lookup_velocity("disc", "world", times, interval_ns=2 * MS, point=(1, 0, 0))
+        singles = [disc.lookup_velocity("disc", "world", int(t), interval_ns=2 * MS, point=(1, 0, 0)) for t in times]
+        assert many == pytest.approx(np.array(singles), abs=1e-9)
+        assert disc.lookup_velocity("disc", "world") == pytest.approx([3, 0, 0, 0, 0, 2], abs=1e-9)
+
+    def test_failures(self, disc: turtlewire.Buffer) -> None:
+        with pytest.raises(errors.ForwardExtrapolationException):
+            disc.lookup_velocity("disc", "world", START + 9000 * MS)
+        with pytest.raises(errors.BackwardExtrapolationException):
+            disc.lookup_velocity("disc", "world", START)
+        with pytest.raises(errors.LookupException):
+            disc.lookup_velocity("disc", "world", START + 500 * MS, reference_frame="nobody")
+        with pytest.raises(ValueError, match="positive"):
+            disc.lookup_velocity("disc", "world", interval_ns=0)
+        status = np.empty(2, dtype=np.uint8)
+        seen = disc.lookup_velocity("disc", "world", [START, START + 500 * MS], status=status)
+        assert list(status) == [LookupStatus.PAST, LookupStatus.OK]
+        assert np.isnan(seen[0]).all()

@@ -1,0 +1,191 @@
+"""Looking into a buffer, and changing it by other ways than new data, on both cores."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from turtlewire import errors
+from turtlewire.tf import inspection
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import turtlewire
+
+SECOND = 1_000_000_000
+STILL = (0.0, 0.0, 0.0, 1.0)
+
+
+def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
+    for t in range(11):
+        buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, authority="odometry")
+    buffer.set_transform("base", "camera", 5, (0, 0, 0), STILL, static=True, authority="me")
+    base, camera = inspection.links(buffer)
+    assert (base.child_frame, base.parent_frame, base.static, base.samples) == ("base", "map", False, 11)
+    assert (base.rate_hz, base.age_ns(12 * SECOND + 1)) == (1.0, 2 * SECOND)
+    assert base.senders == (("odometry", "map", 11, 10 * SECOND + 1),)
+    assert (camera.static, camera.rate_hz, camera.age_ns(99)) == (True, 0.0, 0)
+    assert inspection.conflicts(buffer) == []
+
+
+def test_two_publishers(buffer: turtlewire.Buffer) -> None:
+    for t in range(10):
+        buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, authority="odometry" if t % 2 else "slam")
+    (conflict,) = inspection.conflicts(buffer)
+    assert (conflict.kind, conflict.child_frame) == ("two publishers", "base")
+    assert "'odometry' and 'slam'" in conflict.text
+
+
+def test_two_parents_but_not_a_hand_over(buffer: turtlewire.Buffer) -> None:
+    for t in range(10):
+        buffer.set_transform("left" if t % 2 else "right", "part", t * SECOND + 1, (0, 0, 0), STILL)
+        buffer.set_transform("table" if t < 5 else "gripper", "cup", t * SECOND + 1, (0, 0, 0), STILL)
+    (conflict,) = inspection.conflicts(buffer)
+    assert (conflict.kind, conflict.child_frame) == ("two parents", "part")
+
+
+def test_many_senders_stay_bounded(buffer: turtlewire.Buffer) -> None:
+    for t in range(1000):
+        buffer.set_transform("map", "base", t + 1, (0, 0, 0), STILL, authority=f"node{t}")
+    (link,) = inspection.links(buffer)
+    assert len(link.senders) <= 17
+    assert link.senders[-1].name == "node999"
+
+
+def test_refusals_are_counted(buffer: turtlewire.Buffer) -> None:
+    buffer.set_transform("map", "base", 100 * SECOND, (0, 0, 0), STILL)
+    for _ in range(3):
+        buffer.set_transform("map", "base", SECOND, (0, 0, 0), STILL, authority="late")
+    buffer.set_transform("map", "base", 100 * SECOND, (math.nan, 0, 0), STILL, authority="broken")
+    buffer.set_transform("base", "base", 100 * SECOND, (0, 0, 0), STILL)
+    refused = inspection.refusals(buffer)
+    assert refused["base"].counts == {"old_data": 3, "nan_value": 1, "self_transform": 1}
+    assert refused["base"].last.startswith("TF_SELF_TRANSFORM")
+    for i in range(2000):
+        buffer.set_transform(f"x{i}", f"x{i}", 1, (0, 0, 0), STILL)
+    refused = inspection.refusals(buffer)
+    assert len(refused) <= 1001
+    assert refused["(others)"].counts["self_transform"] >= 999
+
+
+def test_remove(buffer: turtlewire.Buffer) -> None:
+    buffer.set_transform("a", "b", 1, (1, 0, 0), STILL, static=True)
+    buffer.set_transform("b", "c", 1, (1, 0, 0), STILL, static=True)
+    buffer.set_transform("b", "d", 1, (1, 0, 0), STILL)
+    assert buffer.can_transform("a", "c")
+    assert buffer.remove_frame("c")
+    assert not buffer.remove_frame("c")
+    assert not buffer.remove_frame("nobody")
+    with pytest.raises(errors.LookupException):
+        buffer.lookup_transform("a", "c")
+    assert buffer.frame_strings() == ["b", "a", "d"]
+    assert not buffer.frame_exists("c")
+    assert buffer.lookup_transform("a", "d").x == 2.0
+    assert buffer.remove_frame("b")  # d still hangs on it
+    assert buffer.frame_strings() == ["b", "d"]
+    buffer.set_transform("b", "c", 1, (5, 0, 0), STILL, static=True)
+    assert buffer.lookup_transform("b", "c").x == 5.0
+    assert buffer._fault() == ""
+
+
+def test_remove_stale(buffer: turtlewire.Buffer) -> None:
+    for name, t in (("old", 1), ("new", 5)):
+        buffer.set_transform("map", name, t * SECOND, (0, 0, 0), STILL)
+    buffer.set_transform("map", "fixed", 0, (0, 0, 0), STILL, static=True)
+    assert buffer.remove_stale(3 * SECOND) == ["old"]
+    assert buffer.frame_strings() == ["map", "new", "fixed"]
+
+
+def test_extrapolation(buffer: turtlewire.Buffer) -> None:
+    for t in (1, 2, 3):
+        buffer.set_transform("a", "b", t * SECOND, (10.0 * t, 0, 0), (0, 0, math.sin(0.1 * t), math.cos(0.1 * t)))
+    after = buffer.extrapolate_transform("a", "b", 4 * SECOND, SECOND)
+    assert after.translation == pytest.approx((40, 0, 0))
+    assert after.rotation == pytest.approx((0, 0, math.sin(0.4), math.cos(0.4)))
+    before = buffer.extrapolate_transform("b", "a", SECOND // 2, SECOND)
+    assert before.inverse().translation == pytest.approx((5, 0, 0))
+    assert buffer.extrapolate_transform("a", "b", 2 * SECOND, 0).x == 20.0
+    with pytest.raises(errors.ForwardExtrapolationException):
+        buffer.extrapolate_transform("a", "b", 4 * SECOND + 1, SECOND)
+    with pytest.raises(errors.BackwardExtrapolationException):
+        buffer.extrapolate_transform("a", "b", 1, SECOND - 2)
+    with pytest.raises(ValueError, match="negative"):
+        buffer.extrapolate_transform("a", "b", 1, -1)
+
+
+def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
+    for t in range(1, 11):
+        buffer.set_transform("map", "base", t * SECOND, (t, 0, 0), STILL)
+    buffer.set_transform("base", "arm", 3 * SECOND, (0, 1, 0), STILL)
+    buffer.set_transform("base", "lamp", 9 * SECOND, (0, 0, 1), STILL)
+    buffer.set_transform("arm", "hand", 0, (0, 0, 1), STILL, static=True)
+    found, stamps = buffer.lookup_latest("map", "hand")
+    assert (found.translation, found.stamp_ns, stamps) == ((10.0, 1.0, 1.0), 3 * SECOND, {"arm": 3 * SECOND, "base": 10 * SECOND})
+    assert buffer.lookup_latest("lamp", "hand")[1] == {"arm": 3 * SECOND, "lamp": 9 * SECOND}  # not of the links above base
+    assert buffer.lookup_latest("map", "base", max_age_ns=SECOND, now_ns=11 * SECOND)[0].x == 10.0
+    with pytest.raises(errors.ForwardExtrapolationException) as caught:
+        buffer.lookup_latest("map", "hand", max_age_ns=SECOND, now_ns=11 * SECOND)
+    assert (caught.value.child_frame, caught.value.newest_ns) == ("arm", 3 * SECOND)
+    with pytest.raises(ValueError, match="now_ns"):
+        buffer.lookup_latest("map", "hand", max_age_ns=SECOND)
+
+
+def test_whole_history(buffer: turtlewire.Buffer) -> None:
+    stamps = np.arange(1, 6) * SECOND
+    poses = np.array([[i, 0, 0, 0, 0, 0, 1] for i in range(5)], dtype=float)
+    assert buffer.set_transforms("a", "b", stamps, poses, "robot") == 5
+    assert buffer.set_transforms("z", "b", [6 * SECOND, 7 * SECOND], poses[:2]) == 2
+    (first, second) = buffer.samples("b")
+    assert first[0] == "a"
+    assert np.array_equal(first[1], stamps)
+    assert np.array_equal(first[2], poses)
+    assert (second[0], len(second[1])) == ("z", 2)
+    assert buffer.samples("a") == []
+    with pytest.raises(errors.LookupException):
+        buffer.samples("nobody")
+    with pytest.raises(ValueError, match="shape"):
+        buffer.set_transforms("a", "b", stamps, poses[:2])
+
+
+def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
+    for t in range(1, 6):
+        buffer.set_transform("a" if t < 3 else "z", "b", t * SECOND, (t, 0, 0), (0, 0, math.sin(t), math.cos(t)), authority="robot")
+    buffer.set_transform("b", "c", 0, (1, 2, 3), (0.5, 0.5, 0.5, 0.5), static=True, authority="me")
+    path = tmp_path / "tree.saved"
+    inspection.save(buffer, path)
+    again = inspection.load(path)
+    assert again.all_frames_as_yaml() == buffer.all_frames_as_yaml()
+    assert again.cache_time_ns == buffer.cache_time_ns
+    for t in (1, 2, 3.5, 5):
+        stamp = int(t * SECOND)
+        target = "a" if t < 3 else "z"
+        assert np.asarray(again.lookup_transform(target, "c", stamp)) == pytest.approx(
+            np.asarray(buffer.lookup_transform(target, "c", stamp)), abs=1e-15
+        )
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda data: b"", lambda data: data[:-30], lambda data: b"x" * 200, lambda data: data[:300] + b"\0" * 40 + data[340:]]
+)
+def test_load_something_else(buffer: turtlewire.Buffer, tmp_path: Path, damage: Any) -> None:
+    for t in range(1, 6):
+        buffer.set_transform("a", "b", t * SECOND, (t, 0, 0), STILL)
+    path = tmp_path / "tree.saved"
+    inspection.save(buffer, path)
+    path.write_bytes(damage if isinstance(damage, bytes) else damage(path.read_bytes()))
+    with pytest.raises(ValueError, match="is no saved buffer"):
+        inspection.load(path)
+    with pytest.raises(FileNotFoundError):
+        inspection.load(tmp_path / "missing")
+
+
+def test_unlimited(core: Any) -> None:
+    buffer = core.Buffer(None)
+    assert buffer.cache_time_ns is None
+    for t in (1, 10**18):
+        assert buffer.set_transform("a", "b", t, (0, 0, 0), STILL) == ""
+    assert buffer.can_transform("a", "b", 1)
