@@ -1,0 +1,142 @@
+"""What a node knows of others, on both middlewares."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy.context import Context
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
+from std_msgs.msg import Int32, String
+from std_srvs.srv import Trigger
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def middleware(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+
+
+@pytest.fixture
+def context(middleware):
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+@pytest.fixture
+def other(middleware):
+    """A node in another participant, `/ns/other`, with one endpoint of each kind."""
+    with Context() as context:
+        context.init(args=[])
+        other = Node("other", namespace="/ns", context=context, start_parameter_services=False)
+        other.create_publisher(Int32, "number", QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT))
+        other.create_subscription(String, "/chatter", lambda _: None, 10)
+        other.create_service(Trigger, "serve", lambda request, response: response)
+        other.create_client(Trigger, "ask")
+        yield other
+        other.destroy_node()
+
+
+@pytest.fixture
+def wait_for(context):
+    def wait(predicate):
+        assert context._wait_for_graph(predicate, 20_000_000_000)
+
+    return wait
+
+
+def test_nodes(node, other):
+    assert node.wait_for_node("/ns/other", 20)
+    assert {"tested", "other"} <= set(node.get_node_names())
+    assert {"/tested", "/ns/other"} <= set(node.get_fully_qualified_node_names())
+    assert {("tested", "/"), ("other", "/ns")} <= set(node.get_node_names_and_namespaces())
+    assert ("other", "/ns", "/") in node.get_node_names_and_namespaces_with_enclaves()
+
+
+def test_wait_for_node_ends_when_it_comes_goes_or_the_time_is_over(context, node, middleware):
+    assert not node.wait_for_node("/late", 0)
+    assert not node.wait_for_node("/late", 0.05)
+    made = []
+    coming = threading.Timer(0.05, lambda: made.append(Node("late", context=context)))
+    coming.start()
+    assert node.wait_for_node("late", 20)
+    coming.join()
+    made[0].destroy_node()
+    assert not node.wait_for_node("/late", 0)
+
+
+def test_topics_and_services(node, other, wait_for):
+    wait_for(lambda: {"/ns/number", "/chatter"} <= set(dict(node.get_topic_names_and_types())))
+    topics = dict(node.get_topic_names_and_types())
+    assert topics["/ns/number"] == ["std_msgs/msg/Int32"]
+    assert topics["/chatter"] == ["std_msgs/msg/String"]
+    assert not any(topic.startswith(("rq/", "rr/")) for topic in topics)
+    raw = dict(node.get_topic_names_and_types(no_demangle=True))
+    assert raw["rt/ns/number"] == ["std_msgs::msg::dds_::Int32_"]
+    wait_for(lambda: {"/ns/serve", "/ns/ask"} <= set(dict(node.get_service_names_and_types())))
+    assert dict(node.get_service_names_and_types())["/ns/serve"] == ["std_srvs/srv/Trigger"]
+
+
+def test_by_node(node, other, wait_for):
+    def known():
+        try:
+            return (
+                "/ns/number" in dict(node.get_publisher_names_and_types_by_node("other", "/ns"))
+                and "/chatter" in dict(node.get_subscriber_names_and_types_by_node("other", "/ns"))
+                and "/ns/serve" in dict(node.get_service_names_and_types_by_node("other", "/ns"))
+                and "/ns/ask" in dict(node.get_client_names_and_types_by_node("other", "/ns"))
+            )
+        except NodeNameNonExistentError:
+            return False
+
+    wait_for(known)
+    assert dict(node.get_publisher_names_and_types_by_node("other", "/ns"))["/ns/number"] == ["std_msgs/msg/Int32"]
+    assert node.get_subscriber_names_and_types_by_node("other", "/ns") == [("/chatter", ["std_msgs/msg/String"])]
+    assert dict(node.get_service_names_and_types_by_node("other", "/ns"))["/ns/serve"] == ["std_srvs/srv/Trigger"]
+    assert node.get_client_names_and_types_by_node("other", "/ns") == [("/ns/ask", ["std_srvs/srv/Trigger"])]
+    assert "rt/ns/number" in dict(node.get_publisher_names_and_types_by_node("other", "/ns", no_demangle=True))
+
+
+@pytest.mark.parametrize("kind", ["publisher", "subscriber", "service", "client"])
+def test_a_node_that_is_not_there(node, kind):
+    query = getattr(node, f"get_{kind}_names_and_types_by_node")
+    with pytest.raises(NodeNameNonExistentError, match="nonexistent node: /nobody"):
+        query("nobody", "/")
+
+
+def test_counts(node, other, wait_for):
+    wait_for(lambda: node.count_publishers("/ns/number") == 1 and node.count_subscribers("chatter") == 1)
+    wait_for(lambda: node.count_services("/ns/serve") == 1 and node.count_clients("/ns/ask") == 1)
+    assert node.count_publishers("chatter") == 0
+    assert node.count_services("/ns/ask") == 0
+    with pytest.raises(InvalidTopicNameException):
+        node.count_publishers("not valid")
+    with pytest.raises(InvalidServiceNameException):
+        node.count_services("not valid")
+
+
+def test_endpoint_infos(node, other, wait_for):
+    def claimed():
+        infos = node.get_publishers_info_by_topic("/ns/number")
+        return len(infos) == 1 and infos[0].node_name == "other"
+
+    wait_for(claimed)
+    (info,) = node.get_publishers_info_by_topic("/ns/number")
+    assert (info.node_name, info.node_namespace, info.topic_type) == ("other", "/ns", "std_msgs/msg/Int32")
+    assert info.endpoint_type == TopicEndpointTypeEnum.PUBLISHER
+    assert info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
+    assert len(info.endpoint_gid) == 16
+    assert str(info.topic_type_hash) == "RIHS01_b6578ded3c58c626cfe8d1a6fb6e04f706f97e9f03d2727c9ff4e74b1cef0deb"
+    wait_for(lambda: len(node.get_subscriptions_info_by_topic("/chatter")) == 1)
+    assert len(node.get_publishers_info_by_topic("rt/ns/number", no_mangle=True)) == 1
+    assert node.get_subscriptions_info_by_topic("/ns/number") == []
+
+
+def test_what_goes_is_forgotten(node, other, wait_for):
+    wait_for(lambda: node.count_publishers("/ns/number") == 1)
+    other.destroy_node()
+    wait_for(lambda: node.count_publishers("/ns/number") == 0 and "other" not in node.get_node_names())
