@@ -20,8 +20,10 @@ __all__ = ["EMPTY_COLOUR", "PathImage"]
 EMPTY_COLOUR = (255, 255, 255)
 #: Corners lie on a grid of this many steps to the pixel.
 _GRID = 64
-#: Strokes waiting to be drawn; more than this are drawn at once, so that waiting ones stay few.
-_MAX_PENDING = 4096
+#: How many strokes may wait to be drawn; only a swarm has more in one tick.
+_MAX_PENDING = 64
+#: From this number on, drawing them together pays for loading NumPy.
+_BULK = 500
 
 _EMPTY_PIXEL = bytes((*EMPTY_COLOUR, 0))
 
@@ -36,6 +38,9 @@ class PathImage:
     def draw(self, stroke: Stroke) -> None:
         """Add a pen line."""
         self._pending.append(stroke)
+
+    def settle(self) -> None:
+        """Draw what waits if it is much, so that nobody who looks later has to wait for it. Call it after each tick."""
         if len(self._pending) > _MAX_PENDING:
             self._draw_pending()
 
@@ -57,19 +62,27 @@ class PathImage:
         return bytes(self._rgba)
 
     def _draw_pending(self) -> None:
-        for stroke in self._pending:
-            corners = _corners(stroke)
-            pixel = bytes((stroke.pen.r, stroke.pen.g, stroke.pen.b, 255))
-            for row, first, last in _spans(corners):
-                start = 4 * (row * IMAGE_SIZE + first)
-                self._rgba[start : start + 4 * (last - first + 1)] = pixel * (last - first + 1)
+        if len(self._pending) < _BULK or not self._draw_together():
+            for stroke in self._pending:
+                self._draw_now(stroke)
         self._pending.clear()
+
+    def _draw_together(self) -> bool:
+        from turtlesim.path_bulk import draw_short_strokes
+
+        return draw_short_strokes(self._rgba, self._pending)
+
+    def _draw_now(self, stroke: Stroke) -> None:
+        pixel = bytes((stroke.pen.r, stroke.pen.g, stroke.pen.b, 255))
+        for row, first, last in _spans(_corners(stroke)):
+            start = 4 * (row * IMAGE_SIZE + first)
+            self._rgba[start : start + 4 * (last - first + 1)] = pixel * (last - first + 1)
 
 
 def _corners(stroke: Stroke) -> list[tuple[float, float]]:
     """The four corners of a pen line, in order around it. A line of no length gives the square dot of its pen."""
     x0, y0, x1, y1, pen = stroke
-    length = math.hypot(x1 - x0, y1 - y0)
+    length = math.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))  # not hypot, whose last bits differ from NumPy's
     half = pen.width / 2
     along_x, along_y = ((x1 - x0) / length * half, (y1 - y0) / length * half) if length else (half, 0.0)
     exact = (

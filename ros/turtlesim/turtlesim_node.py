@@ -122,6 +122,7 @@ class TurtlesimNode(Node):
             self._endpoints_of[tick.turtle.name].publish(tick, self._path)
             if tick.move_stroke is not None:
                 self._path.draw(tick.move_stroke)
+        self._path.settle()
         if self._screen is not None:
             self._screen.show(ticks)
 
@@ -270,13 +271,16 @@ def main(args: list[str] | None = None) -> None:
     """Run the simulator until Ctrl-C."""
     options = _parse_options(sys.argv if args is None else args)
     rclpy.init(args=args)
+    node = None
     try:
-        with TurtlesimNode(headless=options.headless, speed=options.speed) as node:
-            rclpy.spin(node)
+        node = TurtlesimNode(headless=options.headless, speed=options.speed)
+        rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        rclpy.try_shutdown()
+        rclpy.try_shutdown()  # before the node: all endpoints go at once, which for a thousand turtles saves many seconds
+        if node is not None:
+            node.destroy_node()
 
 
 def _parse_options(args: list[str]) -> argparse.Namespace:

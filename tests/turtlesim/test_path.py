@@ -1,0 +1,88 @@
+"""The path picture: strokes one by one, many at once, and at the edges."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlesim.model import DEFAULT_PEN, Pen, Stroke
+from turtlesim.path import EMPTY_COLOUR, PathImage
+from turtlesim.path_bulk import draw_short_strokes
+
+positions = st.floats(-4.0, 504.0)
+short = st.floats(-3.0, 3.0) | st.just(0.0)
+pens = st.builds(Pen, st.integers(0, 255), st.integers(0, 255), st.integers(0, 255), st.integers(1, 4))
+
+
+@st.composite
+def short_strokes(draw):
+    x, y = draw(positions), draw(positions)
+    return Stroke(x, y, x + draw(short), y + draw(short), draw(pens))
+
+
+@given(st.lists(short_strokes(), min_size=1, max_size=30))
+def test_many_at_once_are_the_same_pixels_as_one_by_one(strokes):
+    one_by_one = PathImage()
+    for stroke in strokes:
+        one_by_one.draw(stroke)
+    together = bytearray(PathImage().rgba())
+    assert draw_short_strokes(together, strokes)
+    assert bytes(together) == one_by_one.rgba()
+
+
+def test_long_strokes_are_left_to_the_slow_way():
+    picture = bytearray(PathImage().rgba())
+    before = bytes(picture)
+    assert not draw_short_strokes(picture, [Stroke(10, 10, 12, 10, DEFAULT_PEN), Stroke(10, 10, 300, 10, DEFAULT_PEN)])
+    assert bytes(picture) == before
+
+
+@pytest.mark.parametrize("long", [False, True])
+def test_a_swarm_is_drawn_in_order(long):
+    path = PathImage()
+    colours = [Pen(k % 256, k // 256, 7, 3) for k in range(600)]
+    for pen in colours:
+        path.draw(Stroke(100, 100, 102, 100, pen))
+    if long:
+        path.draw(Stroke(300, 100, 400, 100, DEFAULT_PEN))
+    path.settle()
+    assert path.colour_at(101, 100) == colours[-1][:3]
+    assert path.colour_at(200, 100) == EMPTY_COLOUR
+
+
+def test_a_line_of_no_length_is_a_dot_of_the_pen():
+    path = PathImage()
+    path.draw(Stroke(50.0, 60.0, 50.0, 60.0, Pen(1, 2, 3, 4)))
+    painted = [(i % 500, i // 500) for i, alpha in enumerate(path.rgba()[3::4]) if alpha]
+    assert (min(painted), max(painted), len(painted)) == ((48, 58), (51, 61), 16)
+
+
+def test_what_is_outside_is_cut_off():
+    path = PathImage()
+    path.draw(Stroke(-100.0, -100.0, -90.0, -95.0, DEFAULT_PEN))
+    path.draw(Stroke(-100.0, 250.0, 900.0, 250.0, DEFAULT_PEN))
+    rows = {i // 500 for i, alpha in enumerate(path.rgba()[3::4]) if alpha}
+    assert rows <= {248, 249, 250, 251}
+    assert path.colour_at(0, 250) == path.colour_at(499, 250) == DEFAULT_PEN[:3]
+
+
+def test_few_turtles_never_load_numpy():
+    code = """
+import sys
+from turtlesim.model import World
+from turtlesim.path import PathImage
+world, path = World(), PathImage()
+for _ in range(20):
+    world.spawn_centred().drive(1.0, 0.0, 1.0)
+for tick in range(60):
+    for result in world.step(tick * 16_000_000):
+        path.draw(result.move_stroke)
+    path.settle()
+path.colour_at(250, 250)
+print("numpy" in sys.modules)
+"""
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "False\n"
