@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import weakref
+from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
+#: Feedback may come after the result: the callbacks of so many finished goals are kept.
+_FINISHED_GOALS = 100
 _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
 
 
@@ -117,6 +120,7 @@ class ActionClient(Waitable):
         self._lock = threading.Lock()
         self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = weakref.WeakValueDictionary()
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
+        self._finished: deque[bytes] = deque()
         impl = action_type.Impl
         self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_service_qos_profile)
         self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile)
@@ -239,7 +243,9 @@ class ActionClient(Waitable):
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:
         if response.done() and not response.cancelled() and response._exception is None:
             goal_handle._status = response.result().status
-            self._feedback_callbacks.pop(bytes(goal_handle.goal_id.uuid), None)
+            self._finished.append(bytes(goal_handle.goal_id.uuid))
+            if len(self._finished) > _FINISHED_GOALS:
+                self._feedback_callbacks.pop(self._finished.popleft(), None)
 
     def _on_feedback(self, message: Any) -> Any:
         callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))

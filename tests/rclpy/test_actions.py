@@ -1,0 +1,338 @@
+"""Action clients and servers, on both middlewares."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+from action_msgs.msg import GoalInfo, GoalStatus
+from action_msgs.srv import CancelGoal
+from builtin_interfaces.msg import Time as TimeMsg
+from example_interfaces.action import Fibonacci
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.action import (
+    ActionClient,
+    ActionServer,
+    CancelResponse,
+    GoalResponse,
+    get_action_client_names_and_types_by_node,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
+from rclpy.action.client import ClientGoalHandle
+from rclpy.action.server import ServerGoalHandle
+from rclpy.context import Context
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.task import Future
+from std_msgs.msg import Int32
+from unique_identifier_msgs.msg import UUID
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def context(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+@pytest.fixture
+def serve(node):
+    """Makes the server of `fibonacci`."""
+    servers = []
+
+    def make(execute_callback, **arguments):
+        servers.append(ActionServer(node, Fibonacci, "fibonacci", execute_callback, **arguments))
+        return servers[-1]
+
+    yield make
+    for server in servers:
+        server.destroy()
+
+
+@pytest.fixture
+def client(node):
+    client = ActionClient(node, Fibonacci, "fibonacci")
+    yield client
+    client.destroy()
+
+
+@pytest.fixture
+def finish(executor):
+    """Spins until a future is done, and gives its result."""
+
+    def finish(future):
+        executor.spin_until_future_complete(future, timeout_sec=20)
+        assert future.done()
+        return future.result()
+
+    return finish
+
+
+def count(goal_handle):
+    sequence = list(range(goal_handle.request.order))
+    for length in range(1, len(sequence)):
+        goal_handle.publish_feedback(Fibonacci.Feedback(sequence=sequence[:length]))
+    goal_handle.succeed()
+    return Fibonacci.Result(sequence=sequence)
+
+
+def send(client, finish, order=3, **arguments):
+    assert client.wait_for_server(timeout_sec=20)
+    return finish(client.send_goal_async(Fibonacci.Goal(order=order), **arguments))
+
+
+def test_a_goal_with_feedback_and_result(serve, client, finish, spin_until):
+    serve(count)
+    feedback = []
+    handle = send(client, finish, order=4, feedback_callback=feedback.append)
+    assert isinstance(handle, ClientGoalHandle)
+    assert handle.accepted
+    assert handle.stamp.sec > 0
+    response = finish(handle.get_result_async())
+    assert response.status == GoalStatus.STATUS_SUCCEEDED
+    assert list(response.result.sequence) == [0, 1, 2, 3]
+    assert handle.status == GoalStatus.STATUS_SUCCEEDED
+    spin_until(lambda: len(feedback) == 3)
+    assert [list(each.feedback.sequence) for each in feedback] == [[0], [0, 1], [0, 1, 2]]
+    assert all(each.goal_id == handle.goal_id for each in feedback)
+    assert repr(handle).startswith("ClientGoalHandle <id=")
+
+
+def test_an_async_execution(serve, client, finish):
+    gate = Future()
+
+    async def execute(goal_handle):
+        result = Fibonacci.Result(sequence=[await gate])
+        goal_handle.succeed()
+        return result
+
+    serve(execute)
+    handle = send(client, finish)
+    answer = handle.get_result_async()
+    gate.set_result(7)
+    assert list(finish(answer).result.sequence) == [7]
+
+
+def test_a_given_goal_id_and_a_repeated_one(serve, client, finish):
+    serve(count)
+    goal_id = UUID(uuid=list(range(16)))
+    handle = send(client, finish, goal_uuid=goal_id)
+    assert handle.goal_id == goal_id
+    finish(handle.get_result_async())
+    again = send(client, finish, goal_uuid=goal_id)
+    assert not again.accepted
+    assert again == handle
+    assert hash(again) == hash(handle)
+
+
+def test_a_rejected_goal(serve, client, finish):
+    serve(count, goal_callback=lambda goal: GoalResponse.REJECT if goal.order > 5 else GoalResponse.ACCEPT)
+    assert not send(client, finish, order=6, feedback_callback=print).accepted
+    assert send(client, finish, order=5).accepted
+    assert client._feedback_callbacks == {}
+
+
+def test_a_goal_callback_that_decides_nothing_rejects(serve, client, finish, capfd):
+    serve(count, goal_callback=lambda goal: None)
+    assert not send(client, finish).accepted
+    assert "Goal request callback did not return a GoalResponse type. Rejecting goal." in capfd.readouterr().err
+
+
+def test_async_decisions(serve, client, finish):
+    async def accept(goal):
+        return GoalResponse.ACCEPT
+
+    async def agree(goal_handle):
+        return CancelResponse.ACCEPT
+
+    gate = Future()
+
+    async def execute(goal_handle):
+        await gate
+        goal_handle.canceled()
+        return Fibonacci.Result()
+
+    serve(execute, goal_callback=accept, cancel_callback=agree)
+    handle = send(client, finish)
+    assert len(finish(handle.cancel_goal_async()).goals_canceling) == 1
+    gate.set_result(None)
+    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
+
+
+def test_without_an_outcome_a_goal_is_aborted_with_a_warning(serve, client, finish, capfd):
+    serve(lambda goal_handle: Fibonacci.Result(sequence=[1]))
+    response = finish(send(client, finish).get_result_async())
+    assert response.status == GoalStatus.STATUS_ABORTED
+    assert list(response.result.sequence) == [1]
+    assert "[tested.action_server]: Goal state not set, assuming aborted. Goal ID: [" in capfd.readouterr().err
+
+
+def test_an_exception_aborts_and_is_logged(serve, client, finish, capfd):
+    serve(lambda goal_handle: 1 / 0)
+    response = finish(send(client, finish).get_result_async())
+    assert response.status == GoalStatus.STATUS_ABORTED
+    assert "Error raised in execute callback: division by zero" in capfd.readouterr().err
+
+
+def test_outcomes_can_be_reported_once(serve, client, finish):
+    errors = []
+
+    def execute(goal_handle):
+        goal_handle.abort()
+        for report in (goal_handle.succeed, goal_handle.abort, goal_handle.canceled):
+            with pytest.raises(RCLError, match="goal_handle attempted invalid transition from state ABORTED with event") as caught:
+                report()
+            errors.append(caught.value)
+        return Fibonacci.Result()
+
+    serve(execute)
+    assert finish(send(client, finish).get_result_async()).status == GoalStatus.STATUS_ABORTED
+    assert len(errors) == 3
+
+
+@pytest.fixture
+def patient(serve):
+    """A server whose goals wait to be cancelled or let go."""
+    gate = Future()
+
+    async def execute(goal_handle):
+        await gate
+        if goal_handle.is_cancel_requested:
+            goal_handle.canceled()
+        else:
+            goal_handle.succeed()
+        return Fibonacci.Result()
+
+    def make(cancel_response, **arguments):
+        return serve(execute, cancel_callback=lambda goal_handle: cancel_response, **arguments)
+
+    make.gate = gate
+    return make
+
+
+def test_cancelling(patient, client, finish):
+    patient(CancelResponse.ACCEPT)
+    handle = send(client, finish)
+    answer = finish(handle.cancel_goal_async())
+    assert answer.return_code == CancelGoal.Response.ERROR_NONE
+    assert [goal.goal_id for goal in answer.goals_canceling] == [handle.goal_id]
+    patient.gate.set_result(None)
+    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
+    assert finish(handle.cancel_goal_async()).return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
+
+
+def test_a_refused_cancelling(patient, client, finish):
+    patient(CancelResponse.REJECT)
+    handle = send(client, finish)
+    answer = finish(handle.cancel_goal_async())
+    assert answer.goals_canceling == []
+    assert answer.return_code == CancelGoal.Response.ERROR_REJECTED
+    patient.gate.set_result(None)
+    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
+
+
+def test_which_goals_a_cancel_request_means(patient, client, finish):
+    patient(CancelResponse.ACCEPT)
+    handles = [send(client, finish) for _ in range(3)]
+    unknown = GoalInfo(goal_id=UUID(uuid=[9] * 16))
+    answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=unknown)))
+    assert (answer.return_code, answer.goals_canceling) == (CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID, [])
+    until_second = GoalInfo(stamp=handles[1].stamp)
+    answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=until_second)))
+    assert [goal.goal_id for goal in answer.goals_canceling] == [handle.goal_id for handle in handles[:2]]
+    long_ago_and_third = GoalInfo(stamp=TimeMsg(sec=1), goal_id=handles[2].goal_id)
+    answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=long_ago_and_third)))
+    assert [goal.goal_id for goal in answer.goals_canceling] == [handles[2].goal_id]
+    answer = finish(client._cancel_client.call_async(CancelGoal.Request()))
+    assert len(answer.goals_canceling) == 3
+    patient.gate.set_result(None)
+
+
+def test_a_goal_can_be_executed_later_or_be_cancelled_before(serve, client, finish, spin_until):
+    accepted = []
+    serve(count, handle_accepted_callback=accepted.append, cancel_callback=lambda _: CancelResponse.ACCEPT)
+    handle = send(client, finish)
+    spin_until(lambda: accepted)
+    assert isinstance(accepted[0], ServerGoalHandle)
+    assert accepted[0].status == GoalStatus.STATUS_ACCEPTED
+    assert accepted[0].is_active
+    finish(handle.cancel_goal_async())
+    assert accepted[0].is_cancel_requested
+    accepted[0].execute(lambda goal_handle: (goal_handle.canceled(), Fibonacci.Result())[1])
+    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
+
+
+def test_the_result_of_an_unknown_goal(serve, client, finish):
+    serve(count)
+    assert client.wait_for_server(timeout_sec=20)
+    request = Fibonacci.Impl.GetResultService.Request(goal_id=UUID(uuid=[7] * 16))
+    assert finish(client._result_client.call_async(request)).status == GoalStatus.STATUS_UNKNOWN
+
+
+def test_results_are_forgotten_after_their_time(serve, client, finish, executor):
+    server = serve(count, result_timeout=0.05)
+    handle = send(client, finish)
+    finish(handle.get_result_async())
+    assert len(server._goal_handles) == 1
+    while server._goal_handles:
+        executor.spin_once(timeout_sec=10)
+    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
+
+
+def test_states_are_published_also_for_late_joiners(serve, client, finish, node, spin_until):
+    serve(count)
+    handle = send(client, finish)
+    finish(handle.get_result_async())
+    late = ActionClient(node, Fibonacci, "fibonacci")
+    seen = []
+    late._status.callback = seen.append
+    spin_until(lambda: seen)
+    assert [state.status for state in seen[-1].status_list] == [GoalStatus.STATUS_SUCCEEDED]
+    assert seen[-1].status_list[0].goal_info.goal_id == handle.goal_id
+    late.destroy()
+
+
+def test_blocking_calls(node, serve, client):
+    serve(count)
+    with MultiThreadedExecutor(2, context=node.context) as pool:
+        pool.add_node(node)
+        spinning = threading.Thread(target=pool.spin)
+        spinning.start()
+        assert client.wait_for_server(timeout_sec=20)
+        response = client.send_goal(Fibonacci.Goal(order=3))
+        assert list(response.result.sequence) == [0, 1, 2]
+    spinning.join(10)
+
+
+def test_wrong_types(serve, client, node):
+    with pytest.raises(TypeError):
+        client.send_goal_async(Fibonacci.Result())
+    with pytest.raises(TypeError, match="Expected type ClientGoalHandle but received"):
+        client._cancel_goal_async("goal")
+    with pytest.raises(TypeError, match="not callable"):
+        serve(None)
+    with pytest.raises(AttributeError, match="_TYPE_SUPPORT"):
+        ActionClient(node, int, "fibonacci")
+    server = serve(count)
+    with pytest.raises(TypeError):
+        server._publish_feedback(UUID(), Int32())
+
+
+def test_coming_and_going(serve, client, node, context):
+    assert not client.server_is_ready()
+    assert not client.wait_for_server(timeout_sec=0.05)
+    server = serve(count)
+    assert client.wait_for_server(timeout_sec=20)
+    assert set(node.waitables) == {client, server}
+    server.destroy()
+    assert context._wait_for_graph(lambda: not client.server_is_ready(), 20_000_000_000)
+    assert list(node.waitables) == [client]
+
+
+def test_the_graph_knows_actions(serve, client, node, context):
+    serve(count)
+    expected = [("/fibonacci", ["example_interfaces/action/Fibonacci"])]
+    assert context._wait_for_graph(lambda: get_action_names_and_types(node) == expected, 20_000_000_000)
+    assert context._wait_for_graph(lambda: get_action_server_names_and_types_by_node(node, "tested", "/") == expected, 20_000_000_000)
+    assert get_action_client_names_and_types_by_node(node, "tested", "/") == expected
