@@ -8,7 +8,8 @@
     with rclpy.init():
         rclpy.spin(Node("talker"))
 
-The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are attributes of the package after ``import rclpy``.
+The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are attributes of the package after
+``import rclpy``.
 """
 
 from __future__ import annotations
@@ -106,7 +107,7 @@ def get_global_executor() -> Executor:
 
 
 def _forget_global_executor() -> None:
-    global _global_executor  # noqa: PLW0603 - as above
+    global _global_executor
     executor, _global_executor = _global_executor, None
     if executor is not None and not executor.context.ended_by_signal:
         executor.shutdown(timeout_sec=0)
@@ -200,9 +201,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
             executor.remove_node(node)
 
 
-def spin_until_future_complete(
-    node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
-) -> None:
+def spin_until_future_complete(node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
     """Run the callbacks of ``node`` until ``future`` is done, the time is over, or the context is shut down.
 
     Args:

@@ -43,11 +43,11 @@ class CallbackGroup(ABC):
 class ReentrantCallbackGroup(CallbackGroup):
     """Lets callbacks run at the same time, also several of one entity."""
 
-    def can_execute(self, entity: object) -> bool:
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002
         """Always."""
         return True
 
-    def beginning_execution(self, entity: object) -> bool:
+    def beginning_execution(self, entity: object) -> bool:  # noqa: ARG002
         """Always."""
         return True
 
@@ -63,7 +63,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._active_entity: object | None = None
         self._lock = threading.Lock()
 
-    def can_execute(self, entity: object) -> bool:
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002
         """Whether no callback of the group is running."""
         return self._active_entity is None
 

@@ -13,13 +13,13 @@ from .task import Future
 from .wait_for_response import wait_for_response
 
 if TYPE_CHECKING:
-    from .callback_groups import CallbackGroup
-    from .context import Context
-    from .impl.rcutils_logger import RcutilsLogger
-    from .qos import QoSProfile
     from turtlewire.wire import base
 
+    from .callback_groups import CallbackGroup
+    from .context import Context
     from .entity import Work
+    from .impl.rcutils_logger import RcutilsLogger
+    from .qos import QoSProfile
 
 __all__ = ["Client"]
 

@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
 
-    from .arguments import Arguments
+    from typing_extensions import Self
+
     from turtlewire.wire import base
+
+    from .arguments import Arguments
 
 __all__ = ["Context"]
 
@@ -53,8 +56,9 @@ class Context:
             RuntimeError: It was initialized before, or the domain id is negative.
             UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
         """
-        from .arguments import Arguments
         from turtlewire.wire import open_context
+
+        from .arguments import Arguments
 
         with self._lock:
             if domain_id is not None and domain_id < 0:
@@ -195,12 +199,10 @@ class Context:
                 return
         callback()
 
-    def __enter__(self) -> Context:
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None
-    ) -> None:
+    def __exit__(self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None) -> None:
         self.try_shutdown()
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import weakref
 from typing import TYPE_CHECKING, Any
 
 from ._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
+    import weakref
     from collections.abc import Callable
 
     from .callback_groups import CallbackGroup

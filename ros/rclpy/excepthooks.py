@@ -22,7 +22,7 @@ _signal_came = False
 
 def install() -> None:
     """Put the hooks before those that are in place. Idempotent."""
-    global _previous_hook, _previous_thread_hook  # noqa: PLW0603 - hooks belong to the process
+    global _previous_hook, _previous_thread_hook
     if sys.excepthook is not _hook:
         _previous_hook, sys.excepthook = sys.excepthook, _hook
     if threading.excepthook is not _thread_hook:

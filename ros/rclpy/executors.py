@@ -1,8 +1,8 @@
 """Executors: they wait for what the entities of their nodes have to do, and run it.
 
-One wait serves everything. The middleware's wait set holds the subscriptions, clients and services, and is told once when one comes or goes;
-the earliest timer gives the wait's limit; a guard condition, a finished future or another thread ends the wait. Nothing is collected anew for
-a pass, and nothing polls: an idle executor does not run at all.
+One wait serves everything. The middleware's wait set holds the subscriptions, clients and services, and is told once when one comes or
+goes; the earliest timer gives the wait's limit; a guard condition, a finished future or another thread ends the wait. Nothing is collected
+anew for a pass, and nothing polls: an idle executor does not run at all.
 
 Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of all nodes, then node by node its timers,
 subscriptions, guard conditions, clients and services.
@@ -27,9 +27,12 @@ if TYPE_CHECKING:
     from concurrent.futures import ThreadPoolExecutor
     from types import TracebackType
 
+    from typing_extensions import Self
+
+    from turtlewire.wire import base
+
     from .context import Context
     from .node import Node
-    from turtlewire.wire import base
 
 __all__ = [
     "ConditionReachedException",
@@ -101,7 +104,7 @@ class Executor:
         """Its context."""
         return self._context
 
-    def __enter__(self) -> Executor:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
@@ -498,9 +501,7 @@ class MultiThreadedExecutor(Executor):
         if num_threads == 1:
             import warnings
 
-            warnings.warn(
-                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.", stacklevel=2
-            )
+            warnings.warn("MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.", stacklevel=2)
         self._executor: ThreadPoolExecutor = ThreadPoolExecutor(num_threads)
         self._free_threads = num_threads
         self._failures: deque[BaseException] = deque()

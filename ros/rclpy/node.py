@@ -32,6 +32,8 @@ from .type_description_service import TypeDescriptionService
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from typing_extensions import Self
+
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
 
     from .arguments import Arguments
@@ -160,7 +162,7 @@ class Node:
         """The node itself: there is no C handle behind it. Usable in a ``with`` statement."""
         return self
 
-    def __enter__(self) -> Node:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *exception: object) -> None:

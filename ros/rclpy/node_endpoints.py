@@ -116,9 +116,7 @@ class NodeEndpoints:
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
 
-    def _overridden(
-        self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None
-    ) -> QoSProfile:
+    def _overridden(self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None) -> QoSProfile:
         """The profile with what parameters say, where ``options`` lets them."""
         profile = validate_qos(qos_profile)
         if options is None:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._rclpy_pybind11 import InvalidHandle, RCLError
 from turtlewire.errors import WireError
 from turtlewire.msg import serialize
 from turtlewire.wire.qos import Durability
 
+from ._rclpy_pybind11 import InvalidHandle, RCLError
+
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from typing_extensions import Self
+
+    from turtlewire.wire import base
 
     from .context import Context
     from .duration import Duration
     from .qos import QoSProfile
-    from turtlewire.wire import base
 
 __all__ = ["Publisher"]
 
@@ -114,7 +118,7 @@ class Publisher:
         if self._destroyed:
             raise InvalidHandle("cannot use Destroyable because destruction was requested")
 
-    def __enter__(self) -> Publisher:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *exception: object) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from .type_support import check_for_type_support
 from turtlewire import msg
+
+from .type_support import check_for_type_support
 
 if TYPE_CHECKING:
     from turtlewire.msg import Message

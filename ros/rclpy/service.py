@@ -5,7 +5,6 @@ from __future__ import annotations
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
-
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
 
@@ -14,12 +13,12 @@ from .service_introspection import EventType, IntrospectedEndpoint
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .callback_groups import CallbackGroup
-    from .impl.rcutils_logger import RcutilsLogger
-    from .qos import QoSProfile
     from turtlewire.wire import base
 
+    from .callback_groups import CallbackGroup
     from .entity import Work
+    from .impl.rcutils_logger import RcutilsLogger
+    from .qos import QoSProfile
 
 __all__ = ["Service"]
 
@@ -78,7 +77,7 @@ class Service(IntrospectedEndpoint):
             try:
                 request = deserialize(self.srv_type.Request, cdr)
             except CdrError as error:
-                self._logger.error(f"Ignoring a malformed request to service '{self._wire.service}': {error}", throttle_duration_sec=5.0)
+                self._logger.error(f"Ignoring a malformed request to service '{self._wire.service}': {error}", throttle_duration_sec=5.0)  # noqa: TRY400 - a ROS logger
                 return None
             if self._events is not None:
                 self._events.publish(EventType.REQUEST_RECEIVED, header.client_id, header.sequence_number, request=request)

@@ -146,7 +146,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
 
 def uninstall_signal_handlers() -> None:
     """Put the former handlers back; nothing happens when none are installed."""
-    global _watcher, _options  # noqa: PLW0603 - as above
+    global _watcher, _options
     with _lock:
         if _watcher is None or threading.current_thread() is not threading.main_thread():
             return
@@ -168,7 +168,7 @@ def _after_fork_in_parent() -> None:
 
 
 def _after_fork_in_child() -> None:
-    global _watcher, _options  # noqa: PLW0603 - as above
+    global _watcher, _options
     watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
     if watcher is not None:
         watcher.forget()

@@ -5,18 +5,20 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from .entity import Entity, Work
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize
 
+from .entity import Entity, Work
+
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from turtlewire.wire import base
 
     from .callback_groups import CallbackGroup
     from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
-    from turtlewire.wire import base
 
 __all__ = ["MessageInfo", "Subscription"]
 
@@ -95,9 +97,7 @@ class Subscription(Entity):
             try:
                 message = cdr if self.raw else deserialize(self.msg_type, cdr)
             except CdrError as error:
-                self._logger.error(
-                    f"Ignoring a malformed message on topic '{self.topic}': {error}", throttle_duration_sec=5.0
-                )
+                self._logger.error(f"Ignoring a malformed message on topic '{self.topic}': {error}", throttle_duration_sec=5.0)  # noqa: TRY400 - a ROS logger
                 return None
             return self._callback, ((message, _message_info(info)) if self._with_info else (message,))
         return None
@@ -138,4 +138,7 @@ def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
         except TypeError:
             continue
         return Subscription.CallbackType(count - 1)
-    raise RuntimeError("Subscription.__init__(): callback should be either be callable with one argument(to get only the message) or two (to get message and message info)")
+    raise RuntimeError(
+        "Subscription.__init__(): callback should be either be callable with one argument"
+        "(to get only the message) or two (to get message and message info)"
+    )

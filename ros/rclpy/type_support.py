@@ -23,7 +23,9 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     """
     if not isinstance(msg_or_srv_type, type) or not issubclass(msg_or_srv_type, (msg.Message, msg.Service, msg.Action)):
         kind = type(msg_or_srv_type).__name__
-        raise AttributeError(f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}")
+        raise AttributeError(  # noqa: TRY004 - ROS 2's
+            f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}"
+        )
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
@@ -34,7 +36,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     """
     check_for_type_support(msg_type)
     if not issubclass(msg_type, msg.Message):
-        raise RuntimeError("The message type provided is not valid, this might be a service or action")
+        raise RuntimeError("The message type provided is not valid, this might be a service or action")  # noqa: TRY004 - ROS 2's
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
@@ -45,7 +47,7 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     """
     check_for_type_support(srv_type)
     if not issubclass(srv_type, msg.Service):
-        raise RuntimeError("The service type provided is not valid, this might be a message or action")
+        raise RuntimeError("The service type provided is not valid, this might be a message or action")  # noqa: TRY004 - likewise
 
 
 def type_id(name: str) -> TypeId:

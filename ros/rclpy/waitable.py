@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from .entity import Entity
 
 if TYPE_CHECKING:
+    from typing_extensions import Self
+
     from .callback_groups import CallbackGroup
     from .executors import Executor
     from .task import Future
@@ -41,7 +43,7 @@ class NumberOfEntities:
             setattr(total, kind, getattr(self, kind) + getattr(other, kind))
         return total
 
-    def __iadd__(self, other: NumberOfEntities) -> NumberOfEntities:
+    def __iadd__(self, other: NumberOfEntities) -> Self:
         for kind in self.__slots__:
             setattr(self, kind, getattr(self, kind) + getattr(other, kind))
         return self

@@ -8,6 +8,7 @@ import textwrap
 import time
 
 import pytest
+
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node

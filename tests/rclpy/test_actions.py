@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
 from builtin_interfaces.msg import Time as TimeMsg

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 
 import pytest
+
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import threading
 import time
+from functools import partial
 
 import pytest
+
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
@@ -89,7 +91,7 @@ def test_nodes_are_served_in_the_order_in_which_they_were_added(context, node, e
     second = Node("second", context=context)
     executor.add_node(second)
     for owner in (second, node):
-        owner.create_guard_condition(lambda name=owner.get_name(): order.append(name)).trigger()
+        owner.create_guard_condition(partial(order.append, owner.get_name())).trigger()
     executor.spin_once(timeout_sec=10)
     executor.spin_once(timeout_sec=10)
     assert order == ["tested", "second"]

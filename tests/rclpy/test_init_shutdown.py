@@ -7,6 +7,7 @@ import sys
 import threading
 
 import pytest
+
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.context import Context
@@ -74,7 +75,7 @@ def test_with_statement():
 
 
 def test_a_node_needs_init():
-    text = "^rclpy.init\\(\\) has not been called. msg:cannot create node$"
+    text = r"^rclpy.init\(\) has not been called. msg:cannot create node$"
     with pytest.raises(NotInitializedException, match=text):
         Node("early")
     rclpy.init(args=[])
@@ -90,7 +91,7 @@ def test_domain_ids(monkeypatch):
         with Context() as context:
             context.init(args=[], domain_id=asked)
             assert context.get_domain_id() == expected
-    with pytest.raises(RuntimeError, match="^Domain id \\(-1\\) should not be lower than zero.$"):
+    with pytest.raises(RuntimeError, match=r"^Domain id \(-1\) should not be lower than zero.$"):
         Context().init(args=[], domain_id=-1)
 
 

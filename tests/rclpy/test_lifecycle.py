@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError

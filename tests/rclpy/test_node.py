@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+
 from rcl_interfaces.msg import Log
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.context import Context
@@ -68,7 +69,7 @@ def test_a_node_name_is_checked(context, name, text):
 
 @pytest.mark.parametrize("namespace", ["/a/", "a//b", "/1", "/a?"])
 def test_a_namespace_is_checked(context, namespace):
-    with pytest.raises(InvalidNamespaceException, match="^Invalid namespace: namespace must not "):
+    with pytest.raises(InvalidNamespaceException, match=r"^Invalid namespace: namespace must not "):
         Node("n", context=context, namespace=namespace)
 
 
@@ -182,7 +183,7 @@ def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
                 node.create_timer(0.001, called.set)
                 assert called.wait(10)
                 node.destroy_node()
-        except BaseException as error:  # noqa: BLE001 - shown by the assertion below
+        except BaseException as error:
             failures.append(error)
 
     threads = [threading.Thread(target=live, args=(number,)) for number in range(4)]

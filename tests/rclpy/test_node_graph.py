@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
 from rclpy.context import Context
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException

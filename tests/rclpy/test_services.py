@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+
 from example_interfaces.srv import AddTwoInts
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.client import Client
@@ -16,7 +17,6 @@ from rclpy.qos import QoSProfile, qos_profile_services_default, qos_profile_syst
 from rclpy.service_introspection import ServiceIntrospectionState
 from std_msgs.msg import Int32
 from std_srvs.srv import SetBool
-
 from turtlewire.wire.base import RequestId
 
 
@@ -131,7 +131,7 @@ def test_wrong_types(node, executor):
     for wrong in (SetBool.Request(), AddTwoInts.Response(), None):
         with pytest.raises(TypeError):
             client.call_async(wrong)
-    with pytest.raises(AttributeError, match="This might be a ROS 1 message type"):
+    with pytest.raises(AttributeError, match=r"This might be a ROS 1 message type"):
         node.create_client(int, "add")
     with pytest.raises(RuntimeError, match="The service type provided is not valid"):
         node.create_service(Int32, "add", add)
@@ -157,7 +157,7 @@ def test_an_exception_of_a_service_leaves_spin_and_the_client_gets_no_answer(nod
 
 @pytest.mark.parametrize("name", ["", "9lives", "a//b", "a/", "with space", "~x"])
 def test_names_are_checked(node, name):
-    with pytest.raises(InvalidServiceNameException, match="^Invalid service name: "):
+    with pytest.raises(InvalidServiceNameException, match=r"^Invalid service name: "):
         node.create_client(AddTwoInts, name)
     with pytest.raises(InvalidServiceNameException):
         node.create_service(AddTwoInts, name, add)

@@ -7,6 +7,7 @@ import gc
 import threading
 
 import pytest
+
 from rclpy.task import Future, Task
 
 

@@ -6,9 +6,10 @@ import threading
 import time
 
 import pytest
+
 from rclpy.clock import Clock, ClockType, ROSClock
-from rclpy.executors import ExternalShutdownException
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
+from rclpy.executors import ExternalShutdownException
 from rclpy.time import Time
 from rclpy.timer import Timer
 from rclpy.timer_queue import TimerQueue

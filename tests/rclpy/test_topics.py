@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 import pytest
+
 from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.context import Context
@@ -17,7 +18,6 @@ from rclpy.subscription import Subscription
 from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32, String
 from std_srvs.srv import Trigger
-
 from turtlewire.errors import CdrError
 
 
@@ -179,7 +179,7 @@ def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
 def test_what_cannot_be_published(context, node):
     publisher = node.create_publisher(Int32, "number", 10)
     for wrong in (String(), "text", 3, None, Int32):
-        with pytest.raises(TypeError, match="^Expected <class 'std_msgs.msg._int32.Int32'>, got <class"):
+        with pytest.raises(TypeError, match=r"^Expected <class 'std_msgs.msg._int32.Int32'>, got <class"):
             publisher.publish(wrong)
     node.create_subscription(Int32, "number", lambda _: None, 10)
     matched(context, publisher)
@@ -189,7 +189,7 @@ def test_what_cannot_be_published(context, node):
 
 @pytest.mark.parametrize("wrong", ["10", None, 1.5])
 def test_quality_of_service_is_a_profile_or_a_depth(node, wrong):
-    with pytest.raises(TypeError, match="^Expected QoSProfile or int, but received <class '"):
+    with pytest.raises(TypeError, match=r"^Expected QoSProfile or int, but received <class '"):
         node.create_publisher(Int32, "number", wrong)
     with pytest.raises(TypeError):
         node.create_subscription(Int32, "number", lambda _: None, wrong)
@@ -197,12 +197,12 @@ def test_quality_of_service_is_a_profile_or_a_depth(node, wrong):
 
 def test_depths(node):
     assert node.create_publisher(Int32, "number", 7).qos_profile == QoSProfile(depth=7, history=HistoryPolicy.KEEP_LAST)
-    with pytest.raises(ValueError, match="^history depth must be greater than or equal to zero$"):
+    with pytest.raises(ValueError, match=r"^history depth must be greater than or equal to zero$"):
         node.create_publisher(Int32, "number", -1)
 
 
 def test_types_are_checked(node):
-    with pytest.raises(AttributeError, match="This might be a ROS 1 message type but it should be a ROS 2 message type"):
+    with pytest.raises(AttributeError, match=r"This might be a ROS 1 message type but it should be a ROS 2 message type"):
         node.create_publisher(int, "number", 10)
     with pytest.raises(AttributeError):
         node.create_subscription("std_msgs/msg/Int32", "number", lambda _: None, 10)
@@ -234,7 +234,7 @@ def test_destruction(node):
     assert node.destroy_subscription(subscription)
     assert not node.destroy_subscription(subscription)
     for use in (lambda: publisher.publish(Int32()), publisher.get_subscription_count, lambda: subscription.topic_name):
-        with pytest.raises(InvalidHandle, match="^cannot use Destroyable because destruction was requested$"):
+        with pytest.raises(InvalidHandle, match=r"^cannot use Destroyable because destruction was requested$"):
             use()
     assert publisher not in list(node.publishers)
     assert subscription not in list(node.subscriptions)

@@ -291,7 +291,7 @@ class ActionServer(Waitable):
             result = await _outcome(execute_callback(goal_handle))
         except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
             result = self._action_type.Result()
-            self._logger.error(f"Error raised in execute callback: {error}")
+            self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400 - a ROS logger
             import traceback
 
             traceback.print_exc()

@@ -107,15 +107,16 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def _run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
         state = self._state_machine.current_state
+        complain = self.get_logger().error  # type: ignore[attr-defined]
         try:
             outcome = self._callbacks[state.state_id](before)
-            if not isinstance(outcome, TransitionCallbackReturn):
-                raise TypeError(f"a transition callback has to return a TransitionCallbackReturn, not {outcome!r}")
         except Exception as error:  # noqa: BLE001 - an error is one of the outcomes that the state machine knows
             import traceback
 
-            logger = self.get_logger()  # type: ignore[attr-defined]
-            logger.error(f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}")
+            complain(f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}")
+            return TransitionCallbackReturn.ERROR
+        if not isinstance(outcome, TransitionCallbackReturn):
+            complain(f"The callback for transition {state.label} has to return a TransitionCallbackReturn, not {outcome!r}")
             return TransitionCallbackReturn.ERROR
         return outcome
 
