@@ -89,7 +89,7 @@ class ChildProcess:
         """Whether it has not ended yet."""
         return not self._protocol.exited.is_set()
 
-    async def wait(self, timeout: float | None = None) -> int | None:  # noqa: ASYNC109  asyncio.timeout is not in Python 3.10
+    async def wait(self, timeout: float | None = None) -> int | None:
         """Its exit status (negative for a signal), or None when it has not ended within the time."""
         try:
             await asyncio.wait_for(self._protocol.exited.wait(), timeout)

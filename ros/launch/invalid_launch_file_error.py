@@ -26,7 +26,7 @@ class InvalidLaunchFileError(Exception):
     def __str__(self) -> str:
         """One line for one error, a list for several."""
         if not self.likely_errors:
-            return f"The launch file may have a syntax error, or its format is unknown: [{self.extension}]"
+            return "The launch file may have a syntax error, or its format is unknown"
         if len(self.likely_errors) == 1:
             return f"Caught exception when trying to load file of format [{self.extension}]: {self.likely_errors[0]}"
         lines = [f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"]

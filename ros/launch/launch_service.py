@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 __all__ = ["LaunchService"]
 
+# So many Ctrl-C end a launch file that hangs, and with it keeps the loop from seeing them.
+_PATIENCE = 3
+
 
 class LaunchService:
     """Runs until everything that was launched has ended, or until it is told to shut down.
@@ -48,6 +51,7 @@ class LaunchService:
         self._wake: asyncio.Event | None = None
         self._running = threading.Lock()
         self._interrupted = False
+        self._unseen_interrupts = 0
         self._return_code = 0
 
     @property
@@ -117,15 +121,17 @@ class LaunchService:
             self._wake.clear()
             self._reap_futures()
             if self._context._events:
-                await self._process_event(self._context._events.popleft())
+                for _ in range(len(self._context._events)):  # those that they emit come after what happened meanwhile
+                    self._process_event(self._context._events.popleft())
+                await asyncio.sleep(0)
             elif self._futures or not (self._context.is_shutdown or shutdown_when_idle):
                 await self._wake.wait()
             elif self._context.is_shutdown:
                 return
             else:
-                self._shut_down("idle", due_to_sigint=False)
+                await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
 
-    async def _process_event(self, event: Event) -> None:
+    def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
         for handler in tuple(self._context._event_handlers):
             if not handler.matches(event):
@@ -135,11 +141,10 @@ class LaunchService:
             try:
                 for entity in entity_list(handler.handle(event, self._context) or ()):
                     self._visit(entity)
-            except Exception as error:
+            except Exception as error:  # noqa: BLE001  launch files are other people's code
                 self._fail(error)
             finally:
                 self._context._pop_locals()
-            await asyncio.sleep(0)  # lets processes that were just started report before the next handler
 
     def _visit(self, entity: LaunchDescriptionEntity) -> None:
         sub_entities = entity.visit(self._context)
@@ -185,29 +190,30 @@ class LaunchService:
 
     @contextlib.contextmanager
     def _signals_handled(self) -> Iterator[None]:
-        """Handle Ctrl-C, Ctrl-\\ and SIGTERM meanwhile; only the main thread can."""
-        handlers = {"SIGINT": self._on_sigint, "SIGTERM": self._on_sigterm, "SIGQUIT": self._on_sigquit}
-        numbers = [getattr(signal, name) for name in handlers if hasattr(signal, name)]
+        r"""Handle Ctrl-C, Ctrl-\\ and SIGTERM meanwhile; only the main thread can."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
         loop = asyncio.get_running_loop()
-        before = {number: signal.getsignal(number) for number in numbers}
-        for number in numbers:
-            handler = handlers[signal.Signals(number).name]
-            try:
-                loop.add_signal_handler(number, handler)
-            except NotImplementedError:  # Windows
-                signal.signal(number, lambda *_, handler=handler: loop.call_soon_threadsafe(handler))
+        handlers = {"SIGINT": self._on_sigint, "SIGTERM": self._on_sigterm, "SIGQUIT": self._on_sigquit}  # Windows has no SIGQUIT
+        numbers = {getattr(signal, name): handler for name, handler in handlers.items() if hasattr(signal, name)}
+
+        def hand_to_loop(number: int, _frame: object) -> None:
+            if number == signal.SIGINT:
+                self._unseen_interrupts += 1
+                if self._unseen_interrupts == _PATIENCE:
+                    raise KeyboardInterrupt
+            loop.call_soon_threadsafe(numbers[signal.Signals(number)])
+
+        before = {number: signal.signal(number, hand_to_loop) for number in numbers}
         try:
             yield
         finally:
             for number, handler in before.items():
-                with contextlib.suppress(NotImplementedError):
-                    loop.remove_signal_handler(number)
                 signal.signal(number, handler)
 
     def _on_sigint(self) -> None:
+        self._unseen_interrupts = 0
         if self._interrupted:
             self._logger.warning("user interrupted with ctrl-c (SIGINT) again, ignoring...")
             return

@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from launch.frontend.type_utils import list_item_type
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.parameter_values import evaluate_value, typed
 
@@ -49,10 +50,11 @@ class ParameterValue:
         """
         if self._value_type is None:
             return evaluate_value(context, self._value)
+        item_type = list_item_type(self._value_type)
+        if item_type is not None and isinstance(self._value, (list, tuple)):
+            return [ParameterValue(item, value_type=item_type).evaluate(context) for item in self._value]
         if isinstance(self._value, (bool, int, float)):
             return typed(str(self._value), self._value_type)
-        if isinstance(self._value, (list, tuple)) and all(isinstance(item, (bool, int, float)) for item in self._value):
-            return typed(str(list(self._value)), self._value_type)
         return typed(perform_substitutions(context, normalize_to_list_of_substitutions(self._value)), self._value_type)
 
 
@@ -101,6 +103,15 @@ class ParameterFile:
     def param_file(self) -> list[Substitution]:
         """Its path."""
         return self._param_file
+
+    @property
+    def allow_substs(self) -> list[Substitution]:
+        """Whether its text holds substitutions."""
+        return self._allow_substs
+
+    def copy(self) -> ParameterFile:
+        """The same file, for another node."""
+        return ParameterFile(self._param_file, allow_substs=self._allow_substs)
 
     def evaluate(self, context: LaunchContext) -> Path:
         """The path of the file, or of its copy.

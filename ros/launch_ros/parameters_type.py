@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
@@ -13,8 +13,8 @@ from launch_ros.parameter_descriptions import Parameter, ParameterFile, Paramete
 __all__ = ["SomeParameterValue", "SomeParameters", "SomeParametersDict"]
 
 #: A value: plain, substituted, typed, or a sequence of values of one type.
-SomeParameterValue = Union[ParameterValue, SomeSubstitutionsType, str, int, float, bool, Sequence[Any], bytes]
+SomeParameterValue = ParameterValue | SomeSubstitutionsType | int | float | bool | Sequence[Any] | bytes
 #: Names (of substitutions, or nested) with values.
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
 #: Files and mappings, in the order in which they take effect.
-SomeParameters = Sequence[Union[str, Path, Substitution, ParameterFile, Parameter, SomeParametersDict]]
+SomeParameters = Sequence[str | Path | Substitution | ParameterFile | Parameter | SomeParametersDict]

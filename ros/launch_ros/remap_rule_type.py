@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Union
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
@@ -15,4 +14,4 @@ RemapRule = tuple[Sequence[Substitution], Sequence[Substitution]]
 #: From and to.
 SomeRemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
 #: Several rules.
-SomeRemapRules = Iterable[Union[SomeRemapRule, RemapRule]]
+SomeRemapRules = Iterable[SomeRemapRule | RemapRule]

@@ -72,14 +72,17 @@ class Entity(BaseEntity):
         return found or None
 
     def _value(self, name: str, text: str, data_type: Any, can_be_str: bool) -> Any:
+        separator = self._element.attrib.get(f"{name}-sep")
         item_type = list_item_type(data_type)
         try:
-            if item_type is None:
+            if separator is None and item_type is None:
                 return coerce(text, data_type)
-            separator = self._element.attrib.get(f"{name}-sep", ",")
             self._read_attributes.add(f"{name}-sep")
+            separator = separator or ","
             return [coerce(item.strip(), item_type) for item in text.split(separator)]
         except ValueError as error:
             if can_be_str:
                 return text
-            raise TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}' but got '{text}'") from error
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}' but got '{text}'"
+            ) from error

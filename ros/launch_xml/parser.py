@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from launch.frontend import Parser as BaseParser
@@ -21,12 +22,18 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            xml.etree.ElementTree.ParseError: It is no XML.
+            SyntaxError: It is no XML; names file and line.
             ValueError: It declares entities.
         """
         from defusedxml import ElementTree
 
-        return Entity(ElementTree.parse(file, forbid_dtd=True).getroot()), cls()
+        try:
+            root = ElementTree.parse(file, forbid_dtd=True).getroot()
+        except ElementTree.ParseError as error:
+            path = file if isinstance(file, str) else getattr(file, "name", "")
+            error.filename, error.lineno = os.path.basename(path), error.position[0]
+            raise
+        return Entity(root), cls()
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:

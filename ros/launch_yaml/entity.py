@@ -41,8 +41,10 @@ class Entity(BaseEntity):
         elements = self._element
         if isinstance(elements, dict):
             if "children" not in elements:
-                raise ValueError(f"Expected entity `{self._type_name}` to have children entities. That can be a list of subentities or a "
-                                 "dictionary with a `children` list element")
+                raise ValueError(
+                    f"Expected entity `{self._type_name}` to have children entities. That can be a list of subentities or a "
+                    "dictionary with a `children` list element"
+                )
             self._read_keys.add("children")
             elements = elements["children"]
         if not isinstance(elements, list):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+from typing import TYPE_CHECKING, Any
 
 from launch.frontend import Parser as BaseParser
 from launch_yaml.entity import Entity
@@ -11,6 +12,9 @@ if TYPE_CHECKING:
     import io
 
 __all__ = ["Parser"]
+
+# Aliases let a few lines stand for billions of elements; no launch file that a person wrote comes near.
+_MOST_ELEMENTS = 100_000
 
 
 class Parser(BaseParser):
@@ -21,18 +25,18 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            yaml.YAMLError: It is no YAML.
+            SyntaxError: It is no YAML; names file and line.
             RuntimeError: It is no mapping with one key.
+            ValueError: Its aliases contain themselves, or stand for more elements than a launch file has.
         """
-        import yaml
-
         if isinstance(file, str):
             with open(file, encoding="utf-8") as opened:
-                tree = yaml.safe_load(opened)
-        else:
-            tree = yaml.safe_load(file)
+                return cls.load(opened)
+        tree = _tree(file)
         if not isinstance(tree, dict) or len(tree) != 1:
             raise RuntimeError("Expected only one root element: a mapping with the key 'launch'")
+        if _size(tree, {}) > _MOST_ELEMENTS:
+            raise ValueError(f"The file stands for more than {_MOST_ELEMENTS} elements")
         ((name, element),) = tree.items()
         return Entity(element, str(name)), cls()
 
@@ -40,3 +44,29 @@ class Parser(BaseParser):
     def get_file_extensions(cls) -> set[str]:
         """Suffixes of this language."""
         return {"yaml", "yml"}
+
+
+def _tree(file: io.TextIOBase) -> Any:
+    import yaml
+
+    try:
+        return yaml.safe_load(file)
+    except yaml.MarkedYAMLError as error:
+        if error.problem_mark is None:
+            raise
+        mark = error.problem_mark
+        name = os.path.basename(str(getattr(file, "name", mark.name)))
+        raise SyntaxError(error.problem, (name, mark.line + 1, mark.column + 1, None)) from error
+
+
+def _size(node: Any, known: dict[int, int | None]) -> int:
+    """Number of elements with aliases written out; each node is visited once."""
+    if not isinstance(node, (dict, list)):
+        return 1
+    if id(node) not in known:
+        known[id(node)] = None
+        known[id(node)] = 1 + sum(_size(item, known) for item in (node.values() if isinstance(node, dict) else node))
+    size = known[id(node)]
+    if size is None:
+        raise ValueError("An alias contains itself")
+    return size

@@ -1,102 +1,17 @@
-"""Programs in processes of their own, and packages laid out as colcon lays them out."""
+"""Packages laid out as colcon lays them out, and the turtles as seen on the wire."""
 
 from __future__ import annotations
 
 import os
 import re
 import shutil
-import signal
-import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import pytest
 
 BIN = Path(sys.executable).parent
-
-
-class Program:
-    """A process in a session of its own, and what it prints, line by line with the time of arrival."""
-
-    def __init__(self, *command, environment=None):
-        self.lines = []
-        self._more = threading.Condition()
-        self.process = subprocess.Popen(
-            [str(part) for part in command],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            env={**os.environ, **(environment or {})},
-            start_new_session=True,
-        )
-        self._reader = threading.Thread(target=self._read)
-        self._reader.start()
-
-    def _read(self):
-        for line in self.process.stdout:
-            with self._more:
-                self.lines.append((time.monotonic(), line.rstrip("\n")))
-                self._more.notify_all()
-        with self._more:
-            self._more.notify_all()
-
-    @property
-    def text(self):
-        return "\n".join(line for _, line in self.lines)
-
-    def wait_for(self, pattern, count=1, timeout=60):
-        """The first `count` matches of a regular expression, as soon as they are there."""
-
-        def found():
-            return [match for _, line in list(self.lines) if (match := re.search(pattern, line))]
-
-        with self._more:
-            assert self._more.wait_for(lambda: len(found()) >= count or not self._reader.is_alive(), timeout), self.text
-        assert len(found()) >= count, self.text
-        return found()[:count]
-
-    def signal_group(self, signum):
-        """Send a signal to all processes of the session, as a terminal does."""
-        os.killpg(self.process.pid, signum)
-
-    def wait(self, timeout=60):
-        """Its exit status, after everything that it printed has been read."""
-        status = self.process.wait(timeout)
-        self._reader.join(timeout)
-        return status
-
-    def survivors(self):
-        """Processes of its session that are still there (zombies have ended)."""
-        found = []
-        for stat in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                state, _, _, session = stat.read_text().rpartition(")")[2].split()[:4]
-            except (FileNotFoundError, ProcessLookupError):
-                continue
-            if int(session) == self.process.pid and state != "Z":
-                found.append(stat.parent.name)
-        return found
-
-    def kill(self):
-        if self.process.poll() is None or self.survivors():
-            self.signal_group(signal.SIGKILL)
-        self.wait()
-        self.process.stdout.close()
-
-
-@pytest.fixture
-def run():
-    programs = []
-
-    def start(*command, environment=None):
-        programs.append(Program(*command, environment=environment))
-        return programs[-1]
-
-    yield start
-    for program in programs:
-        program.kill()
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 from launch import logging
 from launch.action import Action
@@ -65,7 +65,7 @@ class DeclareLaunchArgument(Action):
         description = entity.get_attr("description", optional=True)
         if description is not None:
             kwargs["description"] = parser.escape_characters(description)
-        choices = entity.get_attr("choice", data_type=List[Entity], optional=True)
+        choices = entity.get_attr("choice", data_type=list[Entity], optional=True)
         if choices is not None:
             kwargs["choices"] = [parser.escape_characters(choice.get_attr("value")) for choice in choices]
             for choice in choices:

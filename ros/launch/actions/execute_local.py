@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from launch import logging
 from launch.action import Action
 from launch.child_process import ChildProcess
+from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
-from launch.event_handlers import OnProcessExit, OnShutdown
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
 from launch.events.process import (
     ProcessExited,
     ProcessStarted,
@@ -23,18 +24,20 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
+from launch.output_lines import OutputLines
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
     from launch.descriptions import Executable
     from launch.event import Event
+    from launch.event_handler import BaseEventHandler
     from launch.events import Shutdown
+    from launch.events.process import ProcessIO
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
-    from launch.some_actions_type import SomeActionsType
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
@@ -51,8 +54,10 @@ class ExecuteLocal(Action):
         shell: Whether a shell interprets the command line.
         sigterm_timeout: Seconds between SIGINT and SIGTERM.
         sigkill_timeout: Seconds between SIGTERM and SIGKILL.
-        emulate_tty: Whether the process finds a terminal at its output: many programs then show colours and write each line at once.
-        output: Where its output goes: ``log`` (stderr is shown on the screen too), ``screen``, ``both``, ``own_log``, ``full``, or a mapping.
+        emulate_tty: Whether the process finds a terminal at its output (many programs then show colours) and, when the launch runs in
+            a terminal, reads what is typed there: so a launched ``turtle_teleop_key`` works. A launch configuration of this name goes
+            before.
+        output: Where its output goes: ``log`` (stderr on the screen too), ``screen``, ``both``, ``own_log``, ``full``, or a mapping.
         output_format: How its lines are shown.
         cached_output: Whether all output is kept for :meth:`get_stdout` and :meth:`get_stderr`.
         log_cmd: Whether the command line is logged at the start.
@@ -102,7 +107,8 @@ class ExecuteLocal(Action):
         self._return_code: int | None = None
         self._completed: asyncio.Future[None] | None = None
         self._shutting_down: asyncio.Event | None = None
-        self._pending = {1: b"", 2: b""}
+        self._end_was_handled: asyncio.Event | None = None
+        self._lines = {1: OutputLines(), 2: OutputLines()}
         self._cache = {1: bytearray(), 2: bytearray()}
 
     @property
@@ -156,17 +162,27 @@ class ExecuteLocal(Action):
     # execution
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Start the process; its end completes the action."""
+        """Start the process; its end completes the action.
+
+        Raises:
+            RuntimeError: It was executed before.
+            Exception: A substitution of it fails.
+        """
         if self._completed is not None:
             raise RuntimeError(f"ExecuteLocal action '{self._process_description.final_name}': executed more than once: {self.describe()}")
-        self.prepare(context)
         if context.is_shutdown:
             return None
+        try:
+            self.prepare(context)
+        except BaseException:
+            self.clean_up()
+            raise
         assert context.asyncio_loop is not None
         self._logger = logging.get_logger(self._name)
         self._loggers = logging.get_output_loggers(self._name, self._output_choice(context))
         self._completed = context.asyncio_loop.create_future()
         self._shutting_down = asyncio.Event()
+        self._end_was_handled = asyncio.Event()
         self._register_handlers(context)
         context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
         return None
@@ -181,7 +197,7 @@ class ExecuteLocal(Action):
         return self._process_description.final_cmd
 
     def clean_up(self) -> None:
-        """Remove what was made for the process; called once, after it has ended for good."""
+        """Remove what was made for the process; called once, after it has ended for good or could not be prepared."""
 
     @property
     def _name(self) -> str:
@@ -195,42 +211,47 @@ class ExecuteLocal(Action):
             while await self._run_once(context) and respawn and await self._respawns(runs):
                 runs += 1
         finally:
-            self._end()
+            self.clean_up()
+            assert self._completed is not None
+            self._completed.set_result(None)
 
     async def _run_once(self, context: LaunchContext) -> bool:
-        """Run the process; whether it could be started."""
+        """Run the process; whether it could be started. Returns after all handlers of its end."""
+        assert self._shutting_down is not None
+        assert self._end_was_handled is not None
+        self._end_was_handled.clear()
+        try:
+            self._process = process = await self._start(context)
+        except OSError as error:
+            self._logger.error("exception occurred while executing process: %s", error)  # noqa: TRY400  the text says all
+            return False
+        await context.emit_event(ProcessStarted(action=self, **self._event_details()))
+        if self._shutting_down.is_set():  # it was told to end while it was starting, too early for a signal
+            self._stop(context, send_sigint=True)
+        self._return_code = await process.wait()
+        await process.close()
+        await context.emit_event(ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details()))
+        await self._end_was_handled.wait()
+        return True
+
+    async def _start(self, context: LaunchContext) -> ChildProcess:
         description = self._process_description
         assert description.final_cmd is not None
         assert description.final_env is not None
-        command_line = " ".join(description.final_cmd)
         if self._log_cmd:
-            self._logger.info("process details: cmd='%s', cwd='%s'", command_line, description.final_cwd)
-        try:
-            self._process = process = await ChildProcess.start(
-                self.command(),
-                cwd=description.final_cwd,
-                env=description.final_env,
-                shell=self._shell,
-                inherit_stdin=not context.noninteractive and _stdin_is_terminal(),
-                emulate_tty=self._emulate_tty,
-                on_start=self._on_start,
-                on_output=lambda fd, data: self._on_output(context, fd, data),
-            )
-        except OSError as error:
-            self._logger.error("exception occurred while executing process: %s", error)
-            return False
-        await context.emit_event(ProcessStarted(action=self, **self._event_details()))
-        if context.is_shutdown:  # it began while this process was starting, too late for its signal
-            context.add_completion_future(asyncio.ensure_future(self._stop(context, send_sigint=True)))
-        self._return_code = code = await process.wait()
-        await process.close()
-        self._flush(context)
-        if code == 0:
-            self._logger.info("process has finished cleanly [pid %s]", process.pid)
-        else:
-            self._logger.error("process has died [pid %s, exit code %s, cmd '%s'].", process.pid, code, command_line)
-        await context.emit_event(ProcessExited(action=self, returncode=code or 0, **self._event_details()))
-        return True
+            self._logger.info("process details: cmd='%s', cwd='%s'", " ".join(description.final_cmd), description.final_cwd)
+        emulate_tty = self._performed_emulate_tty(context)
+        return await ChildProcess.start(
+            self.command(),
+            cwd=description.final_cwd,
+            # Without it, what a Python node prints would only be seen when it has ended.
+            env={"PYTHONUNBUFFERED": "1", **description.final_env},
+            shell=self._shell,
+            inherit_stdin=emulate_tty and not context.noninteractive and _stdin_is_terminal(),
+            emulate_tty=emulate_tty,
+            on_start=self._on_start,
+            on_output=lambda fd, data: self._on_output(context, fd, data),
+        )
 
     def _on_start(self, pid: int) -> None:
         description = self._process_description
@@ -249,53 +270,19 @@ class ExecuteLocal(Action):
             return not self._shutting_down.is_set()
         return False
 
-    def _end(self) -> None:
-        # Handlers stay registered: events of this process may still be queued.
-        self.clean_up()
-        if self._completed is not None and not self._completed.done():
-            self._completed.set_result(None)
-
-    # output
-
-    def _on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
-        if self._cached_output:
-            self._cache[fd] += data
-        *lines, self._pending[fd] = (self._pending[fd] + data).split(b"\n")
-        for line in lines:
-            self._log_line(fd, line)
-        event_class = ProcessStdout if fd == 1 else ProcessStderr
-        event = event_class(text=data, action=self, **self._event_details())
-        if context.would_handle_event(event):
-            context.emit_event_sync(event)
-
-    def _flush(self, _context: LaunchContext) -> None:
-        """Show last lines that lack their line end."""
-        for fd, line in self._pending.items():
-            if line:
-                self._log_line(fd, line)
-            self._pending[fd] = b""
-
-    def _log_line(self, fd: int, line: bytes) -> None:
-        text = line.decode("utf-8", errors="replace").removesuffix("\r")
-        shown = self._output_format.format(line=text, this=self)
-        self._loggers[fd - 1].info("%s", shown, extra={"from_process": True})
-
-    def _event_details(self) -> dict[str, Any]:
-        assert self._process_details is not None
-        return dict(self._process_details)
-
-    def _output_choice(self, context: LaunchContext) -> Any:
-        if isinstance(self._output, dict):
-            return self._output
-        return perform_substitutions(context, self._output)
-
-    # the end
+    # events
 
     def _register_handlers(self, context: LaunchContext) -> None:
-        if self._on_exit is not None:
-            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self._on_exit))
-        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
-        context.register_event_handler(EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event))
+        """Register for all events of the process; later ones are asked first."""
+        handlers: list[BaseEventHandler] = [
+            OnProcessExit(target_action=self, on_exit=self._on_exit if self._on_exit is not None else []),
+            OnProcessExit(target_action=self, on_exit=self._show_end),
+            OnProcessIO(target_action=self, on_stdout=self._show_output, on_stderr=self._show_output),
+            OnShutdown(on_shutdown=self._on_shutdown),
+            EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
+        ]
+        for handler in handlers:
+            context.register_event_handler(handler)
 
     def _is_for_me(self, event: Event) -> bool:
         return isinstance(event, ProcessTargetedEvent) and event.process_matcher(self)
@@ -308,28 +295,64 @@ class ExecuteLocal(Action):
         elif isinstance(event, ProcessStdin) and self._process is not None:
             self._process.write(event.text)
 
+    def _event_details(self) -> dict[str, Any]:
+        assert self._process_details is not None
+        return dict(self._process_details)
+
+    # output
+
+    def _on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
+        if self._cached_output:
+            self._cache[fd] += data
+        event_class = ProcessStdout if fd == 1 else ProcessStderr
+        context.emit_event_sync(event_class(text=data, action=self, **self._event_details()))
+
+    def _show_output(self, event: ProcessIO) -> None:
+        fd = 1 if event.from_stdout else 2
+        self._log_lines(fd, self._lines[fd].feed(event.text))
+
+    def _show_end(self, event: ProcessExited, _context: LaunchContext) -> None:
+        """Show last lines that lack their line end, and how it ended."""
+        assert self._end_was_handled is not None
+        for fd, lines in self._lines.items():
+            self._log_lines(fd, lines.rest())
+        if event.returncode == 0:
+            self._logger.info("process has finished cleanly [pid %s]", event.pid)
+        else:
+            self._logger.error("process has died [pid %s, exit code %s, cmd '%s'].", event.pid, event.returncode, " ".join(event.cmd))
+        self._end_was_handled.set()
+
+    def _log_lines(self, fd: int, lines: list[str]) -> None:
+        for line in lines:
+            shown = self._output_format.format(line=line, this=self)
+            self._loggers[fd - 1].info("%s", shown, extra={"from_process": True})
+
+    # the end
+
     def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
         # At Ctrl-C a terminal has sent SIGINT to its whole process group already.
         self._begin_stop(context, send_sigint=not event.due_to_sigint or context.noninteractive)
 
     def _begin_stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
         assert self._shutting_down is not None
-        assert context.asyncio_loop is not None
         if not self._shutting_down.is_set():
             self._shutting_down.set()
-            if send_sigint:
-                self._send_signal(signal.SIGINT)
-            context.add_completion_future(context.asyncio_loop.create_task(self._stop(context, send_sigint=False)))
+            self._stop(context, send_sigint=send_sigint)
 
-    async def _stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
-        """Escalate until the process has ended."""
+    def _stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
+        assert context.asyncio_loop is not None
+        if self._process is None or not self._process.running:
+            return
         if send_sigint:
             self._send_signal(signal.SIGINT)
+        context.add_completion_future(context.asyncio_loop.create_task(self._escalate(context, self._process)))
+
+    async def _escalate(self, context: LaunchContext, process: ChildProcess) -> None:
+        """Send SIGTERM, then SIGKILL, when the process does not end in time."""
         steps = ((signal.SIGINT, signal.SIGTERM, self._sigterm_timeout), (signal.SIGTERM, _SIGKILL, self._sigkill_timeout))
         for before, after, timeout in steps:
-            process = self._process
             text = perform_substitutions(context, timeout)
-            if process is None or not process.running or await process.wait(float(text)) is not None:
+            if await process.wait(float(text)) is not None:
                 return
             self._logger.error(
                 "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to '%s'",
@@ -344,12 +367,19 @@ class ExecuteLocal(Action):
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._name)
         process.send_signal(number)
 
+    # settings that are substitutions
+
+    def _output_choice(self, context: LaunchContext) -> Any:
+        return self._output if isinstance(self._output, dict) else perform_substitutions(context, self._output)
+
     def _performed_respawn(self, context: LaunchContext) -> bool:
         if isinstance(self._respawn, bool):
             return self._respawn
-        from launch.conditions import evaluate_condition_expression
-
         return evaluate_condition_expression(context, normalize_to_list_of_substitutions(self._respawn))
+
+    def _performed_emulate_tty(self, context: LaunchContext) -> bool:
+        fallback = str(self._emulate_tty)
+        return evaluate_condition_expression(context, [LaunchConfiguration("emulate_tty", default=fallback)])
 
 
 _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 from launch.actions.execute_local import ExecuteLocal
 from launch.descriptions import Executable
@@ -72,7 +72,7 @@ class ExecuteProcess(ExecuteLocal):
             kwargs["output_format"] = layout
         kwargs |= _typed_attributes(entity, parser)
         if "env" not in ignore:
-            variables = entity.get_attr("env", data_type=List[Entity], optional=True)
+            variables = entity.get_attr("env", data_type=list[Entity], optional=True)
             if variables is not None:
                 kwargs["additional_env"] = {
                     tuple(parser.parse_substitution(item.get_attr("name"))): parser.parse_substitution(item.get_attr("value"))

@@ -63,7 +63,8 @@ class GroupAction(Action):
         kept = [child for child in entity.children if child.type_name == "keep"]
         if kept:
             kwargs["launch_configurations"] = {
-                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value")) for child in kept
+                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value"))
+                for child in kept
             }
         kwargs["actions"] = [parser.parse_action(child) for child in entity.children if child.type_name != "keep"]
         return cls, kwargs

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
@@ -59,8 +59,8 @@ class IncludeLaunchDescription(Action):
         """Read an ``include`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
-        arguments = entity.get_attr("arg", data_type=List[Entity], optional=True) or []
-        arguments += entity.get_attr("let", data_type=List[Entity], optional=True) or []
+        arguments = entity.get_attr("arg", data_type=list[Entity], optional=True) or []
+        arguments += entity.get_attr("let", data_type=list[Entity], optional=True) or []
         kwargs["launch_arguments"] = [
             (parser.parse_substitution(argument.get_attr("name")), parser.parse_substitution(argument.get_attr("value")))
             for argument in arguments

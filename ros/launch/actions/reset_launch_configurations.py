@@ -27,9 +27,7 @@ class ResetLaunchConfigurations(Action):
         **kwargs: See :class:`Action`.
     """
 
-    def __init__(
-        self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any
-    ) -> None:
+    def __init__(self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._launch_configurations = dict(launch_configurations or {})
 

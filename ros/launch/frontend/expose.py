@@ -31,7 +31,7 @@ def _expose(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Cal
     def decorate(exposed: _Exposed) -> _Exposed:
         method = getattr(exposed, "parse", exposed)
         if not callable(method):
-            raise RuntimeError(f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method")
+            raise RuntimeError(f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method")  # noqa: TRY004  as in ROS 2
         if name in methods and methods[name] != method:
             raise RuntimeError(f"Two {kind}s are exposed as '{name}'")
         methods[name] = method

@@ -1,4 +1,4 @@
-"""Reads text with substitutions, ``hello $(var name)``, of launch files in XML and YAML.
+r"""Reads text with substitutions, ``hello $(var name)``, of launch files in XML and YAML.
 
 ``$(name argument ...)``: arguments are separated by blanks, quoted by ``'`` or ``"`` when they contain some, and may hold further
 substitutions. ``\\$``, ``\\'``, ``\\"`` and ``\\\\`` stand for the character alone.

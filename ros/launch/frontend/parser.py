@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 from functools import cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import action_parse_methods
+from launch.invalid_launch_file_error import InvalidLaunchFileError
 
 if TYPE_CHECKING:
     import io
@@ -18,10 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["InvalidFrontendLaunchFileError", "Parser"]
 
-_UNREADABLE = "The launch file may have a syntax error, or its format is unknown"
 
-
-class InvalidFrontendLaunchFileError(Exception):
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """No parser can read the file."""
 
 
@@ -40,19 +41,18 @@ class Parser:
         path = file if isinstance(file, str) else getattr(file, "name", "")
         suffix = os.path.splitext(str(path))[1].removeprefix(".")
         parsers = sorted(_parsers(), key=lambda parser: suffix not in parser.get_file_extensions())
-        reasons = []
+        errors: list[BaseException] = []
         for parser in parsers:
             try:
                 return parser.load(file)
-            except OSError:
+            except OSError:  # noqa: PERF203  two or three languages
                 raise
             except Exception as error:  # noqa: BLE001  each language says in its own way that a file is none of its kind
-                reasons.append((suffix in parser.get_file_extensions(), error))
+                if suffix in parser.get_file_extensions():
+                    errors.append(error)
                 if not isinstance(file, str):
                     file.seek(0)
-        error = InvalidFrontendLaunchFileError(_UNREADABLE)
-        error.__cause__ = reasons[0][1]
-        raise error
+        raise InvalidFrontendLaunchFileError(suffix, likely_errors=errors)
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
@@ -114,8 +114,8 @@ class Parser:
         return value
 
     def escape_characters(self, value: str) -> str:
-        """The text with characters escaped that would otherwise begin a substitution."""
-        return value.replace("\\", "\\\\").replace("$(", "\\$(").replace("'", "\\'").replace('"', '\\"')
+        r"""A text that holds no substitutions, with ``\$``, ``\'``, ``\"`` and ``\\`` replaced by the character alone."""
+        return re.sub(r"\\([$'\"\\])", r"\1", value)
 
 
 def _parsers() -> list[type[Parser]]:
@@ -130,8 +130,7 @@ def _load_extensions() -> None:
     """Import what exposes actions and substitutions: launch itself, and packages that say so by an entry point (launch_ros does)."""
     from importlib.metadata import entry_points
 
-    import launch.actions
-    import launch.substitutions
-
+    for module in ("launch.actions", "launch.substitutions"):
+        import_module(module)
     for entry in entry_points(group="launch.frontend.launch_extension"):
         entry.load()

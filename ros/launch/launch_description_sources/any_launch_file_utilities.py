@@ -33,6 +33,6 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     for loader in loaders:
         try:
             return loader(launch_file_path)
-        except Exception as error:  # noqa: BLE001  a launch file may raise anything
+        except Exception as error:  # noqa: BLE001, PERF203  a launch file may raise anything
             errors.append(error)
     raise InvalidLaunchFileError(extension, likely_errors=errors)

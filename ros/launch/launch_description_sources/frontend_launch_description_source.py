@@ -25,7 +25,11 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     """
 
     def __init__(
-        self, launch_file_path: SomeSubstitutionsType, *, method: str = "interpreted frontend launch file", parser: type[Parser] | None = None
+        self,
+        launch_file_path: SomeSubstitutionsType,
+        *,
+        method: str = "interpreted frontend launch file",
+        parser: type[Parser] | None = None,
     ) -> None:
         super().__init__(None, launch_file_path, method)
         self._parser = parser

@@ -5,10 +5,11 @@ Built on the standard library's ``logging``; its level names and constants are a
 
 from __future__ import annotations
 
-from launch.logging.config import LaunchConfig, get_logger, get_output_loggers, launch_config, log_launch_config, reset
-from launch.logging.directory import default_log_dir
 from logging import CRITICAL, DEBUG, ERROR, INFO, NOTSET, WARNING, Logger, getLevelName
 from logging import getLogger as getLogger
+
+from launch.logging.config import LaunchConfig, get_logger, get_output_loggers, launch_config, log_launch_config, reset
+from launch.logging.directory import default_log_dir
 
 __all__ = [
     "CRITICAL",

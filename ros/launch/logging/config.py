@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import logging
 import os
+import signal
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from launch.logging.directory import default_log_dir, make_launch_log_dir
 
@@ -53,17 +54,36 @@ class _Formatter(logging.Formatter):
         return self._fmt is not None and "created" in self._fmt
 
 
+class _ScreenHandler(logging.StreamHandler[TextIO]):
+    """Writes to stdout. When nobody reads there any more, the process ends as it would by SIGTERM: a launch stops what it runs."""
+
+    def __init__(self) -> None:
+        super().__init__(sys.stdout)
+        if hasattr(self.stream, "reconfigure"):
+            self.stream.reconfigure(errors="backslashreplace")  # processes write what the terminal's encoding may not have
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
+        if isinstance(sys.exc_info()[1], BrokenPipeError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
+            signal.raise_signal(signal.SIGTERM)
+        else:
+            super().handleError(record)
+
+
 class LaunchConfig:
     """Level, folder and formats of the logging of launches in this process."""
 
     def __init__(self) -> None:
+        self._log_handlers: dict[str, logging.Handler] = {}
         self.reset()
 
     def reset(self) -> None:
         """Back to the defaults; the next line that is written to a file makes a new folder."""
+        for handler in self._log_handlers.values():
+            handler.close()
+        self._log_handlers.clear()
         self._log_dir: str | None = None
         self._screen_handler: logging.Handler | None = None
-        self._log_handlers: dict[str, logging.Handler] = {}
         self._screen_format = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT") or _SCREEN_FORMAT
         self._log_format = os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT") or _LOG_FORMAT
 
@@ -106,7 +126,7 @@ class LaunchConfig:
     def get_screen_handler(self) -> logging.Handler:
         """The handler that writes to stdout."""
         if self._screen_handler is None:
-            self._screen_handler = logging.StreamHandler(sys.stdout)
+            self._screen_handler = _ScreenHandler()
             layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
             self._screen_handler.setFormatter(_Formatter(layout, colored=sys.stdout.isatty()))
         return self._screen_handler

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import datetime
+import datetime as dt
 import os
 import socket
 from pathlib import Path
@@ -25,7 +25,7 @@ def make_launch_log_dir(parent: str) -> str:
     Raises:
         OSError: It cannot be made.
     """
-    moment = datetime.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
+    moment = dt.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
     base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"
     base.mkdir(parents=True, exist_ok=True)
     # Not every file system has links, and another launch may make it at the same time: logging works without.

@@ -154,7 +154,7 @@ class AnySubstitution(_Many):
 
     def perform(self, context: LaunchContext) -> str:
         """``true`` or ``false``."""
-        return _text(any([as_bool(context, arg) for arg in self._args]))
+        return _text(any(as_bool(context, arg) for arg in self._args))
 
 
 @expose_substitution("all")
@@ -163,4 +163,4 @@ class AllSubstitution(_Many):
 
     def perform(self, context: LaunchContext) -> str:
         """``true`` or ``false``."""
-        return _text(all([as_bool(context, arg) for arg in self._args]))
+        return _text(all(as_bool(context, arg) for arg in self._args))

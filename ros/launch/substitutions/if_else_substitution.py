@@ -28,7 +28,9 @@ class IfElseSubstitution(Substitution):
         else_value: The text when it is false.
     """
 
-    def __init__(self, condition: SomeSubstitutionsType, if_value: SomeSubstitutionsType = "", else_value: SomeSubstitutionsType = "") -> None:
+    def __init__(
+        self, condition: SomeSubstitutionsType, if_value: SomeSubstitutionsType = "", else_value: SomeSubstitutionsType = ""
+    ) -> None:
         if if_value == "" and else_value == "":
             raise RuntimeError("One of if_value and else_value must be specified")
         self._condition = normalize_to_list_of_substitutions(condition)

@@ -41,4 +41,6 @@ def _substitution(item: object) -> Substitution:
         from launch.substitutions.text_substitution import TextSubstitution
 
         return TextSubstitution(text=str(item))
-    raise TypeError(f"Failed to normalize given item of type '{type(item)}', when only 'str', 'Path' or 'launch.Substitution' were expected.")
+    raise TypeError(
+        f"Failed to normalize given item of type '{type(item)}', when only 'str', 'Path' or 'launch.Substitution' were expected."
+    )

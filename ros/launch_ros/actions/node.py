@@ -6,16 +6,17 @@ import contextlib
 import os
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
+from launch import logging
 from launch.actions import ExecuteProcess
 from launch.actions.execute_process import split_command_line
 from launch.frontend import Entity, expose_action
-from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+from launch_ros.parameter_descriptions import Parameter, ParameterFile
 from launch_ros.substitutions import ExecutableInPackage
+from launch_ros.utilities.elements import parse_parameters, parse_remappings
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from launch_ros.utilities.node_names import add_node_name
 from launch_ros.utilities.parameter_values import evaluate_parameter_dict
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from launch.frontend import Parser
+    from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch_ros.parameters_type import SomeParameters
@@ -84,6 +86,7 @@ class Node(ExecuteProcess):
         self._expanded_namespace: str | None = None
         self._ros_arguments: list[str] = []
         self._made_files: list[str] = []
+        self._parameter_files: list[ParameterFile] = []
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type[Node], dict[str, Any]]:
@@ -96,18 +99,14 @@ class Node(ExecuteProcess):
         if ros_arguments is not None:
             kwargs["ros_arguments"] = split_command_line(parser.parse_substitution(ros_arguments))
         for attribute, keyword in (("exec", "executable"), ("pkg", "package"), ("name", "name"), ("namespace", "namespace")):
-            text = None if attribute in ignore else entity.get_attr(attribute, optional=attribute not in ("exec",))
+            text = None if attribute in ignore else entity.get_attr(attribute, optional=attribute != "exec")
             if text is not None:
                 kwargs[keyword] = parser.parse_substitution(text)
         exec_name = entity.get_attr("exec_name", optional=True)
         if exec_name is not None:
             kwargs["exec_name"] = parser.parse_substitution(exec_name)
-        rules = entity.get_attr("remap", data_type=List[Entity], optional=True)
-        if rules is not None:
-            kwargs["remappings"] = parse_remappings(rules, parser)
-        parameters = entity.get_attr("param", data_type=List[Entity], optional=True)
-        if parameters is not None:
-            kwargs["parameters"] = parse_parameters(parameters, parser)
+        kwargs["remappings"] = parse_remappings(entity, parser)
+        kwargs["parameters"] = parse_parameters(entity, parser)
         return cls, kwargs
 
     @property
@@ -171,9 +170,8 @@ class Node(ExecuteProcess):
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(path)
         self._made_files.clear()
-        for parameter in self._parameters:
-            if isinstance(parameter, ParameterFile):
-                parameter.cleanup()
+        for file in self._parameter_files:
+            file.cleanup()
 
     def _expand_names(self, context: LaunchContext) -> None:
         if self._node_name is not None:
@@ -204,10 +202,12 @@ class Node(ExecuteProcess):
             return ["-p", f"{name}:={yaml_text(value)}"]
         if hasattr(parameter, "items"):
             return ["--params-file", self._parameter_file(evaluate_parameter_dict(context, parameter))]
-        file = parameter if isinstance(parameter, ParameterFile) else ParameterFile(parameter)
+        # A file of our own: several nodes may be given the same one, and each removes its copy at its end.
+        file = parameter.copy() if isinstance(parameter, ParameterFile) else ParameterFile(parameter)
+        self._parameter_files.append(file)
         path = file.evaluate(context)
         if not path.is_file():
-            self._logger_before_start().warning("Parameter file path is not a file: %s", path)
+            logging.get_logger("launch_ros.actions.node").warning("Parameter file path is not a file: %s", path)
             return []
         return ["--params-file", str(path)]
 
@@ -224,64 +224,6 @@ class Node(ExecuteProcess):
         own = [(perform_substitutions(context, source), perform_substitutions(context, target)) for source, target in self._remappings]
         self._expanded_remappings = remaps(context) + own
         return [argument for source, target in self._expanded_remappings for argument in ("-r", f"{source}:={target}")]
-
-    def _logger_before_start(self) -> Any:
-        from launch import logging
-
-        return logging.get_logger("launch_ros.actions.node")
-
-
-def parse_remappings(rules: list[Entity], parser: Parser) -> list[tuple[list[Substitution], list[Substitution]]]:
-    """Read ``remap`` elements."""
-    pairs = [(parser.parse_substitution(rule.get_attr("from")), parser.parse_substitution(rule.get_attr("to"))) for rule in rules]
-    for rule in rules:
-        rule.assert_entity_completely_parsed()
-    return pairs
-
-
-def parse_parameters(parameters: list[Entity], parser: Parser) -> list[Any]:
-    """Read ``param`` elements: files by ``from``, values by ``name`` and ``value``, and nested ones.
-
-    Raises:
-        RuntimeError: An element has neither or too much.
-    """
-    parsed: list[Any] = []
-    for parameter in parameters:
-        path = parameter.get_attr("from", optional=True)
-        if path is None:
-            parsed.append(_parse_nested(parameter, parser))
-        else:
-            if parameter.get_attr("name", optional=True) is not None:
-                raise RuntimeError("name and from attributes are mutually exclusive")
-            allow = parameter.get_attr("allow_substs", data_type=bool, optional=True)
-            parsed.append(ParameterFile(parser.parse_substitution(path), allow_substs=bool(allow)))
-        parameter.assert_entity_completely_parsed()
-    return parsed
-
-
-_TYPES: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
-_TYPES |= {f"list_of_{name}": List[kind] for name, kind in _TYPES.items()}  # type: ignore[valid-type]
-
-
-def _parse_nested(parameter: Entity, parser: Parser) -> dict[Any, Any]:
-    name = tuple(parser.parse_substitution(parameter.get_attr("name")))
-    nested = parameter.get_attr("param", data_type=List[Entity], optional=True)
-    kind = parameter.get_attr("type", optional=True)
-    value = parameter.get_attr("value", data_type=None, optional=True)
-    if nested is not None and value is not None:
-        raise RuntimeError("nested parameters and value attributes are mutually exclusive")
-    if nested is not None:
-        inner: dict[Any, Any] = {}
-        for child in nested:
-            inner |= _parse_nested(child, parser)
-            child.assert_entity_completely_parsed()
-        return {name: inner}
-    if value is None:
-        raise RuntimeError("either a value attribute or nested parameters are needed")
-    if kind is not None and kind not in _TYPES:
-        raise RuntimeError(f"unknown type '{kind}' of a parameter; one of: {', '.join(_TYPES)}")
-    parsed = parser.parse_if_substitutions(value) if isinstance(value, str) else value
-    return {name: ParameterValue(parsed, value_type=_TYPES.get(kind) if kind else None)}
 
 
 def yaml_text(value: Any) -> str:

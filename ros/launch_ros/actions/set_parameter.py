@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 from launch.frontend import expose_action
 from launch_ros.parameter_descriptions import Parameter
+from launch_ros.utilities.elements import parse_value
 from launch_ros.utilities.scope import add_global_parameter
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class SetParameter(Action):
         """Read a ``set_parameter`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_if_substitutions(entity.get_attr("value", data_type=None))
+        kwargs["value"] = parse_value(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:

@@ -69,7 +69,9 @@ class ExecutableInPackage(Substitution):
         names = (executable, f"{executable}.exe")
         found = [path for path in executable_paths(package) or () if os.path.basename(path) in names]
         if not found:
-            raise SubstitutionFailure(f"executable '{executable}' not found on the libexec directory '{libexec_directory(prefix, package)}' ")
+            raise SubstitutionFailure(
+                f"executable '{executable}' not found on the libexec directory '{libexec_directory(prefix, package)}' "
+            )
         if len(found) > 1:
             raise SubstitutionFailure(f"multiple executables named '{executable}' found in the package '{package}': {found}")
         return found[0]

@@ -55,8 +55,10 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
     if isinstance(value, Substitution):
         return typed(perform_substitutions(context, [value]), None)
     if not hasattr(value, "__iter__") or hasattr(value, "items"):
-        raise TypeError(f"the parameter '{name}' has a value of type {type(value).__name__}; allowed are text, numbers, truth values, "
-                        "substitutions, and sequences of one of these")
+        raise TypeError(
+            f"the parameter '{name}' has a value of type {type(value).__name__}; allowed are text, numbers, truth values, "
+            "substitutions, and sequences of one of these"
+        )
     items = list(value)
     if items and any(isinstance(item, Substitution) for item in items) and all(isinstance(item, (str, Substitution)) for item in items):
         return typed(perform_substitutions(context, normalize_to_list_of_substitutions(items)), None)
