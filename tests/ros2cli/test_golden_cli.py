@@ -1,0 +1,81 @@
+"""The captured command lines of a real ROS 2, replayed; what deviates is listed here with its reason."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+REPLAY = Path(__file__).parents[1] / "golden" / "cli" / "replay.py"
+
+CPP = "turtlesim is a Python node here: it ends with an exception and status 1, where the C++ one aborts (250)"
+RCLCPP = "turtlesim is a Python node here: texts and parameters that rclcpp alone has"
+NO_DAEMON = "there is no daemon"
+CLEAN_END = "Ctrl-C ends without an error line"
+
+#: Cases that deviate on purpose. All others have to agree.
+DEVIATIONS = {
+    145: "order and number of the debug lines of launch are our own",
+    160: CLEAN_END,
+    **dict.fromkeys((161, 163, 164, 166, 167, 169, 170, 172), CPP),
+    **dict.fromkeys((175, 176, 332), NO_DAEMON),
+    **dict.fromkeys((223, 269, 316, 317, 322), CLEAN_END),
+    **dict.fromkeys((194, 238, 241, 242, 271, 272, 283, 284, 286, 298, 301, 302, 305, 326, 340, 343), RCLCPP),
+    200: "the capture was made on the blue field, the later ones on a field whose colour commands in between have changed",
+    314: "the first feedback may come before the answer to the goal",
+}
+
+
+def load_replay():
+    spec = importlib.util.spec_from_file_location("cli_replay", REPLAY)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+replay = load_replay()
+BLOCKS = replay.blocks(replay.load_cases())
+
+
+def disagreeing(block):
+    """Number and differences of the cases that do not agree."""
+    with replay.surroundings(block[0].number):
+        found = {case: replay.differences(case, replay.replay(case)) for case in block}
+    return {case.number: [case.command, *lines] for case, lines in found.items() if lines}
+
+
+def unexpected(found):
+    return {number: lines for number, lines in found.items() if number not in DEVIATIONS}
+
+
+def test_all_captures_are_read():
+    assert sum(len(block) for block in BLOCKS) == 210
+    assert sum(len(case.stdout) + len(case.stderr) > 0 for block in BLOCKS for case in block) > 190
+
+
+@pytest.mark.parametrize("first", [65, 91, 122, 146], ids=["usage", "packages", "errors", "ros_args"])
+def test_commands_without_nodes(first):
+    last = {65: 90, 91: 121, 122: 145, 146: 173}[first]
+    block = [case for case in BLOCKS[0] if first <= case.number <= last]
+    assert block
+    assert unexpected(disagreeing(block)) == {}
+
+
+def test_messages_of_all_kinds_are_shown():
+    block = BLOCKS[-1]
+    assert len(block) == 38
+    assert unexpected(disagreeing(block)) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_commands_beside_the_demo():
+    found = {}
+    for block in BLOCKS[1:-1]:
+        found |= disagreeing(block)
+    assert unexpected(found) == {}
+    everything = sum(len(block) for block in BLOCKS)
+    assert len(found) <= 0.2 * everything

@@ -1,0 +1,102 @@
+"""Questions to the graph."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cli import graph as ask
+from ros2cli.discovery import wait_until_discovered
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+HASH = "RIHS01_" + "0" * 64
+
+
+@pytest.fixture
+def context():
+    opened = open_context(middleware="local")
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
+def graph(context):
+    def kind(name):
+        return TypeId(name, HASH)
+
+    node = context.create_node("sim")
+    node.create_publisher("/pose", kind("turtlesim/msg/Pose"), QoS())
+    node.create_publisher("/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS())
+    node.create_service("/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS())
+    node.create_service("/turn/_action/send_goal", kind("a/action/B_SendGoal_Request"), kind("a/action/B_SendGoal_Response"), QoS())
+    other = context.create_node("listener", "/robot")
+    other.create_subscription("/pose", kind("turtlesim/msg/Pose"), QoS())
+    other.create_subscription("/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS())
+    other.create_client("/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS())
+    context.create_node("_hidden")
+    return context.graph
+
+
+def test_topics_and_services_hide_those_with_an_underscore(graph):
+    assert ask.topics(graph) == [("/pose", ["turtlesim/msg/Pose"])]
+    assert [name for name, _ in ask.topics(graph, hidden=True)] == ["/pose", "/turn/_action/feedback"]
+    assert ask.services(graph) == [("/spawn", ["turtlesim/srv/Spawn"])]
+    assert [name for name, _ in ask.services(graph, hidden=True)] == ["/spawn", "/turn/_action/send_goal"]
+
+
+def test_nodes(graph):
+    assert ask.node_names(graph) == ["/robot/listener", "/sim"]
+    assert "/_hidden" in ask.node_names(graph, hidden=True)
+    assert ask.node_exists(graph, "/_hidden")
+    assert not ask.node_exists(graph, "/nope")
+
+
+def test_what_a_node_has(graph):
+    assert ask.publishers(graph, "/sim") == [("/pose", ["turtlesim/msg/Pose"])]
+    assert ask.subscribers(graph, "/sim") == []
+    assert ask.subscribers(graph, "/robot/listener") == [("/pose", ["turtlesim/msg/Pose"])]
+    assert ask.service_servers(graph, "/sim") == [("/spawn", ["turtlesim/srv/Spawn"])]
+    assert ask.service_clients(graph, "/sim") == []
+    assert ask.service_clients(graph, "/robot/listener") == [("/spawn", ["turtlesim/srv/Spawn"])]
+
+
+def test_actions(graph):
+    assert ask.actions(graph) == [("/turn", ["turtlesim/action/RotateAbsolute"])]
+    assert ask.action_servers(graph, "/sim") == ask.action_clients(graph, "/robot/listener") == ask.actions(graph)
+    assert ask.action_nodes(graph, "/turn", "publisher") == [("/sim", ["turtlesim/action/RotateAbsolute"])]
+    assert ask.action_nodes(graph, "/turn", "subscription") == [("/robot/listener", ["turtlesim/action/RotateAbsolute"])]
+
+
+def test_a_complete_graph_is_not_waited_for(graph):
+    wait_until_discovered(graph)
+
+
+class Incomplete:
+    """A graph that is complete after some news."""
+
+    def __init__(self, news_needed):
+        self.news_needed = news_needed
+        self.listeners = []
+
+    def add_listener(self, listener):
+        self.listeners.append(listener)
+        if self.news_needed:
+            self.news_needed -= 1
+            listener()
+        return lambda: self.listeners.remove(listener)
+
+    def is_complete(self):
+        return not self.news_needed
+
+
+def test_news_end_the_wait_when_they_complete_the_graph():
+    graph = Incomplete(news_needed=1)
+    wait_until_discovered(graph)
+    assert graph.listeners == []
+
+
+def test_what_never_comes_is_not_waited_for_forever():
+    graph = Incomplete(news_needed=2)
+    wait_until_discovered(graph)
+    assert graph.listeners == []

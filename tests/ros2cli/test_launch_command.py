@@ -1,0 +1,58 @@
+"""What `ros2 launch` makes of its command line."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cli.commands import launch
+from ros2cli.main import main, make_parser
+
+
+def parsed(*words):
+    return make_parser(["launch", *words]).parse_args(["launch", *words])
+
+
+def test_a_path_comes_with_its_arguments(tmp_path):
+    file = tmp_path / "a.launch.py"
+    file.touch()
+    assert launch._file_and_arguments(parsed(str(file), "x:=1", "y:=2")) == (str(file), ["x:=1", "y:=2"])
+    assert launch._file_and_arguments(parsed(str(file))) == (str(file), [])
+
+
+def test_a_file_of_a_package_is_found_below_its_share_folder(tmp_path, monkeypatch):
+    share = tmp_path / "share" / "p" / "launch"
+    share.mkdir(parents=True)
+    index = tmp_path / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "p").touch()
+    (share / "a.launch.py").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert launch._file_and_arguments(parsed("p", "a.launch.py", "x:=1")) == (str(share / "a.launch.py"), ["x:=1"])
+    with pytest.raises(RuntimeError, match=r"was not found in the share directory[\s\S]*Did you mean: a.launch.py"):
+        launch._file_and_arguments(parsed("p", "b.launch.py"))
+    (tmp_path / "share/p/other").mkdir()
+    (tmp_path / "share/p/other/a.launch.py").touch()
+    with pytest.raises(RuntimeError, match=r"was found more than once in the share directory of package 'p': \['"):
+        launch._file_and_arguments(parsed("p", "a.launch.py"))
+
+
+def test_the_last_of_equal_arguments_counts():
+    assert launch._parsed_arguments(["x:=1", "y:=a:=b", "x:=2"]) == [("x", "2"), ("y", "a:=b")]
+
+
+@pytest.mark.parametrize("word", ["x", "x=1", ":=1", "x:="])
+def test_malformed_arguments(word):
+    with pytest.raises(RuntimeError, match=r"^malformed launch argument '.*', expected format '<name>:=<value>'$"):
+        launch._parsed_arguments([word])
+
+
+def test_a_path_that_is_not_there(capsys):
+    assert main(["launch", "./nope.launch.py"]) == 1
+    assert capsys.readouterr().err == "No launch file at './nope.launch.py'\n"
+
+
+def test_a_file_without_arguments_says_so(tmp_path, capsys):
+    file = tmp_path / "a.launch.py"
+    file.write_text("from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n")
+    assert main(["launch", str(file), "-s"]) == 0
+    assert capsys.readouterr().out == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"

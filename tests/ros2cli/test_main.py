@@ -1,0 +1,115 @@
+"""The ros2 command itself."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from ros2cli import main as ros2cli_main
+from ros2cli.commands import COMMANDS
+from ros2cli.main import main, make_parser
+
+
+def test_every_command_and_verb_can_be_loaded(capsys):
+    for command in COMMANDS:
+        with pytest.raises(SystemExit) as end:
+            main([command, "--help"])
+        assert end.value.code == 0
+        text = capsys.readouterr().out
+        parser = make_parser([command])
+        assert f"ros2 {command}" in text
+        choices = next(action for action in parser._actions if action.choices)
+        verbs = next((action.choices for action in choices.choices[command]._actions if action.choices and action.nargs == "A..."), {})
+        for verb in verbs:
+            with pytest.raises(SystemExit) as end:
+                main([command, verb, "--help"])
+            assert end.value.code == 0
+            assert f"ros2 {command} {verb}" in capsys.readouterr().out
+
+
+def test_without_a_command_the_help_is_shown(capsys):
+    assert main([]) == 0
+    assert "Commands:" in capsys.readouterr().out
+    assert main(["topic"]) == 0
+    assert "Verbs:" in capsys.readouterr().out
+
+
+def test_an_unknown_verb_is_refused(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["topic", "nope"])
+    assert end.value.code == 2
+    assert "invalid choice: 'nope'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("raised", "status", "told"),
+    [
+        (KeyboardInterrupt(), 2, ""),
+        (RuntimeError("no such thing"), 1, "no such thing\n"),
+        (KeyError("x"), 1, "KeyError: 'x'\n"),
+    ],
+)
+def test_what_a_verb_raises_becomes_one_line_and_a_status(monkeypatch, capsys, raised, status, told):
+    import ros2cli.commands.pkg.list as verb
+
+    def fail(_args):
+        raise raised
+
+    monkeypatch.setattr(verb, "main", fail)
+    assert main(["pkg", "list"]) == status
+    assert capsys.readouterr().err == told
+
+
+def test_the_hint_of_an_error_is_shown(monkeypatch, capsys):
+    import ros2cli.commands.pkg.list as verb
+    from turtlewire.errors import WireError
+
+    def fail(_args):
+        raise WireError("cannot join").with_hint("Do this instead.")
+
+    monkeypatch.setattr(verb, "main", fail)
+    assert main(["pkg", "list"]) == 1
+    assert capsys.readouterr().err.startswith("cannot join\nDo this instead.")
+
+
+@pytest.mark.parametrize("words", [["--help"], ["topic", "list", "--help"], ["pkg", "list"]])
+def test_light_commands_load_nothing_heavy(words):
+    program = f"""
+import sys
+from ros2cli.main import main
+try:
+    main({words!r})
+except SystemExit:
+    pass
+heavy = {{"numpy", "asyncio", "rclpy", "rich", "yaml", "launch", "turtlewire.msg"}} & set(sys.modules)
+print("loaded:", sorted(heavy))
+"""
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout.splitlines()[-1] == "loaded: []"
+
+
+def test_the_graph_verbs_need_no_rclpy():
+    program = """
+import sys
+from ros2cli.main import main
+status = main(["topic", "list"])
+print("status", status, sorted({"numpy", "asyncio", "rclpy", "turtlewire.msg"} & set(sys.modules)))
+"""
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout.splitlines() == ["/parameter_events", "/rosout", "status 0 []"]
+
+
+def test_a_reader_that_ends_early_is_no_error():
+    program = "from ros2cli.main import main; import sys; sys.exit(main(['interface', 'list']))"
+    command = f'{sys.executable} -c "{program}" | head -1'
+    result = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert result.stdout == "Messages:\n"
+    assert "Traceback" not in result.stderr
+
+
+def test_words_of_a_completion_are_taken_from_the_shell(monkeypatch):
+    monkeypatch.setenv("_ARGCOMPLETE", "1")
+    monkeypatch.setenv("COMP_LINE", "ros2 topic ec")
+    assert ros2cli_main._words_to_complete() == ["topic", "ec"]

@@ -1,0 +1,66 @@
+"""`ros2 run`: what it runs, and how it ends."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cli.main import main
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    index = tmp_path / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "p").touch()
+    library = tmp_path / "lib/p"
+    library.mkdir(parents=True)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+
+    def add(name, text):
+        script = library / name
+        script.parent.mkdir(exist_ok=True)
+        script.write_text(text)
+        script.chmod(0o755)
+
+    return add
+
+
+def test_arguments_are_passed_and_the_status_comes_back(package, capfd):
+    package("show", '#!/bin/sh\necho got "$@"\nexit 3\n')
+    assert main(["run", "p", "show", "--ros-args", "-r", "a:=b"]) == 3
+    assert capfd.readouterr().out == "got --ros-args -r a:=b\n[ros2run]: Process exited with failure 3\n"
+
+
+def test_a_signal_is_named(package, capfd):
+    package("die", "#!/bin/sh\nkill -TERM $$\n")
+    assert main(["run", "p", "die"]) == -15
+    assert capfd.readouterr().out == "[ros2run]: Terminated\n"
+
+
+def test_python_scripts_run_on_this_interpreter(package, capfd):
+    package("which", "#!/nowhere/bin/python3\nimport sys\nprint(sys.executable)\n")
+    assert main(["run", "p", "which"]) == 0
+    import sys
+
+    assert capfd.readouterr().out.strip() == sys.executable
+
+
+def test_a_prefix_comes_before_the_executable(package, capfd):
+    package("x", "#!/bin/sh\n")
+    assert main(["run", "--prefix", "echo before", "p", "x"]) == 0
+    assert capfd.readouterr().out.startswith("before ")
+
+
+def test_what_is_not_there(package, capfd):
+    package("turtle", "#!/bin/sh\n")
+    assert main(["run", "nope_pkg_x", "y"]) == 1
+    assert capfd.readouterr().err == "Package 'nope_pkg_x' not found\n"
+    assert main(["run", "p", "trutle"]) == 1
+    assert capfd.readouterr().err == "No executable found\nDid you mean: turtle\n"
+
+
+def test_executables_of_one_name(package, capfd):
+    package("x", "#!/bin/sh\n")
+    package("deeper/x", "#!/bin/sh\n")
+    assert main(["run", "p", "x"]) == 1
+    assert capfd.readouterr().err.startswith("Multiple executables found:\n- ")
