@@ -1,0 +1,1 @@
+"""Tools for tf2: view_frames draws the tree of frames."""

@@ -1,0 +1,122 @@
+"""Listens to tf for a while, and draws the tree of frames: ``frames_<date>.gv``, ``.pdf`` and ``.svg``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import time
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
+from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
+from tf2_tools.dot import dot_from_tree
+from tf2_tools.pdf import pdf_from_drawing
+from turtlewire.tf.drawing import svg_from_drawing
+from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
+from turtlewire.tf.tree_drawing import draw_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["ViewFrames", "main"]
+
+WAIT_TIME_S = 5.0
+INTERRUPTED = 130
+
+
+class ViewFrames(Node):
+    """Collects transforms from its construction on.
+
+    Args:
+        tf_topic: Where transforms that change come from.
+        tf_static_topic: Where transforms that stay come from.
+    """
+
+    def __init__(self, tf_topic: str = DEFAULT_TF_TOPIC, tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC) -> None:
+        super().__init__("view_frames")
+        self._buffer = Buffer(node=self)
+        self._listener = TransformListener(self._buffer, self, tf_topic=tf_topic, tf_static_topic=tf_static_topic)
+        self._topics = self.resolve_topic_name(tf_topic), self.resolve_topic_name(tf_static_topic)
+
+    def listen(self, wait_time_s: float) -> FrameTree:
+        """Collect for some seconds; what has been heard until then.
+
+        Raises:
+            ExternalShutdownException: The context was shut down meanwhile.
+        """
+        self.get_logger().info(f"Listening to tf data for {wait_time_s} seconds...")
+        rclpy.spin_until_future_complete(self, Future(), timeout_sec=wait_time_s)
+        if not self.context.ok():
+            raise ExternalShutdownException
+        tree = read_frame_tree(self._buffer)
+        if tree.links:
+            self.get_logger().info(f"Received {len(tree.children)} frames, {len(tree.links)} of them with a parent")
+        else:
+            self.get_logger().warning(
+                f"No tf data received on {self._topics[0]} and {self._topics[1]}. Is a broadcaster running, in this ROS_DOMAIN_ID?"
+            )
+        for loop in tree.loops:
+            self.get_logger().warning(f"These frames form a loop, no lookup across it works: {' -> '.join([*loop, loop[0]])}")
+        return tree
+
+    def write(self, tree: FrameTree, output: str) -> None:
+        """Write OUTPUT.gv, OUTPUT.pdf and OUTPUT.svg."""
+        recorded_time = f"{self.get_clock().now().nanoseconds / 1e9:.6f}"
+        drawing = draw_tree(tree, ("view_frames Result", f"Recorded at time: {recorded_time}"))
+        contents = {
+            ".gv": dot_from_tree(tree, recorded_time).encode(),
+            ".pdf": pdf_from_drawing(drawing),
+            ".svg": svg_from_drawing(drawing).encode(),
+        }
+        for ending, content in contents.items():
+            with open(output + ending, "wb") as file:
+                file.write(content)
+            self.get_logger().info(f"Wrote {os.path.abspath(output + ending)}")
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0.0 <= seconds < float("inf"):
+        raise ValueError
+    return seconds
+
+
+def _parse(args: Sequence[str]) -> Any:
+    parser = argparse.ArgumentParser(prog="view_frames", description="Draw the tree of frames that is published on tf.")
+    parser.add_argument("-t", "--wait-time", type=_seconds, default=WAIT_TIME_S, help="seconds to listen (default: %(default)s)")
+    parser.add_argument("-o", "--output", help="name of the files, without an ending (default: frames_<date>_<time>)")
+    parser.add_argument("--tf_topic", default=DEFAULT_TF_TOPIC, help="topic of transforms that change (default: %(default)s)")
+    parser.add_argument("--tf_static_topic", default=DEFAULT_STATIC_TF_TOPIC, help="topic of static transforms (default: %(default)s)")
+    parser.add_argument("--json", action="store_true", help="print the links as JSON, and write no files")
+    return parser.parse_args(args)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Listen, then write the files. The exit status: 1 if they cannot be written, 130 after Ctrl-C."""
+    wanted = _parse(remove_ros_args(args)[1:])
+    rclpy.init(args=args)
+    try:
+        with ViewFrames(wanted.tf_topic, wanted.tf_static_topic) as node:
+            tree = node.listen(wanted.wait_time)
+            if wanted.json:
+                print(json.dumps([link._asdict() for link in tree.links.values()], indent=2))  # noqa: T201 -- what was asked for
+                return 0
+            try:
+                node.write(tree, wanted.output or time.strftime("frames_%Y-%m-%d_%H.%M.%S"))
+            except OSError as error:
+                node.get_logger().error(f"Cannot write {error.filename}: {error.strerror}")
+                return 1
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return INTERRUPTED
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,81 @@
+"""How a buffer and a transform show themselves in a notebook."""
+
+from __future__ import annotations
+
+import math
+from html import escape
+from typing import TYPE_CHECKING
+
+from turtlewire.tf import conversions
+from turtlewire.tf.drawing import Drawing, Line, Shape, Text, svg_from_drawing, text_width
+from turtlewire.tf.frame_tree import Describes, read_frame_tree
+from turtlewire.tf.tree_drawing import draw_tree
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from turtlewire.tf.buffer import Transform
+
+__all__ = ["buffer_svg", "transform_html"]
+
+_AXIS_COLOURS = ("#d33f3f", "#3a9a3a", "#3f6fd3")
+_SIDE = 190.0
+_MARGIN = 34.0
+#: Where one looks from: half from the left, half from behind, and from above.
+_AZIMUTH, _ELEVATION = math.radians(-125.0), math.radians(28.0)
+
+
+def buffer_svg(buffer: Describes) -> str:
+    """The tree of a buffer as an SVG document."""
+    return svg_from_drawing(draw_tree(read_frame_tree(buffer)))
+
+
+def transform_html(transform: Transform) -> str:
+    """A transform in numbers, and the axes of its two frames as a picture."""
+    target, source = escape(transform.frame_id), escape(transform.child_frame_id)
+    roll, pitch, yaw = (f"{math.degrees(angle):.2f}" for angle in conversions.euler_from_quaternion(transform.rotation))
+    rows = {
+        "x, y, z": ", ".join(f"{value:.4f}" for value in transform.translation) + " m",
+        "distance": f"{math.hypot(*transform.translation):.4f} m",
+        "roll, pitch, yaw": f"{roll}, {pitch}, {yaw} °",
+        "quaternion x, y, z, w": ", ".join(f"{value:.5f}" for value in transform.rotation),
+        "stamp": f"{transform.stamp_ns} ns" if transform.stamp_ns else "0 (static)",
+    }
+    cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows.items())
+    return (
+        '<div style="display:flex;align-items:center;gap:1em">'
+        f"<table><caption>Where <b>{source}</b> is, seen from <b>{target}</b></caption>{cells}</table>"
+        f"{svg_from_drawing(_axes_of_both(transform))}</div>"
+    )
+
+
+def _axes_of_both(transform: Transform) -> Drawing:
+    target_from_source = conversions.matrix_from_pose((*transform.translation, *transform.rotation))
+    length = 0.4 * math.hypot(*transform.translation) or 1.0
+    frames = {transform.frame_id: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)}
+    frames[transform.child_frame_id] = _ends(target_from_source, length)
+    points = [point for ends in frames.values() for point in ends]
+    left, top = (min(point[i] for point in points) for i in (0, 1))
+    extent = max(max(point[i] for point in points) - start for i, start in ((0, left), (1, top)))
+    scale = (_SIDE - 2 * _MARGIN) / extent
+
+    def on_page(point: tuple[float, float]) -> tuple[float, float]:
+        return _MARGIN + scale * (point[0] - left), _MARGIN + scale * (point[1] - top)
+
+    shapes: list[Shape] = [Line(tuple(on_page(ends[0]) for ends in frames.values()), "#888888", dashed=True)]
+    for name, (origin, *axes) in frames.items():
+        x, y = on_page(origin)
+        shapes += [Line(((x, y), on_page(end)), colour, 2.0) for end, colour in zip(axes, _AXIS_COLOURS, strict=True)]
+        label = name if len(name) <= 24 else name[:23] + "…"
+        shapes.append(Text(min(max(2.0, x - text_width(label, 10) / 2), _SIDE - text_width(label, 10)), y + 14, label, 10, "#777777"))
+    return Drawing(_SIDE, _SIDE, tuple(shapes))
+
+
+def _ends(matrix: NDArray[np.float64], length: float) -> list[tuple[float, float]]:
+    """The origin and the tips of the axes of a frame as one sees them; y downwards."""
+    x, y, z = matrix[:3, 3, None] + length * matrix[:3, [3, 0, 1, 2]] * (0, 1, 1, 1)
+    towards = x * math.cos(_AZIMUTH) + y * math.sin(_AZIMUTH)
+    right = y * math.cos(_AZIMUTH) - x * math.sin(_AZIMUTH)
+    up = z * math.cos(_ELEVATION) - towards * math.sin(_ELEVATION)
+    return list(zip(right.tolist(), (-up).tolist(), strict=True))

@@ -1,0 +1,121 @@
+"""The picture of a tree of frames: a card for each frame, with the figures of the link to its parent."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.tf.drawing import Box, Drawing, Line, Shape, Text, text_width
+from turtlewire.tf.tidy_tree import tidy_positions
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from turtlewire.tf.frame_tree import FrameTree, Link
+
+__all__ = ["draw_tree"]
+
+_NAME_SIZE, _NOTE_SIZE = 12.0, 8.5
+_LINE = 11.0
+_PADDING, _GAP, _ROW_GAP, _MARGIN = 7.0, 14.0, 26.0, 12.0
+_LONGEST = 60
+_BORDER, _INK, _GREY, _RED = "#4a6785", "#1d2a36", "#66737f", "#c0392b"
+
+#: A tree that would be wider than this grows to the right instead of downwards.
+_WIDEST = 1400.0
+
+
+def draw_tree(tree: FrameTree, title: Sequence[str] = ()) -> Drawing:
+    """Draw all frames of a tree.
+
+    Args:
+        tree: What to draw.
+        title: Lines of text above the picture.
+    """
+    cards = {frame: _Card(tree, frame) for frame in tree.children}
+    heading, top = _heading(title if cards else (*title, "No tf data received"))
+    width = max((_MARGIN * 2 + text_width(line.text, line.size, bold=True) for line in heading), default=0.0)
+    across = tidy_positions(tree.roots, tree.children, {frame: card.width for frame, card in cards.items()}, _GAP)
+    right_edge = max((place + cards[frame].width / 2 for frame, (place, _) in across.items()), default=0.0)
+    sideways = right_edge > _WIDEST
+    if sideways:
+        across = tidy_positions(tree.roots, tree.children, {frame: card.height for frame, card in cards.items()}, _GAP)
+    rows = _rows(cards, across, sideways=sideways)
+    for frame, (place, row) in across.items():
+        card = cards[frame]
+        card.x, card.y = (rows[row], place - card.height / 2) if sideways else (place - card.width / 2, rows[row])
+        card.x, card.y = card.x + _MARGIN, card.y + top
+    lines = [_line(cards[parent], cards[child], sideways=sideways) for parent in tree.children for child in tree.children[parent]]
+    lines += [_loop_line(cards[tree.links[loop[0]].parent], cards[loop[0]]) for loop in tree.loops]
+    width = max([width, *(card.x + card.width + _MARGIN for card in cards.values())])
+    height = max([top, *(card.y + card.height + _MARGIN for card in cards.values())])
+    return Drawing(width, height, (*heading, *lines, *(shape for card in cards.values() for shape in card.shapes())))
+
+
+class _Card:
+    """A frame's box with its text; where it stands is decided later."""
+
+    def __init__(self, tree: FrameTree, frame: str) -> None:
+        link = tree.links.get(frame)
+        self.name = frame if len(frame) <= _LONGEST else frame[: _LONGEST - 1] + "…"
+        self.notes = _notes(link) if link else []
+        if any(frame == loop[0] for loop in tree.loops):
+            assert link is not None
+            self.notes.append(f"In a loop: its parent is {link.parent}")
+        widths = [text_width(self.name, _NAME_SIZE, bold=True), *(text_width(note, _NOTE_SIZE) for note in self.notes)]
+        self.width = max(widths) + 2 * _PADDING
+        self.height = _NAME_SIZE + _LINE * len(self.notes) + 2 * _PADDING
+        self.x = self.y = 0.0
+
+    def shapes(self) -> list[Shape]:
+        baseline = self.y + _PADDING + _NAME_SIZE - 2
+        notes = [
+            Text(self.x + _PADDING, baseline + _LINE * line, note, _NOTE_SIZE, _RED if note.startswith("In a loop") else _GREY)
+            for line, note in enumerate(self.notes, 1)
+        ]
+        name = Text(self.x + _PADDING, baseline, self.name, _NAME_SIZE, _INK, bold=True)
+        return [Box(self.x, self.y, self.width, self.height, _BORDER), name, *notes]
+
+
+def _notes(link: Link) -> list[str]:
+    if link.is_static:
+        return [f"Broadcaster: {link.broadcaster}", "Static transform"]
+    rate = f"{link.rate_hz:.3f} Hz" if link.length else "unknown, one time only"
+    return [
+        f"Broadcaster: {link.broadcaster}",
+        f"Average rate: {rate}",
+        f"Buffer length: {link.length:.3f} s",
+        f"Most recent transform: {link.newest:.6f}",
+        f"Oldest transform: {link.oldest:.6f}",
+    ]
+
+
+def _heading(title: Sequence[str]) -> tuple[list[Text], float]:
+    lines = [Text(_MARGIN, _MARGIN + _NAME_SIZE + 15 * line, text, _NAME_SIZE, _GREY, bold=line == 0) for line, text in enumerate(title)]
+    return lines, _MARGIN + 15 * len(lines) + (_NAME_SIZE if lines else 0.0)
+
+
+def _rows(cards: dict[str, _Card], across: dict[str, tuple[float, int]], *, sideways: bool) -> list[float]:
+    """Where each row begins: after the largest card of the row before."""
+    largest: dict[int, float] = {}
+    for frame, (_, row) in across.items():
+        size = cards[frame].width if sideways else cards[frame].height
+        largest[row] = max(largest.get(row, 0.0), size)
+    starts = [0.0]
+    for row in range(len(largest)):
+        starts.append(starts[-1] + largest[row] + _ROW_GAP)
+    return starts
+
+
+def _line(parent: _Card, child: _Card, *, sideways: bool) -> Line:
+    if sideways:
+        y, x = parent.y + parent.height / 2, child.x - _ROW_GAP / 2
+        to = child.y + child.height / 2
+        return Line(((parent.x + parent.width, y), (x, y), (x, to), (child.x, to)), _BORDER)
+    x, y = parent.x + parent.width / 2, child.y - _ROW_GAP / 2
+    to = child.x + child.width / 2
+    return Line(((x, parent.y + parent.height), (x, y), (to, y), (to, child.y)), _BORDER)
+
+
+def _loop_line(parent: _Card, child: _Card) -> Line:
+    ends = tuple((card.x + card.width / 4, card.y + card.height / 2) for card in (parent, child))
+    return Line(ends, _RED, 1.5, dashed=True)
