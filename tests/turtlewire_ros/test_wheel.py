@@ -1,0 +1,90 @@
+"""What the wheel brings for ament, colcon, rosdep and shells."""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+import yaml
+from defusedxml import ElementTree
+
+ROS = Path(__file__).parents[2] / "ros"
+DATA = "turtlewire_ros-0.1.0.data/data/"
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    build = "import sys, hatchling.build as b; b.build_wheel(sys.argv[1])"
+    subprocess.run([sys.executable, "-c", build, str(folder)], cwd=ROS, check=True, capture_output=True)
+    (path,) = folder.glob("*.whl")
+    with zipfile.ZipFile(path) as archive:
+        yield archive
+
+
+@pytest.fixture(scope="module")
+def packages():
+    return sorted(path.parent.name for path in ROS.glob("*/__init__.py"))
+
+
+def test_every_package_has_its_marks(wheel, packages):
+    names = set(wheel.namelist())
+    assert {"rclpy", "launch", "tf2_ros", "turtlesim", "geometry_msgs", "ros2cli"} <= set(packages)
+    for package in packages:
+        assert f"{DATA}share/ament_index/resource_index/packages/{package}" in names
+        assert f"{DATA}share/{package}/COLCON_IGNORE" in names
+        root = ElementTree.fromstring(wheel.read(f"{DATA}share/{package}/package.xml"))
+        assert (root.findtext("name"), root.findtext("version")) == (package, "0.1.0")
+        assert root.findtext("description")
+        assert root.findtext("export/build_type") == "ament_python"
+
+
+def test_nothing_but_packages_lies_beside_them(wheel):
+    tops = {name.split("/")[0] for name in wheel.namelist()}
+    assert {top for top in tops if "." in top and not top.startswith("turtlewire_ros-0.1.0.")} == set()
+
+
+def test_executables_are_scripts_that_can_be_run(wheel):
+    info = wheel.getinfo(f"{DATA}lib/turtlesim/turtlesim_node")
+    assert info.external_attr >> 16 & 0o111
+    script = wheel.read(info).decode()
+    assert script.startswith("#!/usr/bin/env python3\n")
+    compile(script, "turtlesim_node", "exec")
+
+
+def test_rosdep_finds_its_cache(wheel):
+    cache = f"{DATA}share/turtlewire/ros_home/rosdep/sources.cache/"
+    kind, url = wheel.read(f"{cache}index").decode().split()
+    assert kind == "yaml"
+    rules = yaml.safe_load(wheel.read(cache + hashlib.sha1(url.encode()).hexdigest()))
+    assert all(rule == {"*": {"pip": {"packages": []}}} for rule in rules.values())
+    assert {"python3-numpy", "python3-pytest", "ament_copyright"} <= set(rules)
+
+
+@pytest.mark.parametrize("name", ["setup.bash", "local_setup.bash", "local_setup.sh"])
+def test_shell_files_set_the_environment_once(wheel, tmp_path, name):
+    for file in ("setup.bash", "local_setup.bash", "local_setup.sh"):
+        (tmp_path / file).write_bytes(wheel.read(DATA + file))
+    show = 'echo "$AMENT_PREFIX_PATH|$ROS_DISTRO|$ROS_VERSION|$ROS_PYTHON_VERSION|$ROS_HOME|$ROS_LOG_DIR"'
+    shell = "bash" if name.endswith("bash") else "sh"
+    script = f"set -eu; . {tmp_path}/{name}; . {tmp_path}/{name}; {show}"
+    environment = {"HOME": str(tmp_path / "home"), "PATH": "/usr/bin:/bin", "TURTLEWIRE_PREFIX": str(tmp_path)}
+    result = subprocess.run([shell, "-c", script], capture_output=True, text=True, check=True, env=environment)
+    ros_home, logs = f"{tmp_path}/share/turtlewire/ros_home", f"{tmp_path}/home/.ros/log"
+    assert result.stdout.strip() == f"{tmp_path}|jazzy|2|3|{ros_home}|{logs}"
+    assert result.stderr == ""
+
+
+def test_a_users_own_rosdep_cache_is_left_alone(wheel, tmp_path):
+    (tmp_path / "local_setup.sh").write_bytes(wheel.read(f"{DATA}local_setup.sh"))
+    cache = tmp_path / ".ros/rosdep/sources.cache"
+    cache.mkdir(parents=True)
+    (cache / "index").touch()
+    environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "TURTLEWIRE_PREFIX": str(tmp_path)}
+    script = f'. {tmp_path}/local_setup.sh; echo "[${{ROS_HOME:-}}]"'
+    result = subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=True, env=environment)
+    assert result.stdout == "[]\n"
