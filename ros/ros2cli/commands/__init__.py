@@ -11,7 +11,7 @@ COMMANDS = {
     "launch": "Run a launch file",
     "node": "List nodes, show what one of them offers",
     "param": "Read and set parameters of nodes",
-    "pkg": "List packages, show where they are",
+    "pkg": "List and create packages",
     "run": "Run an executable of a package",
     "service": "List services, call one",
     "topic": "List topics, listen to one, publish to one",
