@@ -1,0 +1,109 @@
+"""What a node costs before it does anything: start, and rest."""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from benchmarks.figures import Figure, Row
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "rclpy: start-up, and an idle node"
+ROUNDS = 9
+IDLE_S = 5.0
+
+
+def rows() -> Iterator[Row]:
+    with tempfile.TemporaryDirectory() as cache:
+        environment = {
+            **os.environ,
+            "ROS_DOMAIN_ID": "103",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "PYTHONPYCACHEPREFIX": cache,
+            "PYTHONDONTWRITEBYTECODE": "",
+        }
+        start(environment)  # fills the cache of compiled modules
+        runs = [start(environment) for _ in range(ROUNDS)]
+        budgets = {
+            "import rclpy": "<= 50 ms (rclpy: 65 ms, the interpreter's 11 included)",
+            "import, init, node": "<= 100 ms (rclpy: 153 ms, likewise)",
+            "… and a String publisher and subscription": "(rclpy: 160 ms, likewise)",
+        }
+        for number, (what, budget) in enumerate(budgets.items()):
+            values = [run[number] * 1e9 for run in runs]
+            yield Row(what, Figure(min(values), statistics.median(values)), {}, budget)
+        idle = subprocess.run([sys.executable, "-m", __name__], env=environment, stdout=subprocess.PIPE, check=True)
+        switches, cpu = json.loads(idle.stdout)
+        yield Row("idle node: context switches each second, all threads", Figure(switches, switches, "/s"), {}, "< 5 /s")
+        yield Row("idle node: CPU", Figure(cpu, cpu, "%"))
+
+
+#: Prints the seconds since the interpreter was ready: after the import, after the node, after two endpoints. No module is loaded before.
+START = """
+import time
+begin = time.perf_counter()
+import rclpy
+moments = [time.perf_counter() - begin]
+from rclpy.node import Node
+rclpy.init(args=[])
+node = Node("started")
+moments.append(time.perf_counter() - begin)
+from std_msgs.msg import String
+node.create_publisher(String, "chatter", 10)
+node.create_subscription(String, "chatter", lambda _: None, 10)
+moments.append(time.perf_counter() - begin)
+print(moments)
+rclpy.shutdown()
+"""
+
+
+def start(environment: dict[str, str]) -> list[float]:
+    done = subprocess.run([sys.executable, "-c", START], env=environment, stdout=subprocess.PIPE, check=True)
+    return json.loads(done.stdout)
+
+
+def measure_idle() -> None:
+    """Context switches a second and CPU percent of a node that spins with nothing to do."""
+    import threading
+
+    import rclpy
+    from rclpy.executors import ExternalShutdownException
+
+    rclpy.init(args=[])
+    node = rclpy.create_node("idle")
+
+    def spin() -> None:
+        try:
+            rclpy.spin(node)
+        except ExternalShutdownException:
+            return
+
+    spinning = threading.Thread(target=spin)
+    spinning.start()
+    time.sleep(2.0)
+    switches, cpu = _context_switches(), time.process_time()
+    time.sleep(IDLE_S)
+    figures = ((_context_switches() - switches) / IDLE_S, (time.process_time() - cpu) / IDLE_S * 100)
+    rclpy.shutdown()
+    spinning.join()
+    print(json.dumps(figures))
+
+
+def _context_switches() -> int:
+    total = 0
+    for status in Path("/proc/self/task").glob("*/status"):
+        total += sum(int(line.split()[1]) for line in status.read_text().splitlines() if "ctxt_switches" in line)
+    return total
+
+
+if __name__ == "__main__":
+    measure_idle()
