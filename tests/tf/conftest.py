@@ -1,13 +1,19 @@
-"""Tests that take `Buffer` run on both cores."""
+"""Tests that take `buffer` or `core` run on both cores; `make_world` makes random trees with questions."""
 
 from __future__ import annotations
 
+import math
+import random
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import turtlewire
+
+TICK = 1_953_125  # ns; 1/512 s, which doubles hold exactly
 
 
 def cores() -> list[Any]:
@@ -23,7 +29,7 @@ def cores() -> list[Any]:
     return found
 
 
-@pytest.fixture(params=cores())
+@pytest.fixture(params=cores(), scope="session")
 def core(request: pytest.FixtureRequest) -> Any:
     """A module with `Buffer` and `Transform`."""
     return request.param
@@ -33,3 +39,84 @@ def core(request: pytest.FixtureRequest) -> Any:
 def buffer(core: Any) -> turtlewire.Buffer:
     made: turtlewire.Buffer = core.Buffer()
     return made
+
+
+class World:
+    """A tree that grows and moves, and is asked in between.
+
+    Operations: ("set", parent, child, stamp, pose, static), ("clear",), ("lookup", target, source, stamp),
+    ("full", target, stamp, source, stamp, fixed), ("common", target, source).
+
+    Args:
+        seed: Decides everything.
+        wild: Whether frames change their kind, one stamp gets several values, gaps exceed the cache, and loops close.
+    """
+
+    def __init__(self, seed: int, *, wild: bool) -> None:
+        self.random = random.Random(seed)
+        self.wild = wild
+        self.names = [f"f{i}" for i in range(self.random.choice([1, 2, 3, 5, 8, 20, 60]))]
+        self.static = {name: self.random.random() < 0.3 for name in self.names}
+        self.parents = {name: self.names[self.random.randrange(i)] for i, name in enumerate(self.names) if i}
+        self.now = 512 * self.random.randrange(1, 100)
+        self.sent: dict[tuple[str, int], tuple[Any, ...]] = {}
+        self.operations = list(self._operations())
+
+    def _operations(self) -> Any:
+        for _ in range(self.random.choice([5, 20, 60, 150])):
+            kind = self.random.random()
+            if kind < 0.01:
+                yield ("clear",)
+                self.sent.clear()
+            elif kind < 0.55 and self.parents:
+                yield self._sample()
+            else:
+                yield self._question()
+
+    def _sample(self) -> tuple[Any, ...]:
+        r = self.random
+        child = r.choice(list(self.parents))
+        if r.random() < 0.05:  # to another parent that is no descendant, unless loops are wanted
+            i = len(self.names) if self.wild else self.names.index(child)
+            self.parents[child] = r.choice([name for name in self.names[:i] if name != child])
+        self.now += r.choice([0, 1, 5, 50])
+        if self.wild and r.random() < 0.02:
+            self.now += 512 * 30
+            self.static[child] = not self.static[child]
+        stamp = self.now - (r.randrange(1, 512) if r.random() < 0.2 else 0)
+        known = self.sent.get((child, stamp))
+        if known and not (self.wild and r.random() < 0.7):
+            return known
+        operation = ("set", self.parents[child], child, stamp * TICK, self._pose(), self.static[child])
+        if not self.static[child]:
+            self.sent[child, stamp] = operation
+        return operation
+
+    def _pose(self) -> list[float]:
+        r = self.random
+        axis = [r.gauss(0, 1) for _ in range(3)]
+        length = math.sqrt(sum(a * a for a in axis)) or 1.0
+        half = r.choice([0.0, 1e-12, 1e-4, 0.1, 1.0, 3.1]) * r.uniform(-1, 1)
+        return [r.uniform(-5, 5) for _ in range(3)] + [math.sin(half) * a / length for a in axis] + [math.cos(half)]
+
+    def _stamp(self) -> int:
+        r = self.random
+        if r.random() < 0.2:
+            return 0
+        known = [stamp for _, stamp in list(self.sent)[-30:]] or [self.now]
+        return max(1, r.choice(known) + r.choice([0, 0, 1, -1, 3, -20, 40])) * TICK
+
+    def _question(self) -> tuple[Any, ...]:
+        r = self.random
+        target, source, fixed = (r.choice([*self.names, "nobody"] if r.random() < 0.05 else self.names) for _ in range(3))
+        kind = r.random()
+        if kind < 0.1:
+            return ("common", target, source)
+        if kind < 0.3:
+            return ("full", target, self._stamp(), source, self._stamp(), fixed)
+        return ("lookup", target, source, self._stamp())
+
+
+@pytest.fixture(scope="session")
+def make_world() -> Callable[..., World]:
+    return World

@@ -1,0 +1,202 @@
+"""Two cores and Debian's real tf2 agree on random worlds; the laws of rigid motion hold."""
+
+from __future__ import annotations
+
+import json
+import math
+import secrets
+import subprocess
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from turtlewire import errors
+from turtlewire.tf import plain
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import turtlewire
+
+DEBIAN = "/usr/bin/python3"
+ADAPTER = Path(__file__).parent / "rivals" / "debian_tf2.py"
+
+
+def perform(buffer: turtlewire.Buffer, operation: tuple[Any, ...]) -> Any:
+    """What a refused sample says; what a question answers: an int, [stamp, numbers], or the exception."""
+    kind, *arguments = operation
+    if kind == "set":
+        parent, child, stamp, pose, static = arguments
+        return buffer.set_transform(parent, child, stamp, pose[:3], pose[3:], static)
+    if kind == "clear":
+        return buffer.clear()
+    try:
+        if kind == "common":
+            return buffer.latest_common_time(*arguments)
+        found = buffer.lookup_transform(*arguments) if kind == "lookup" else buffer.lookup_transform_full(*arguments)
+    except errors.TransformException as error:
+        return error
+    return [found.stamp_ns, *found.translation, *found.rotation]
+
+
+def same_numbers(a: list[float], b: list[float], tolerance: float) -> bool:
+    """Equal stamps and poses; a quaternion whose sign hangs on rounding may have either."""
+    near = [math.isclose(x, y, rel_tol=tolerance, abs_tol=tolerance) for x, y in zip(a[1:], b[1:], strict=True)]
+    turned = all(math.isclose(x, -y, rel_tol=tolerance, abs_tol=tolerance) for x, y in zip(a[4:], b[4:], strict=True))
+    return a[0] == b[0] and all(near[:3]) and (all(near[3:]) or turned)
+
+
+@settings(max_examples=150)
+@given(st.integers(0, 2**32))
+def test_cores_agree(make_world: Callable[..., Any], seed: int) -> None:
+    native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+    fast, clear = native.Buffer(), plain.Buffer()
+    for operation in make_world(seed, wild=True).operations:
+        a, b = perform(fast, operation), perform(clear, operation)
+        assert fast._fault() == ""
+        assert clear._fault() == ""
+        if isinstance(b, list):
+            assert isinstance(a, list), (operation, a, b)
+            assert same_numbers(a, b, 1e-12), (operation, a, b)
+        elif isinstance(b, Exception):
+            assert (type(a), str(a), a.hint) == (type(b), str(b), b.hint)
+        else:
+            assert a == b, operation
+    assert fast.frame_strings() == clear.frame_strings()
+    assert fast.all_frames_as_yaml(1e9) == clear.all_frames_as_yaml(1e9)
+    assert fast.all_frames_as_dot(1e9) == clear.all_frames_as_dot(1e9)
+    assert [row[:7] for row in fast._describe_links()] == [row[:7] for row in clear._describe_links()]
+    assert fast._describe_refusals() == clear._describe_refusals()
+
+
+def compare_with_debian(make_world: Callable[..., Any], seeds: range) -> int:
+    native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
+    if subprocess.run([DEBIAN, "-c", "import tf2_py, rospy"], capture_output=True, check=False).returncode != 0:
+        pytest.skip("Debian's python3-tf2 is not installed: apt install python3-tf2 python3-tf2-ros")
+    worlds = [make_world(seed, wild=False) for seed in seeds]
+    asked = json.dumps([world.operations for world in worlds])
+    run = subprocess.run([DEBIAN, str(ADAPTER)], input=asked, capture_output=True, check=True, text=True)
+    expected = iter(json.loads(run.stdout))
+    cases = 0
+    for seed, world in zip(seeds, worlds, strict=True):
+        buffer = native.Buffer()
+        for operation in world.operations:
+            answer = perform(buffer, operation)
+            if operation[0] in {"set", "clear"}:
+                continue
+            truth = next(expected)
+            cases += 1
+            if isinstance(truth, str):
+                assert truth in [kind.__name__ for kind in type(answer).__mro__], (seed, operation, truth, answer)
+            elif isinstance(truth, list):
+                assert isinstance(answer, list), (seed, operation, truth, answer)
+                assert same_numbers(answer, truth, 1e-9), (seed, operation, truth, answer)
+            else:
+                assert answer == truth, (seed, operation, truth, answer)
+    return cases
+
+
+def test_equals_debian(make_world: Callable[..., Any]) -> None:
+    assert compare_with_debian(make_world, range(800)) >= 20_000
+
+
+@pytest.mark.slow
+def test_equals_debian_in_new_worlds(make_world: Callable[..., Any]) -> None:
+    first = secrets.randbelow(2**32)
+    assert compare_with_debian(make_world, range(first, first + 8000)) >= 200_000
+
+
+numbers = st.floats(-100, 100)
+angles = st.one_of(
+    st.floats(-math.pi, math.pi), st.floats(-1e-6, 1e-6), st.floats(math.pi - 1e-6, math.pi), st.sampled_from([0.0, math.pi, -math.pi])
+)
+
+
+@st.composite
+def poses(draw: Callable[[Any], Any]) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+    axis = [draw(st.floats(-1, 1)) for _ in range(3)]
+    length = math.sqrt(sum(a * a for a in axis))
+    assume(length > 1e-3)
+    half = draw(angles) / 2
+    x, y, z = (math.sin(half) * a / length for a in axis)
+    return (draw(numbers), draw(numbers), draw(numbers)), (x, y, z, math.cos(half))
+
+
+class TestLaws:
+    @given(poses(), poses())
+    def test_there_and_back(self, core: Any, one: Any, other: Any) -> None:
+        buffer = core.Buffer()
+        buffer.set_transform("a", "b", 1, *one)
+        buffer.set_transform("b", "c", 1, *other)
+        there, back = buffer.lookup_transform("a", "c").as_matrix(), buffer.lookup_transform("c", "a").as_matrix()
+        assert there @ back == pytest.approx(np.eye(4), abs=1e-11)
+        assert buffer.lookup_transform("a", "c").inverse().as_matrix() == pytest.approx(back, abs=1e-11)
+
+    @given(poses(), poses())
+    def test_neighbours_cancel(self, core: Any, one: Any, other: Any) -> None:
+        buffer = core.Buffer()
+        buffer.set_transform("a", "b", 1, *one)
+        buffer.set_transform("b", "c", 1, *other)
+        product = buffer.lookup_transform("a", "b").as_matrix() @ buffer.lookup_transform("b", "c").as_matrix()
+        assert buffer.lookup_transform("a", "c").as_matrix() == pytest.approx(product, abs=1e-11)
+
+    @given(poses())
+    def test_what_goes_in_comes_out(self, core: Any, pose: Any) -> None:
+        buffer = core.Buffer()
+        buffer.set_transform("a", "b", 1, *pose)
+        found = buffer.lookup_transform("a", "b")
+        assert found.translation == pytest.approx(pose[0], abs=1e-12)
+        sign = 1.0 if sum(x * y for x, y in zip(found.rotation, pose[1], strict=True)) > 0 else -1.0
+        assert [sign * x for x in found.rotation] == pytest.approx(pose[1], abs=1e-12)
+        assert math.hypot(*found.rotation) == pytest.approx(1.0, abs=1e-15)
+
+    @given(poses(), poses(), st.integers(1, 999))
+    def test_interpolation_moves_at_one_speed(self, core: Any, one: Any, other: Any, part: int) -> None:
+        cosine = abs(sum(x * y for x, y in zip(one[1], other[1], strict=True)))
+        assume(cosine > 1e-3)  # beyond half a turn apart the shorter way is a matter of rounding
+        buffer = core.Buffer()
+        buffer.set_transform("a", "b", 1000, *one)
+        buffer.set_transform("a", "b", 2000, *other)
+        begin, middle, end = (buffer.lookup_transform("a", "b", t) for t in (1000, 1000 + part, 2000))
+
+        def angle(p: Any, q: Any) -> float:
+            x, y, z, w = plain.poses.multiply(plain.poses.conjugate(p.rotation), q.rotation)
+            return 2 * math.atan2(math.hypot(x, y, z), abs(w))
+
+        assert angle(begin, middle) == pytest.approx(angle(begin, end) * part / 1000, abs=1e-7)
+        assert angle(middle, end) == pytest.approx(angle(begin, end) * (1 - part / 1000), abs=1e-7)
+
+
+def test_ingest_survives_mutated_messages(core: Any) -> None:
+    """A sample of what native/tests does a million times under the address sanitizer."""
+    import random
+
+    from turtlewire import msg
+
+    stamped = msg.get_message("geometry_msgs/msg/TransformStamped")
+    message = msg.get_message("tf2_msgs/msg/TFMessage")()
+    for i in range(3):
+        transform = stamped(child_frame_id=f"child{i}")
+        transform.header.frame_id = "parent"
+        transform.header.stamp.sec = 1 + i
+        message.transforms.append(transform)
+    good = msg.serialize(message)
+    r = random.Random(7)
+    buffer = core.Buffer()
+    rejected = 0
+    for _ in range(3000):
+        data = bytearray(good)
+        for _ in range(r.randrange(1, 4)):
+            data[r.randrange(len(data))] = r.choice([0, 1, 0x7F, 0xFF, r.randrange(256)])
+        del data[r.choice([len(data), r.randrange(len(data))]) :]
+        try:
+            buffer.ingest(bytes(data))
+        except errors.CdrError:
+            rejected += 1
+    assert rejected > 500
+    assert buffer._fault() == ""
+    assert core.Buffer().ingest(good) == 3
