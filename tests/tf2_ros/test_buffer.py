@@ -5,15 +5,21 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
+from contextlib import suppress
+from functools import partial
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import ClockType, ROSClock
+from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import Buffer, TransformBroadcaster, TransformListener
 
@@ -287,3 +293,47 @@ def test_deadlines_come_in_order_and_leave_no_thread():
     again = threading.Event()
     deadlines.call_after(0.0, again.set)
     assert again.wait(10)
+
+
+@given(
+    delays=st.lists(st.floats(0.0, 0.01), min_size=1, max_size=4),
+    timeout=st.floats(0.0, 0.02),
+    shut_down=st.booleans(),
+)
+@settings(max_examples=25)
+def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
+    """Whatever comes before the timeout, after it or never, the callback returns and the executor goes on."""
+    context = Context()
+    context.init(args=[])
+    node, buffer = Node("waits", context=context), Buffer()
+    TransformListener(buffer, node)
+    broadcaster, ended = TransformBroadcaster(node), []
+
+    def wait(number):
+        try:
+            found = buffer.lookup_transform("world", f"robot{number}", Time(), Duration(seconds=timeout))
+            ended.append(found.child_frame_id)
+        except tf2_ros.TransformException as error:
+            ended.append(type(error))
+
+    def send(number):
+        transform = TransformStamped(child_frame_id=f"robot{number}")
+        transform.header.frame_id = "world"
+        with suppress(Exception):  # the context may be shut down already
+            broadcaster.sendTransform(transform)
+
+    timers = [node.create_timer(0.001, partial(wait, number), callback_group=ReentrantCallbackGroup()) for number in range(len(delays))]
+    feeders = [threading.Timer(delay, send, [number]) for number, delay in enumerate(delays)]
+    for feeder in feeders:
+        feeder.start()
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    while len(ended) < len(timers):
+        executor.spin_once(timeout_sec=10)
+    if shut_down:
+        context.shutdown()
+    for feeder in feeders:
+        feeder.join()
+    node.destroy_node()
+    context.try_shutdown()
+    assert all(outcome == tf2_ros.LookupException or str(outcome).startswith("robot") for outcome in ended)

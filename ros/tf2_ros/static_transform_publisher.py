@@ -1,0 +1,187 @@
+"""`ros2 run tf2_ros static_transform_publisher`: tells where a frame stands that does not move."""
+
+from __future__ import annotations
+
+import random
+import string
+import sys
+from typing import TYPE_CHECKING, NamedTuple
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.utilities import remove_ros_args
+from tf_transformations import quaternion_from_euler
+
+from .static_transform_broadcaster import StaticTransformBroadcaster
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Placement", "StaticTransformPublisher", "main", "parse"]
+
+_USAGE = """usage: static_transform_publisher --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
+           [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW] [--roll ROLL] [--pitch PITCH] [--yaw YAW]
+
+Tells where the child frame stands in the frame: a translation in metres, and a rotation either as a quaternion or as
+roll, pitch and yaw in radians about the fixed axes x, y and z. What is not given is zero.
+
+old style, deprecated (mind the order of the angles):
+       static_transform_publisher X Y Z QX QY QZ QW FRAME_ID CHILD_FRAME_ID
+       static_transform_publisher X Y Z YAW PITCH ROLL FRAME_ID CHILD_FRAME_ID"""
+
+_NUMBERS = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", "--roll", "--pitch", "--yaw")
+_TEXTS = ("--frame-id", "--child-frame-id")
+_QUATERNION = ("--qx", "--qy", "--qz", "--qw")
+_EULER = ("--roll", "--pitch", "--yaw")
+
+
+class ArgumentsError(Exception):
+    """The command line is wrong; the text is ROS 2's."""
+
+
+class Placement(NamedTuple):
+    """Where a frame stands.
+
+    Attributes:
+        translation: x, y, z in metres.
+        rotation: Quaternion x, y, z, w.
+        frame_id: The parent.
+        child_frame_id: The frame.
+        old_style: Whether it was given in the old style.
+    """
+
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    frame_id: str
+    child_frame_id: str
+    old_style: bool = False
+
+
+def parse(arguments: Sequence[str]) -> Placement:
+    """Read the command line, without the program's name and without ``--ros-args``.
+
+    Raises:
+        ArgumentsError: It is wrong.
+    """
+    flags: dict[str, str] = {}
+    rest = []
+    words = iter(arguments)
+    for word in words:
+        if word in _NUMBERS or word in _TEXTS:
+            flags[word] = next(words, "")
+            if not flags[word] and word in _NUMBERS:
+                raise ArgumentsError(f"Not enough arguments for {word}")
+        else:
+            rest.append(word)
+    if flags and len(rest) in {8, 9}:
+        raise ArgumentsError("Cannot specify both new-style (flags) and old-style (arguments)")
+    if len(rest) in {8, 9}:
+        return _checked(_old_style(rest))
+    if rest:
+        raise ArgumentsError("Extra unparsed arguments on command-line")
+    return _checked(_new_style(flags))
+
+
+def _new_style(flags: dict[str, str]) -> Placement:
+    number = {flag: _float(flags[flag], flag) if flag in flags else 0.0 for flag in _NUMBERS}
+    if any(flag in flags for flag in _QUATERNION) and any(flag in flags for flag in _EULER):
+        raise ArgumentsError("Cannot specify both quaternion and Euler rotations")
+    if any(flag in flags for flag in _QUATERNION):
+        rotation = (number["--qx"], number["--qy"], number["--qz"], number["--qw"] if "--qw" in flags else 1.0)
+    else:
+        rotation = quaternion_from_euler(*(number[flag] for flag in _EULER))
+    translation = (number["--x"], number["--y"], number["--z"])
+    return Placement(translation, rotation, flags.get("--frame-id", ""), flags.get("--child-frame-id", ""))
+
+
+def _old_style(words: list[str]) -> Placement:
+    names = ("x", "y", "z", "qx", "qy", "qz", "qw") if len(words) == 9 else ("x", "y", "z", "yaw", "pitch", "roll")
+    x, y, z, *turn = (_float(word, name) for word, name in zip(words, names, strict=False))
+    rotation = (turn[0], turn[1], turn[2], turn[3]) if len(turn) == 4 else quaternion_from_euler(turn[2], turn[1], turn[0])
+    return Placement((x, y, z), rotation, words[-2], words[-1], old_style=True)
+
+
+def _float(word: str, name: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise ArgumentsError(f"Failed to parse {name} argument as float") from None
+
+
+def _checked(placement: Placement) -> Placement:
+    if not placement.frame_id:
+        raise ArgumentsError("Frame id must not be empty")
+    if not placement.child_frame_id:
+        raise ArgumentsError("Child frame id must not be empty")
+    return placement
+
+
+class StaticTransformPublisher(Node):
+    """Publishes one static transform; its parameters tell which.
+
+    Args:
+        placement: Where the frame stands.
+
+    Raises:
+        RuntimeError: A frame cannot stand in itself.
+    """
+
+    def __init__(self, placement: Placement) -> None:
+        suffix = "".join(random.choices(string.ascii_letters + string.digits, k=16))  # noqa: S311 -- a name, no secret
+        super().__init__(f"static_transform_publisher_{suffix}")
+        transform = TransformStamped()
+        read_only = ParameterDescriptor(read_only=True)
+        for part, names in (("translation", "xyz"), ("rotation", "xyzw")):
+            for name, number in zip(names, getattr(placement, part), strict=True):
+                value = self.declare_parameter(f"{part}.{name}", number, read_only).value
+                setattr(getattr(transform.transform, part), name, value)
+        transform.header.frame_id = self.declare_parameter("frame_id", placement.frame_id, read_only).value
+        transform.child_frame_id = self.declare_parameter("child_frame_id", placement.child_frame_id, read_only).value
+        if transform.header.frame_id == transform.child_frame_id:
+            raise RuntimeError("child_frame_id cannot equal frame_id")
+        transform.header.stamp = self.get_clock().now().to_msg()
+        self._broadcaster = StaticTransformBroadcaster(self)
+        self._broadcaster.sendTransform(transform)
+        self.transform = transform
+
+    def describe(self) -> str:
+        """What is published, as ROS 2 says it."""
+        t, q = self.transform.transform.translation, self.transform.transform.rotation
+        return (
+            "Spinning until stopped - publishing transform\n"
+            f"translation: ('{t.x:f}', '{t.y:f}', '{t.z:f}')\n"
+            f"rotation: ('{q.x:f}', '{q.y:f}', '{q.z:f}', '{q.w:f}')\n"
+            f"from '{self.transform.header.frame_id}' to '{self.transform.child_frame_id}'"
+        )
+
+
+def main(args: list[str] | None = None) -> int:
+    """Publish until stopped; the exit status."""
+    argv = sys.argv if args is None else args
+    words = remove_ros_args(argv)[1:]
+    if {"-h", "--help"} & {*words}:
+        print(_USAGE)  # noqa: T201 -- what was asked for
+        return 0
+    try:
+        placement = parse(words)
+    except ArgumentsError as error:
+        print(f"error parsing command line arguments: {error}\n{_USAGE}", file=sys.stderr)  # noqa: T201
+        return 1
+    rclpy.init(args=argv)
+    try:
+        node = StaticTransformPublisher(placement)
+        if placement.old_style:
+            node.get_logger().warning("Old-style arguments are deprecated; see --help for new-style arguments")
+        node.get_logger().info(node.describe())
+        rclpy.spin(node)
+    except RuntimeError as error:
+        print(error, file=sys.stderr)  # noqa: T201
+        return 1
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+    return 0

@@ -1,0 +1,153 @@
+"""`ros2 run tf2_ros tf2_echo SOURCE TARGET [RATE]`: prints where a frame is, seen from another, again and again."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+import threading
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from rclpy.utilities import remove_ros_args
+from tf_transformations import euler_from_quaternion
+from turtlewire.errors import TransformException
+
+from .buffer import Buffer
+from .transform_listener import TransformListener
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+
+__all__ = ["as_json", "describe", "in_words", "main"]
+
+_BAD_RATE = "Failed to convert rate argument '%s' to a floating-point number"
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print until stopped; the exit status: 1 for a wrong command line, 2 for a rate that is no number, 3 for one that is not positive."""
+    argv = sys.argv if args is None else args
+    options = _parser().parse_args(remove_ros_args(argv)[1:])
+    try:
+        rate = float(options.rate)
+    except ValueError:
+        print(_BAD_RATE % options.rate, file=sys.stderr)  # noqa: T201
+        return 2
+    if not 0.0 < rate < math.inf:
+        print(f"Echo rate must be > 0.0, got '{options.rate}'", file=sys.stderr)  # noqa: T201
+        return 3
+    rclpy.init(args=argv)
+    try:
+        _echo(options, 1.0 / rate)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> Any:
+        self.print_usage(sys.stderr)
+        self.exit(1, f"{self.prog}: {message}\n")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="tf2_echo", description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.")
+    parser.add_argument("source_frame", help="the frame that looks")
+    parser.add_argument("target_frame", help="the frame that is looked at")
+    parser.add_argument("rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)")
+    parser.add_argument("-p", "--precision", type=int, default=3, help="digits after the point (default: %(default)s)")
+    parser.add_argument("-n", "--limit", type=int, default=0, help="end after so many transforms")
+    parser.add_argument("--degrees", action="store_true", help="angles in degrees only")
+    parser.add_argument("--distance", action="store_true", help="the distance too")
+    parser.add_argument("--json", action="store_true", help="one JSON object in a line for each transform")
+    return parser
+
+
+def _echo(options: argparse.Namespace, period_s: float) -> None:
+    node, buffer, stopped = Node("tf2_echo"), Buffer(), threading.Event()
+    rclpy.get_default_context().on_shutdown(stopped.set)
+    TransformListener(buffer, node)
+    source, target = options.source_frame, options.target_frame
+    count = 0
+    while not stopped.is_set():
+        known, reason = buffer.can_transform(source, target, Time(), Duration(seconds=1), return_debug_tuple=True)
+        if known:
+            break
+        node.get_logger().info(f"Waiting for transform {source} ->  {target}: {reason}")
+    while not stopped.is_set():
+        try:
+            transform = buffer.lookup_transform(source, target, Time())
+        except TransformException as error:
+            print(f"Failure at {node.get_clock().now().nanoseconds / 1e9:f}")  # noqa: T201
+            print(f"Exception thrown:{error}\nThe current list of frames is:\n{buffer.all_frames_as_string()}", flush=True)  # noqa: T201
+        else:
+            print(as_json(transform) if options.json else describe(transform, options), flush=True)  # noqa: T201
+            count += 1
+        if count == options.limit > 0 or stopped.wait(period_s):
+            return
+
+
+def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
+    """One transform in lines, as ROS 2 prints it, with the stamp's nanoseconds padded and a last line in words."""
+    t, q = transform.transform.translation, transform.transform.rotation
+    stamp, digits = transform.header.stamp, options.precision
+
+    def row(numbers: Any) -> str:
+        return ", ".join(f"{number:.{digits}f}" for number in numbers)
+
+    angles = euler_from_quaternion((q.x, q.y, q.z, q.w))
+    lines = [
+        f"At time {stamp.sec}.{stamp.nanosec:09d}",
+        f"- Translation: [{row((t.x, t.y, t.z))}]",
+        f"- Rotation: in Quaternion [{row((q.x, q.y, q.z, q.w))}]",
+    ]
+    if not options.degrees:
+        lines.append(f"- Rotation: in RPY (radian) [{row(angles)}]")
+    lines.append(f"- Rotation: in RPY (degree) [{row(math.degrees(angle) for angle in angles)}]")
+    lines.append("- Matrix:")
+    lines += [" ".join(f"{number:{digits + 3}.{digits}f}" for number in numbers) for numbers in _matrix(t, q)]
+    if options.distance:
+        lines.append(f"- Distance: {math.hypot(t.x, t.y, t.z):.{digits}f}")
+    return "\n".join([*lines, f"- In words: {in_words(transform, digits)}"])
+
+
+def _matrix(t: Any, q: Any) -> list[list[float]]:
+    from tf_transformations import quaternion_matrix
+
+    matrix: list[list[float]] = quaternion_matrix((q.x, q.y, q.z, q.w)).tolist()
+    for row, offset in zip(matrix, (t.x, t.y, t.z), strict=False):
+        row[3] = offset
+    return matrix
+
+
+def in_words(transform: TransformStamped, digits: int = 2) -> str:
+    """Where the child frame is, seen from the frame of the header; x is ahead, y to the left, z up."""
+    t = transform.transform.translation
+    parts = [
+        f"{abs(number):.{digits}f} m {positive if number >= 0 else negative}"
+        for number, positive, negative in ((t.x, "ahead", "behind"), (t.y, "to the left", "to the right"), (t.z, "above", "below"))
+        if round(abs(number), digits) > 0
+    ]
+    place = ", ".join(parts) if parts else "at the same place"
+    return f"seen from {transform.header.frame_id}, {transform.child_frame_id} is {place}"
+
+
+def as_json(transform: TransformStamped) -> str:
+    """One transform as a JSON object in one line."""
+    t, q = transform.transform.translation, transform.transform.rotation
+    return json.dumps(
+        {
+            "source_frame": transform.header.frame_id,
+            "target_frame": transform.child_frame_id,
+            "stamp_ns": transform.header.stamp.sec * 1_000_000_000 + transform.header.stamp.nanosec,
+            "translation": [t.x, t.y, t.z],
+            "rotation_xyzw": [q.x, q.y, q.z, q.w],
+            "rpy": list(euler_from_quaternion((q.x, q.y, q.z, q.w))),
+        }
+    )

@@ -1,0 +1,232 @@
+"""`ros2 run tf2_ros tf2_monitor [SOURCE TARGET]`: how late and how often transforms come, and from whom."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import threading
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+from rclpy.node import Node
+from rclpy.time import Time
+from rclpy.utilities import remove_ros_args
+from turtlewire import msg
+from turtlewire.errors import TransformException
+from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME
+from turtlewire.wire.base import TypeId
+
+from .buffer import Buffer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import MessageInfo
+
+__all__ = ["Statistics", "main"]
+
+#: ROS 2's name for a publisher that nobody claims.
+NOBODY = "<no authority available>"
+
+
+class Delays:
+    """Count, mean and maximum of delays, in seconds."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.total = self.maximum = 0.0
+
+    def add(self, seconds: float) -> None:
+        """Take one more."""
+        self.count += 1
+        self.total += seconds
+        self.maximum = seconds if self.count == 1 else max(self.maximum, seconds)
+
+    @property
+    def mean(self) -> float:
+        """The mean; 0 without any."""
+        return self.total / self.count if self.count else 0.0
+
+
+class Statistics:
+    """What came, by frame and by publisher. Fed on the wire's thread, read on another.
+
+    Args:
+        name_of: Names a publisher by its gid.
+        now: The time that delays are counted to, seconds.
+    """
+
+    def __init__(self, name_of: Callable[[bytes], str], now: Callable[[], float]) -> None:
+        self._name_of = name_of
+        self._now = now
+        self._lock = threading.Lock()
+        self._names: dict[bytes, str] = {}
+        self._frames: dict[str, tuple[str, Delays]] = {}
+        self._publishers: dict[str, tuple[Delays, list[float]]] = {}
+
+    def take(self, message: Any, info: MessageInfo) -> None:
+        """Count a ``TFMessage``."""
+        gid, now = info.publisher_gid, self._now()
+        name = self._names.get(gid) or self._name_of(gid)
+        if name != NOBODY:
+            self._names[gid] = name
+        with self._lock:
+            delays, span = self._publishers.setdefault(name, (Delays(), [now, now]))
+            span[1] = now
+            for transform in message.transforms:
+                delay = now - (transform.header.stamp.sec + transform.header.stamp.nanosec / 1e9)
+                delays.add(delay)
+                _, of_frame = self._frames.get(transform.child_frame_id, ("", Delays()))
+                of_frame.add(delay)
+                self._frames[transform.child_frame_id] = (name, of_frame)
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as plain data, seconds and hertz."""
+        with self._lock:
+            return {
+                "frames": [
+                    {"frame": frame, "published_by": name, "average_delay": delays.mean, "max_delay": delays.maximum}
+                    for frame, (name, delays) in self._frames.items()
+                ],
+                "broadcasters": [
+                    {"node": name, "rate": _rate(delays, span), "average_delay": delays.mean, "max_delay": delays.maximum}
+                    for name, (delays, span) in self._publishers.items()
+                ],
+            }
+
+
+def _rate(delays: Delays, span: list[float]) -> float:
+    return (delays.count - 1) / (span[1] - span[0]) if span[1] > span[0] else 0.0
+
+
+def main(args: list[str] | None = None) -> int:
+    """Gather and report until stopped; the exit status."""
+    argv = sys.argv if args is None else args
+    options = _parser().parse_args(remove_ros_args(argv)[1:])
+    if len(options.frames) not in {0, 2}:
+        print("tf2_monitor: give two frames, or none for all", file=sys.stderr)  # noqa: T201
+        return 1
+    rclpy.init(args=argv)
+    try:
+        _monitor(options)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="tf2_monitor", description="Tell how late and how often transforms come, and from whom.")
+    parser.add_argument("frames", nargs="*", metavar="FRAME", help="the two frames whose chain to watch; none for all")
+    parser.add_argument("--period", type=float, default=10.0, help="seconds between reports (default: %(default)s)")
+    parser.add_argument("-n", "--limit", type=int, default=0, help="end after so many reports")
+    parser.add_argument("--json", action="store_true", help="one JSON object in a line for each report")
+    return parser
+
+
+def _monitor(options: argparse.Namespace) -> None:
+    node, buffer, stopped = Node("tf2_monitor"), Buffer(), threading.Event()
+    rclpy.get_default_context().on_shutdown(stopped.set)
+    clock = node.get_clock()
+    statistics = Statistics(lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9)
+    net = Delays()
+    _subscribe(node, buffer, statistics, lambda: _note_chain(options.frames, buffer, net, clock))
+    if not options.json:
+        print(f"Gathering data on {'all frames' if not options.frames else 'the chain'} for {options.period:g} seconds...", flush=True)  # noqa: T201
+    count = 0
+    while not stopped.wait(options.period):
+        print(_report(options, buffer, statistics, net), flush=True)  # noqa: T201 -- the report
+        count += 1
+        if count == options.limit:
+            return
+
+
+def _subscribe(node: Node, buffer: Buffer, statistics: Statistics, on_data: Callable[[], None]) -> None:
+    message_class = msg.get_message(TYPE_NAME)
+    type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+    for topic, qos in ((TOPIC, QOS), (STATIC_TOPIC, STATIC_QOS)):
+
+        def receive(cdr: bytes, info: MessageInfo, *, static: bool = topic == STATIC_TOPIC) -> None:
+            buffer.engine.ingest(cdr, static=static)
+            statistics.take(msg.deserialize(message_class, cdr), info)
+            on_data()
+
+        node.wire.create_subscription(node.resolve_topic_name(topic), type_id, qos, receive)
+
+
+def _publisher_name(node: Node, gid: bytes) -> str:
+    for endpoint in node.context.wire.graph.endpoints():
+        if endpoint.gid == gid and endpoint.node is not None:
+            return f"{endpoint.node.namespace.rstrip('/')}/{endpoint.node.name}"
+    return NOBODY
+
+
+def _note_chain(frames: list[str], buffer: Buffer, net: Delays, clock: Any) -> None:
+    if frames:
+        try:
+            stamp_ns = buffer.engine.latest_common_time(frames[1], frames[0])
+        except TransformException:
+            return  # not connected yet
+        net.add((clock.now().nanoseconds - stamp_ns) / 1e9)
+
+
+def chain(buffer: Buffer, source: str, target: str) -> list[str]:
+    """The frames on the way from one frame to another, both included.
+
+    Raises:
+        TransformException: They are not connected.
+    """
+    buffer.lookup_transform(target, source, Time())
+    parents = dict(line.removeprefix("Frame ").removesuffix(".").split(" exists with parent ") for line in _frame_lines(buffer))
+    ups = [_to_root(frame, parents) for frame in (source, target)]
+    common = next(frame for frame in ups[0] if frame in ups[1])
+    return ups[0][: ups[0].index(common) + 1] + ups[1][: ups[1].index(common)][::-1]
+
+
+def _frame_lines(buffer: Buffer) -> list[str]:
+    return [line for line in buffer.all_frames_as_string().splitlines() if not line.endswith("parent NO_PARENT.")]
+
+
+def _to_root(frame: str, parents: dict[str, str]) -> list[str]:
+    found = [frame]
+    while found[-1] in parents and parents[found[-1]] not in found:
+        found.append(parents[found[-1]])
+    return found
+
+
+def _report(options: argparse.Namespace, buffer: Buffer, statistics: Statistics, net: Delays) -> str:
+    data = statistics.as_dict()
+    way: list[str] = []
+    if options.frames:
+        try:
+            way = chain(buffer, *options.frames)
+        except TransformException as error:
+            data["error"] = str(error)
+        data |= {"chain": way, "net_delay": {"average": net.mean, "max": net.maximum}}
+        data["frames"] = [entry for entry in data["frames"] if entry["frame"] in way]
+    return json.dumps(data) if options.json else _in_lines(options.frames, data)
+
+
+def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
+    """A report as ROS 2 prints it."""
+    lines = ["", ""]
+    if frames:
+        lines += [f"RESULTS: for {frames[0]} to {frames[1]}"]
+        lines += [data["error"]] if "error" in data else [f"Chain is: {' -> '.join(data['chain'])}"]
+        lines += [f"Net delay     avg = {data['net_delay']['average']:g}: max = {data['net_delay']['max']:g}"]
+    else:
+        lines += ["RESULTS: for all Frames"]
+    lines += ["", "Frames:"]
+    lines += [
+        f"Frame: {entry['frame']}, published by {entry['published_by']}, "
+        f"Average Delay: {entry['average_delay']:g}, Max Delay: {entry['max_delay']:g}"
+        for entry in data["frames"]
+    ]
+    lines += ["", "All Broadcasters:"]
+    lines += [
+        f"Node: {entry['node']} {entry['rate']:g} Hz, Average Delay: {entry['average_delay']:g} Max Delay: {entry['max_delay']:g}"
+        for entry in data["broadcasters"]
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,290 @@
+"""tf2_echo, tf2_monitor, static_transform_publisher and buffer_server: as processes over Cyclone DDS, and their parts."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+
+import pytest
+
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, BufferClient, TransformListener, tf2_echo, tf2_monitor
+from tf2_ros import static_transform_publisher as publisher
+from turtlewire import msg, wire
+from turtlewire.tf.listener import QOS, TYPE_NAME
+from turtlewire.wire.base import MessageInfo, TypeId
+
+LONG = Duration(seconds=60)
+TOOLS = {
+    "tf2_echo": "tf2_ros.tf2_echo",
+    "tf2_monitor": "tf2_ros.tf2_monitor",
+    "static_transform_publisher": "tf2_ros.static_transform_publisher",
+    "buffer_server": "tf2_ros.buffer_server_node",
+}
+
+
+@pytest.fixture(autouse=True)
+def _real_middleware(monkeypatch, _local_middleware):
+    monkeypatch.delenv("RMW_IMPLEMENTATION")
+
+
+@pytest.fixture
+def tool():
+    processes = []
+
+    def start(name, *arguments):
+        code = f"import sys; from {TOOLS[name]} import main; sys.exit(main())"
+        process = subprocess.Popen(
+            [sys.executable, "-c", code, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ)
+        )
+        processes.append(process)
+        return process
+
+    yield start
+    for process in processes:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def stop(process):
+    """Interrupt it; status and both outputs."""
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert "Traceback" not in err
+    return process.returncode, out, err
+
+
+def finish(process):
+    out, err = process.communicate(timeout=60)
+    assert "Traceback" not in err
+    return process.returncode, out, err
+
+
+@pytest.fixture
+def talker(stamped):
+    """Publishes a moving frame, until the test ends."""
+    context = wire.open_context()
+    tf = context.create_node("talker").create_publisher("/tf", TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS)
+    ended = threading.Event()
+
+    def talk():
+        while not ended.wait(0.02):
+            transform = stamped("world", "robot", x=2.0)
+            transform.transform.translation.y = -1.0
+            transform.header.stamp = Time(seconds=time_now()).to_msg()
+            tf.publish(msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform])))
+
+    thread = threading.Thread(target=talk)
+    thread.start()
+    yield
+    ended.set()
+    thread.join()
+    context.close()
+
+
+def time_now():
+    import time
+
+    return time.time()
+
+
+@pytest.fixture
+def listening():
+    context = Context()
+    context.init(args=[])
+    node, buffer = Node("listening", context=context), Buffer()
+    TransformListener(buffer, node)
+    yield buffer, node
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_a_static_transform_is_published_until_stopped(tool, listening):
+    process = tool(
+        "static_transform_publisher", "--x", "1", "--y", "-0.5", "--yaw", "1.5707963267948966", "--frame-id", "a", "--child-frame-id", "b"
+    )
+    found = listening[0].lookup_transform("a", "b", Time(), LONG).transform
+    assert (found.translation.x, found.translation.y, found.translation.z) == (1.0, -0.5, 0.0)
+    assert (found.rotation.z, found.rotation.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
+    status, _, err = stop(process)
+    assert status == 0
+    assert re.search(
+        r"\[static_transform_publisher_\w{16}\]: Spinning until stopped - publishing transform\n"
+        r"translation: \('1\.000000', '-0\.500000', '0\.000000'\)\nrotation: \('0\.000000', '0\.000000', '0\.707107', '0\.707107'\)\n"
+        r"from 'a' to 'b'",
+        err,
+    )
+
+
+def test_a_frame_cannot_stand_in_itself(tool):
+    status, _, err = finish(tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "a"))
+    assert status == 1
+    assert "child_frame_id cannot equal frame_id" in err
+
+
+def test_both_styles_of_arguments():
+    new = publisher.parse(
+        ["--x", "1", "--y", "2", "--z", "3", "--roll", "0.1", "--pitch", "0.2", "--yaw", "0.3", "--frame-id", "a", "--child-frame-id", "b"]
+    )
+    old = publisher.parse(["1", "2", "3", "0.3", "0.2", "0.1", "a", "b"])
+    assert new == old._replace(old_style=False)
+    assert old.old_style
+    quaternion = publisher.parse(["1", "2", "3", "0", "0", "1", "0", "a", "b"])
+    assert (quaternion.translation, quaternion.rotation) == ((1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 0.0))
+    assert publisher.parse(["--qz", "1", "--qw", "0", "--frame-id", "a", "--child-frame-id", "b"]).rotation == (0.0, 0.0, 1.0, 0.0)
+    assert publisher.parse(["--frame-id", "a", "--child-frame-id", "b"]).rotation == (0.0, 0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ("", "Frame id must not be empty"),
+        ("--frame-id a", "Child frame id must not be empty"),
+        ("--frame-id a --child-frame-id b --x", "Not enough arguments for --x"),
+        ("--frame-id a --child-frame-id b --x one", "Failed to parse --x argument as float"),
+        ("--frame-id a --child-frame-id b --qx 1 --yaw 1", "Cannot specify both quaternion and Euler rotations"),
+        ("--frame-id a --child-frame-id b more", "Extra unparsed arguments on command-line"),
+        ("1 2 3", "Extra unparsed arguments on command-line"),
+        ("1 2 3 0 0 0 a b --x 1", "Cannot specify both new-style (flags) and old-style (arguments)"),
+        ("1 2 3 x 0 0 a b", "Failed to parse yaw argument as float"),
+    ],
+)
+def test_wrong_arguments_are_named(words, text, capsys):
+    assert publisher.main(["static_transform_publisher", *words.split()]) == 1
+    assert f"error parsing command line arguments: {text}\nusage: " in capsys.readouterr().err
+
+
+def test_help_is_no_error(capsys):
+    assert publisher.main(["static_transform_publisher", "--help"]) == 0
+    assert "old style, deprecated" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("talker")
+def test_echo_prints_what_ros_2_prints(tool):
+    status, out, _ = finish(tool("tf2_echo", "world", "robot", "50", "--limit", "2", "--distance"))
+    assert status == 0
+    block = (
+        r"At time \d+\.\d{9}\n- Translation: \[2\.000, -1\.000, 0\.000\]\n- Rotation: in Quaternion \[0\.000, 0\.000, 0\.000, 1\.000\]\n"
+        r"- Rotation: in RPY \(radian\) \[0\.000, -0\.000, 0\.000\]\n- Rotation: in RPY \(degree\) \[0\.000, -0\.000, 0\.000\]\n- Matrix:\n"
+        r" 1\.000  0\.000  0\.000  2\.000\n 0\.000  1\.000  0\.000 -1\.000\n"
+        r" 0\.000  0\.000  1\.000  0\.000\n 0\.000  0\.000  0\.000  1\.000\n"
+        r"- Distance: 2\.236\n- In words: seen from world, robot is 2\.000 m ahead, 1\.000 m to the right\n"
+    )
+    assert re.fullmatch(block * 2, out), out
+
+
+@pytest.mark.usefixtures("talker")
+def test_echo_as_json(tool):
+    status, out, _ = finish(tool("tf2_echo", "world", "robot", "50", "-n", "1", "--json"))
+    assert status == 0
+    data = json.loads(out)
+    assert data["translation"] == [2.0, -1.0, 0.0]
+    assert (data["source_frame"], data["target_frame"]) == ("world", "robot")
+
+
+def test_echo_says_what_it_waits_for(tool):
+    process = tool("tf2_echo", "world", "nothing")
+    line = process.stderr.readline()
+    assert re.search(r"\[tf2_echo\]: Waiting for transform world ->  nothing: Invalid frame ID \"world\" passed to canTransform", line)
+    assert stop(process)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "text"),
+    [
+        ("world", 1, "usage: tf2_echo"),
+        ("world robot fast", 2, "Failed to convert rate argument 'fast' to a floating-point number"),
+        ("world robot 0", 3, "must be > 0.0"),
+    ],
+)
+def test_echo_refuses(words, status, text, capsys):
+    try:
+        found = tf2_echo.main(["tf2_echo", *words.split()])
+    except SystemExit as end:
+        found = end.code
+    assert found == status
+    assert text in capsys.readouterr().err
+
+
+def test_a_place_in_words(stamped):
+    transform = stamped("a", "b", x=-1.0)
+    assert tf2_echo.in_words(transform) == "seen from a, b is 1.00 m behind"
+    transform.transform.translation.x, transform.transform.translation.y, transform.transform.translation.z = 0.0, 2.0, -0.5
+    assert tf2_echo.in_words(transform) == "seen from a, b is 2.00 m to the left, 0.50 m below"
+    transform.transform.translation.y = transform.transform.translation.z = 0.0
+    assert tf2_echo.in_words(transform) == "seen from a, b is at the same place"
+    options = argparse.Namespace(precision=1, degrees=True, distance=False)
+    assert "radian" not in tf2_echo.describe(transform, options)
+
+
+def read_until(process, pattern):
+    """Its output up to the first line that matches."""
+    text = ""
+    for line in process.stdout:
+        text += line
+        if re.search(pattern, line):
+            return text
+    raise AssertionError(text + process.stderr.read())
+
+
+@pytest.mark.usefixtures("talker")
+def test_monitor_names_who_publishes(tool):
+    process = tool("tf2_monitor", "--period", "0.5")
+    text = read_until(process, r"^Node: /talker \S+ Hz, Average Delay: \S+ Max Delay: \S+$")
+    assert "RESULTS: for all Frames" in text
+    assert re.search(r"Frame: robot, published by /talker, Average Delay: \S+, Max Delay: \S+\n", text)
+    assert stop(process)[0] == 0
+
+
+@pytest.mark.usefixtures("talker")
+def test_monitor_of_a_chain_as_json(tool):
+    process = tool("tf2_monitor", "robot", "world", "--period", "0.5", "--json")
+    data = json.loads(read_until(process, r'"chain": \["robot", "world"\]').splitlines()[-1])
+    assert data["net_delay"]["max"] >= data["net_delay"]["average"] > 0.0
+    assert stop(process)[0] == 0
+    assert finish(tool("tf2_monitor", "robot"))[0] == 1
+
+
+def test_chains_go_up_and_down_again(stamped):
+    buffer = Buffer()
+    for parent, child in (("root", "a"), ("a", "b"), ("a", "c"), ("c", "d")):
+        buffer.set_transform_static(stamped(parent, child), "me")
+    assert tf2_monitor.chain(buffer, "b", "d") == ["b", "a", "c", "d"]
+    assert tf2_monitor.chain(buffer, "d", "root") == ["d", "c", "a", "root"]
+    assert tf2_monitor.chain(buffer, "a", "a") == ["a"]
+
+
+def test_statistics(stamped):
+    now = [10.0]
+    names = {b"one": "/one"}
+    statistics = tf2_monitor.Statistics(lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0])
+    message = msg.get_message(TYPE_NAME)(transforms=[stamped(stamp_s=9)])
+    for now[0] in (10.0, 11.0, 12.0):
+        statistics.take(message, MessageInfo(0, 0, b"one"))
+    statistics.take(message, MessageInfo(0, 0, b"two"))
+    data = statistics.as_dict()
+    assert data["frames"] == [{"frame": "robot", "published_by": tf2_monitor.NOBODY, "average_delay": 2.25, "max_delay": 3.0}]
+    assert data["broadcasters"][0] == {"node": "/one", "rate": 1.0, "average_delay": 2.0, "max_delay": 3.0}
+    assert data["broadcasters"][1]["rate"] == 0.0
+
+
+@pytest.mark.usefixtures("talker")
+def test_the_buffer_server_answers_other_processes_and_its_death_is_an_error(tool, listening):
+    process = tool("buffer_server")
+    client = BufferClient(listening[1], "tf2_buffer_server", timeout_padding=Duration(seconds=1))
+    assert client.lookup_transform("world", "robot", Time(), LONG).transform.translation.x == 2.0
+    process.kill()
+    process.wait()
+    assert client.can_transform("world", "robot", Time(), Duration(seconds=0.1)) is False
+    client.destroy()
