@@ -380,6 +380,10 @@ void add_buffer_type(nb::module_& module) {
             return locked(self, [now](const Buffer& b) { return b.frames_as_dot(now); });
           },
           "now"_a = 0.0, "tf2's Graphviz text of the tree; `now` in seconds adds ages.")
+      .def(
+          "_repr_svg_",
+          [](nb::handle self) { return nb::module_::import_("turtlewire.tf.notebook").attr("buffer_svg")(self); },
+          "The tree of frames as SVG, for notebooks.")
       .def("add_change_listener", &add_change_listener, "listener"_a,
            "Has `listener()` called after data came in, on the thread that brought it, without any lock.\n\n"
            "Returns:\n"

@@ -101,9 +101,9 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
   return PyBool_FromLong(equal == (operation == Py_EQ));
 }
 
-// NumPy is imported there, only when an array is asked for.
-PyObject* call_array_helper(const char* helper, PyObject* self, PyObject* arguments, PyObject* keywords) {
-  PyObject* module = PyImport_ImportModule("turtlewire.tf.arrays");
+// NumPy is imported there, only when an array or a picture is asked for.
+PyObject* call_helper(const char* home, const char* helper, PyObject* self, PyObject* arguments, PyObject* keywords) {
+  PyObject* module = PyImport_ImportModule(home);
   if (module == nullptr) return nullptr;
   PyObject* function = PyObject_GetAttrString(module, helper);
   Py_DECREF(module);
@@ -118,16 +118,20 @@ PyObject* call_array_helper(const char* helper, PyObject* self, PyObject* argume
 }
 
 PyObject* as_array(PyObject* self, PyObject* arguments, PyObject* keywords) {
-  return call_array_helper("pose_array", self, arguments, keywords);
+  return call_helper("turtlewire.tf.arrays", "pose_array", self, arguments, keywords);
 }
 
-PyObject* as_matrix(PyObject* self, PyObject*) {
+PyObject* call_helper(const char* home, const char* helper, PyObject* self) {
   PyObject* nothing = PyTuple_New(0);
   if (nothing == nullptr) return nullptr;
-  PyObject* matrix = call_array_helper("pose_matrix", self, nothing, nullptr);
+  PyObject* result = call_helper(home, helper, self, nothing, nullptr);
   Py_DECREF(nothing);
-  return matrix;
+  return result;
 }
+
+PyObject* as_matrix(PyObject* self, PyObject*) { return call_helper("turtlewire.tf.arrays", "pose_matrix", self); }
+
+PyObject* as_html(PyObject* self, PyObject*) { return call_helper("turtlewire.tf.notebook", "transform_html", self); }
 
 constexpr auto kPose = static_cast<Py_ssize_t>(offsetof(TransformObject, pose));
 constexpr Py_ssize_t number(int i) { return kPose + i * static_cast<Py_ssize_t>(sizeof(double)); }
@@ -160,6 +164,7 @@ PyMethodDef methods[] = {
      "as_matrix($self)\n--\n\nThe 4x4 matrix that acts on column vectors from the left."},
     {"__array__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(as_array)), METH_VARARGS | METH_KEYWORDS,
      "__array__($self, dtype=None, copy=None)\n--\n\nThe seven numbers x, y, z, qx, qy, qz, qw."},
+    {"_repr_html_", as_html, METH_NOARGS, "_repr_html_($self)\n--\n\nNumbers and a picture, for notebooks."},
     {"__reduce__", reduce, METH_NOARGS, nullptr},
     {nullptr, nullptr, 0, nullptr},
 };

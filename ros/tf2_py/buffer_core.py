@@ -107,6 +107,10 @@ class BufferCore:
         """The tree as Graphviz text; ``time`` is the present, for ages."""
         return self.engine.all_frames_as_dot(0.0 if time is None else to_nanoseconds(time) / 1e9)
 
+    def _repr_svg_(self) -> str:
+        """The tree of frames as SVG, for notebooks."""
+        return self.engine._repr_svg_()
+
     def _frameExists(self, frame_id: str, /) -> bool:  # noqa: N802 -- ROS 2's name
         """Whether the frame was ever heard of."""
         return self.engine.frame_exists(frame_id)

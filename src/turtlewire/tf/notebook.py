@@ -12,10 +12,31 @@ from turtlewire.tf.frame_tree import Describes, read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
 
 if TYPE_CHECKING:
+    from typing import Protocol
+
     import numpy as np
     from numpy.typing import NDArray
 
-    from turtlewire.tf.buffer import Transform
+    from turtlewire.tf.arrays import HasPose
+
+    class Stamped(HasPose, Protocol):
+        """A Transform of either core."""
+
+        @property
+        def frame_id(self) -> str:
+            """The target."""
+            ...
+
+        @property
+        def child_frame_id(self) -> str:
+            """The source."""
+            ...
+
+        @property
+        def stamp_ns(self) -> int:
+            """Of the pose."""
+            ...
+
 
 __all__ = ["buffer_svg", "transform_html"]
 
@@ -31,7 +52,7 @@ def buffer_svg(buffer: Describes) -> str:
     return svg_from_drawing(draw_tree(read_frame_tree(buffer)))
 
 
-def transform_html(transform: Transform) -> str:
+def transform_html(transform: Stamped) -> str:
     """A transform in numbers, and the axes of its two frames as a picture."""
     target, source = escape(transform.frame_id), escape(transform.child_frame_id)
     roll, pitch, yaw = (f"{math.degrees(angle):.2f}" for angle in conversions.euler_from_quaternion(transform.rotation))
@@ -50,7 +71,7 @@ def transform_html(transform: Transform) -> str:
     )
 
 
-def _axes_of_both(transform: Transform) -> Drawing:
+def _axes_of_both(transform: Stamped) -> Drawing:
     target_from_source = conversions.matrix_from_pose((*transform.translation, *transform.rotation))
     length = 0.4 * math.hypot(*transform.translation) or 1.0
     frames = {transform.frame_id: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)}
@@ -64,11 +85,14 @@ def _axes_of_both(transform: Transform) -> Drawing:
         return _MARGIN + scale * (point[0] - left), _MARGIN + scale * (point[1] - top)
 
     shapes: list[Shape] = [Line(tuple(on_page(ends[0]) for ends in frames.values()), "#888888", dashed=True)]
+    taken = -_SIDE
     for name, (origin, *axes) in frames.items():
         x, y = on_page(origin)
         shapes += [Line(((x, y), on_page(end)), colour, 2.0) for end, colour in zip(axes, _AXIS_COLOURS, strict=True)]
         label = name if len(name) <= 24 else name[:23] + "…"
-        shapes.append(Text(min(max(2.0, x - text_width(label, 10) / 2), _SIDE - text_width(label, 10)), y + 14, label, 10, "#777777"))
+        baseline = y + 14 if abs(y + 14 - taken) > 10 else taken + 11
+        shapes.append(Text(min(max(2.0, x - text_width(label, 10) / 2), _SIDE - text_width(label, 10)), baseline, label, 10, "#777777"))
+        taken = baseline
     return Drawing(_SIDE, _SIDE, tuple(shapes))
 
 

@@ -21,7 +21,7 @@ _LONGEST = 60
 _BORDER, _INK, _GREY, _RED = "#4a6785", "#1d2a36", "#66737f", "#c0392b"
 
 #: A tree that would be wider than this grows to the right instead of downwards.
-_WIDEST = 1400.0
+_WIDEST = 1200.0
 
 
 def draw_tree(tree: FrameTree, title: Sequence[str] = ()) -> Drawing:

@@ -202,6 +202,12 @@ class Buffer:
 
     # -- changes
 
+    def _repr_svg_(self) -> str:
+        """The tree of frames as SVG, for notebooks."""
+        from turtlewire.tf.notebook import buffer_svg
+
+        return buffer_svg(self)
+
     def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
         """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
 

@@ -70,6 +70,12 @@ class Transform:
 
         return pose_matrix(self)
 
+    def _repr_html_(self) -> str:
+        """Numbers and a picture, for notebooks."""
+        from turtlewire.tf.notebook import transform_html
+
+        return transform_html(self)
+
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         from turtlewire.tf.arrays import pose_array
 

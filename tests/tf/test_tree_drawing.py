@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from turtlewire.tf.drawing import Box, Drawing, Line, Text, svg_from_drawing, text_width
+from turtlewire.tf.frame_tree import FrameTree, Link
+from turtlewire.tf.tree_drawing import draw_tree
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def tree_of(*pairs, newest=2.0, oldest=1.0):
+    return FrameTree(Link(child, parent, "someone", 62.5, newest, oldest, newest - oldest) for parent, child in pairs)
+
+
+def texts(drawing):
+    return [shape.text for shape in drawing.shapes if isinstance(shape, Text)]
+
+
+def boxes(drawing):
+    return [shape for shape in drawing.shapes if isinstance(shape, Box)]
+
+
+def test_a_card_has_what_view_frames_shows():
+    assert texts(draw_tree(tree_of(("world", "turtle1")), ("Title",))) == [
+        "Title",
+        "world",
+        "turtle1",
+        "Broadcaster: someone",
+        "Average rate: 62.500 Hz",
+        "Buffer length: 1.000 s",
+        "Most recent transform: 2.000000",
+        "Oldest transform: 1.000000",
+    ]
+
+
+def test_a_static_transform_has_no_rate_and_a_single_one_neither():
+    assert texts(draw_tree(tree_of(("a", "b"), newest=0.0, oldest=0.0)))[1:] == ["b", "Broadcaster: someone", "Static transform"]
+    assert "Average rate: unknown, one time only" in texts(draw_tree(tree_of(("a", "b"), newest=5.0, oldest=5.0)))
+
+
+def test_no_data_is_said():
+    drawing = draw_tree(FrameTree([]))
+    assert texts(drawing) == ["No tf data received"]
+    assert drawing.width > 60
+    assert drawing.height > 15
+
+
+def test_a_loop_is_told_and_drawn_in_red():
+    drawing = draw_tree(tree_of(("b", "a"), ("a", "b")))
+    assert "In a loop: its parent is b" in texts(drawing)
+    assert [line.dashed for line in drawing.shapes if isinstance(line, Line)] == [False, True]
+
+
+@pytest.mark.parametrize("count", [1, 3, 40])
+def test_everything_is_on_the_page_and_no_card_covers_another(count):
+    pairs = [("base", f"sensor{i}") for i in range(count)] + [(f"sensor{i}", f"optical{i}") for i in range(0, count, 3)]
+    drawing = draw_tree(tree_of(*pairs), ("Title",))
+    cards = boxes(drawing)
+    assert len(cards) == len(pairs) + 1
+    for card in cards:
+        assert 0 <= card.x < card.x + card.width <= drawing.width
+        assert 0 <= card.y < card.y + card.height <= drawing.height
+        for other in cards:
+            apart = card.x + card.width < other.x or other.x + other.width < card.x
+            apart = apart or card.y + card.height < other.y or other.y + other.height < card.y
+            assert other is card or apart
+    for text in texts(drawing):
+        assert text_width(text, 1.0) > 0
+    assert drawing.width < 1300  # a wide tree grows to the right, so that it can still be read
+
+
+def test_svg_is_xml_whatever_the_frames_are_called():
+    names = ("<b>&\"'", "bell\x07", "日本", "x" * 500)
+    root = ET.fromstring(svg_from_drawing(draw_tree(tree_of(*[("base", name) for name in names]))))
+    shown = [element.text for element in root.iter(f"{SVG}text")]
+    assert {"<b>&\"'", "bell\N{REPLACEMENT CHARACTER}", "日本", "x" * 59 + "…"} < set(shown)
+    assert len(list(root.iter(f"{SVG}rect"))) == 5
+
+
+def test_svg_of_each_shape():
+    shapes = (Box(1, 2, 3, 4, "#111111"), Line(((0, 0), (5, 6)), "#222222", 2.0, dashed=True), Text(7, 8, "hi", 9, "#333333", bold=True))
+    root = ET.fromstring(svg_from_drawing(Drawing(100, 50, shapes)))
+    assert root.get("viewBox") == "0 0 100 50"
+    rect, line, text = root
+    assert (rect.get("x"), rect.get("height"), rect.get("stroke")) == ("1.0", "4.0", "#111111")
+    assert (line.get("points"), line.get("stroke-dasharray")) == ("0.0,0.0 5.0,6.0", "5 3")
+    assert (text.text, text.get("font-weight"), text.get("font-size")) == ("hi", "bold", "9")
+
+
+def test_widths_are_helveticas():
+    assert text_width("Wi ~", 1000) == 944 + 222 + 278 + 584
+    assert text_width("日", 10) == 10
+    assert text_width("a", 10, bold=True) > text_width("a", 10)
