@@ -77,9 +77,9 @@ def interfaces(domain: ET.Element) -> list[dict[str, str]]:
 
 
 def test_localhost_uses_nothing_but_the_loopback_interface():
-    loopback, automatic = {"address": "127.0.0.1"}, {"autodetermine": "true"}
+    loopback = {"address": "127.0.0.1"}
     assert interfaces(configuration(Discovery(Range.LOCALHOST, ()))) == [loopback]
-    assert interfaces(configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))) == [loopback, automatic]
+    assert interfaces(configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))) == []
     assert interfaces(configuration(Discovery(Range.OFF, ()))) == [loopback]
     assert interfaces(configuration(Discovery(Range.SUBNET, ()))) == []
 

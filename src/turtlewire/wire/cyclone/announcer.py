@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from .participant import Participant
     from .reader import ReaderThread
 
-__all__ = ["Announcer", "NodeRecord"]
+__all__ = ["ANNOUNCEMENT_INTERVAL_NS", "Announcer", "NodeRecord"]
 
 #: The first change is announced at once, the next ones not sooner than this after it: a thousand endpoints take a few samples.
-_INTERVAL_NS = 20_000_000
+ANNOUNCEMENT_INTERVAL_NS = 20_000_000
 
 
 class NodeRecord:
@@ -75,7 +75,7 @@ class Announcer:
         """On the reader thread."""
         with self._lock:
             self._scheduled = False
-            self._not_before = time.monotonic_ns() + _INTERVAL_NS
+            self._not_before = time.monotonic_ns() + ANNOUNCEMENT_INTERVAL_NS
         self._publisher.publish(pack_discovery_info(self._participant.gid, self.nodes()))
 
     def close(self) -> None:

@@ -14,6 +14,9 @@ __all__ = ["domain_configuration"]
 _MAX_PARTICIPANTS = 120
 #: A killed process vanishes after its lease. On one host no network delays its renewal, so it can be shorter than Cyclone's 10 s.
 _LOCAL_LEASE = "5s"
+#: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
+#: would keep two processes apart for good.
+_ANNOUNCEMENT_INTERVAL = "5s"
 _ADDRESS = re.compile(r"[A-Za-z0-9.:_%\[\]-]+")
 
 
@@ -31,7 +34,8 @@ def domain_configuration(discovery: Discovery) -> str:
     else:
         index = f"<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{_MAX_PARTICIPANTS}</MaxAutoParticipantIndex>"
         lease = f"<LeaseDuration>{_LOCAL_LEASE}</LeaseDuration>" if discovery.range == Range.LOCALHOST else ""
-        parts.append(f"<Discovery>{index}{lease}{_peers(discovery)}</Discovery>")
+        interval = f"<SPDPInterval>{_ANNOUNCEMENT_INTERVAL}</SPDPInterval>"
+        parts.append(f"<Discovery>{index}{lease}{interval}{_peers(discovery)}</Discovery>")
     ours = f"<CycloneDDS><Domain>{''.join(parts)}</Domain></CycloneDDS>"
     users = os.environ.get("CYCLONEDDS_URI", "")
     return f"{ours},{users}" if users else ours
@@ -42,18 +46,22 @@ def _general(discovery: Discovery) -> str:
         return ""
     # Without the loopback interface Cyclone 11 drops what processes with a configuration of rmw_cyclonedds send to localhost; and with
     # it alone, nobody from outside gets in.
-    interfaces = '<NetworkInterface address="127.0.0.1"/>'
-    if discovery.static_peers:
-        interfaces += '<NetworkInterface autodetermine="true"/>'
-    return f"<General><AllowMulticast>false</AllowMulticast><Interfaces>{interfaces}</Interfaces></General>"
+    loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
+    return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
 
 
 def _peers(discovery: Discovery) -> str:
-    addresses = ["localhost"] if discovery.range == Range.LOCALHOST else []
+    peers = []
+    if discovery.range == Range.LOCALHOST:
+        # Never given up, because with static peers it is we who must find the processes of this host (see _general).
+        peers.append('<Peer address="localhost" PruneDelay="inf"/>' if discovery.static_peers else '<Peer address="localhost"/>')
     if discovery.range != Range.SYSTEM_DEFAULT:
-        addresses += discovery.static_peers
-    for address in addresses:
-        if not _ADDRESS.fullmatch(address):
-            error = WireError(f"ROS_STATIC_PEERS: {address!r} is not an address")
-            raise error.with_hint("Write host names or IP addresses, separated by ';'.")
-    return "<Peers>" + "".join(f'<Peer address="{address}"/>' for address in addresses) + "</Peers>" if addresses else ""
+        peers += [f'<Peer address="{_checked(address)}"/>' for address in discovery.static_peers]
+    return f"<Peers>{''.join(peers)}</Peers>" if peers else ""
+
+
+def _checked(address: str) -> str:
+    if not _ADDRESS.fullmatch(address):
+        error = WireError(f"ROS_STATIC_PEERS: {address!r} is not an address")
+        raise error.with_hint("Write host names or IP addresses, separated by ';'.")
+    return address

@@ -1,0 +1,166 @@
+"""Many endpoints, many processes, and peers that do not keep up."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from turtlewire.errors import WireError
+from turtlewire.wire import open_context
+from turtlewire.wire.base import Context, TypeId
+from turtlewire.wire.cyclone.announcer import ANNOUNCEMENT_INTERVAL_NS
+from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, unpack_discovery_info
+from turtlewire.wire.qos import Durability, History, QoS
+
+PEERS = Path(__file__).parent / "peers"
+STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
+MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
+LONG = 30_000_000_000
+
+
+@pytest.fixture
+def contexts():
+    opened = [open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2)]
+    yield opened
+    for context in opened:
+        context.close()
+
+
+def test_a_thousand_endpoints_take_a_handful_of_announcements(contexts: list[Context]):
+    announcements: list[int] = []
+    complete = threading.Event()
+
+    def on_announcement(data: bytes, _info) -> None:
+        participant, nodes = unpack_discovery_info(data)
+        if participant == contexts[0].gid:
+            announcements.append(sum(len(node.writers) for node in nodes))
+            if announcements[-1] == 1000:
+                complete.set()
+
+    everything = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL, avoid_ros_namespace_conventions=True)
+    watcher = contexts[1].create_node("watcher").create_subscription(DISCOVERY_TOPIC, DISCOVERY_TYPE, everything, on_announcement)
+    assert contexts[1].graph.wait_for(lambda: watcher.publisher_count() == 2, LONG)
+    started = time.monotonic_ns()
+    node = contexts[0].create_node("talker")
+    for number in range(1000):
+        node.create_publisher(f"/topic{number}", STRING, QoS())
+    elapsed = time.monotonic_ns() - started
+    assert complete.wait(30)
+    assert len(announcements) <= 3 + elapsed // ANNOUNCEMENT_INTERVAL_NS
+
+
+def publish_often(publisher, message: bytes) -> None:
+    for _ in range(1000):
+        publisher.publish(message)
+
+
+def test_a_publisher_gives_up_on_a_subscription_that_stands_still(contexts: list[Context]):
+    context = contexts[0]
+    keep_all = QoS(history=History.KEEP_ALL)
+    publisher = context.create_node("talker").create_publisher("/to_peer", STRING, keep_all)
+    with subprocess.Popen([sys.executable, PEERS / "echo.py"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
+        peer.send_signal(signal.SIGSTOP)
+        big = MESSAGE + bytes(100_000)
+        try:
+            with pytest.raises(WireError, match=r"/to_peer: not sent, a reliable subscription did not keep up for 1 s") as caught:
+                publish_often(publisher, big)
+            assert "KEEP_LAST" in caught.value.hint
+        finally:
+            peer.send_signal(signal.SIGCONT)
+        peer.communicate()
+    publisher.publish(MESSAGE)
+
+
+def test_close_is_not_held_up_by_a_blocked_publisher(contexts: list[Context]):
+    context = contexts[0]
+    publisher = context.create_node("talker").create_publisher("/to_peer", STRING, QoS(history=History.KEEP_ALL))
+    errors: list[str] = []
+
+    def flood() -> None:
+        try:
+            while True:
+                publisher.publish(MESSAGE + bytes(100_000))
+        except WireError as error:
+            errors.append(str(error))
+
+    with subprocess.Popen([sys.executable, PEERS / "echo.py"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
+        peer.send_signal(signal.SIGSTOP)
+        try:
+            thread = threading.Thread(target=flood)
+            thread.start()
+            thread.join(0.3)
+            context.close()
+            thread.join(20)
+            assert not thread.is_alive()
+            assert len(errors) == 1
+        finally:
+            peer.send_signal(signal.SIGCONT)
+        peer.communicate()
+
+
+def test_threads_may_publish_take_and_close_at_the_same_time(contexts: list[Context]):
+    """Nothing here may crash, hang, or raise anything but the error of a closed publisher."""
+    talker, listener = (context.create_node("node") for context in contexts)
+    unexpected: list[BaseException] = []
+    closing = threading.Event()
+
+    def guarded(work) -> None:
+        try:
+            while not closing.is_set():
+                work()
+        except WireError as error:
+            if "closed" not in str(error):
+                unexpected.append(error)
+        except BaseException as error:
+            unexpected.append(error)
+
+    for round_number in range(10):
+        closing.clear()
+        publisher = talker.create_publisher("/busy", STRING, QoS())
+        subscription = listener.create_subscription("/busy", STRING, QoS())
+        by_callback = listener.create_subscription("/busy", STRING, QoS(), lambda *_: None)
+        wait_set = listener.context.create_wait_set()
+        wait_set.attach(subscription)
+        works = [lambda: publisher.publish(MESSAGE), lambda: publisher.publish(MESSAGE), subscription.take, wait_set.wait]  # noqa: B023
+        threads = [threading.Thread(target=guarded, args=(work,)) for work in works]
+        for thread in threads:
+            thread.start()
+        threads[0].join(0.02)
+        for entity in (publisher, subscription, by_callback) if round_number % 2 else (by_callback, subscription, publisher):
+            entity.close()
+        closing.set()
+        wait_set.close()
+        for thread in threads:
+            thread.join(20)
+            assert not thread.is_alive()
+    assert unexpected == []
+
+
+@pytest.mark.slow
+def test_fifty_processes_see_each_other(record_property):
+    count = 50
+    processes = [
+        subprocess.Popen(
+            [sys.executable, PEERS / "crowd.py", str(count)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ
+        )
+        for _ in range(count)
+    ]
+    started = time.time()
+    try:
+        up = [float(process.stdout.readline().split()[1]) for process in processes if process.stdout]
+        seen = [float(process.stdout.readline().split()[1]) for process in processes if process.stdout]
+    finally:
+        for process in processes:
+            process.communicate()
+    record_property("seconds from the last start until all are up", max(up) - started)
+    record_property("seconds from the last start until all see all", max(seen) - started)
+    assert len(seen) == count
+    assert [process.returncode for process in processes] == [0] * count

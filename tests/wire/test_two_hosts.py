@@ -1,0 +1,103 @@
+"""Two hosts, played by two network namespaces that are joined by a virtual cable."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="network namespaces need root"),
+    pytest.mark.skipif(shutil.which("ip") is None, reason="network namespaces need the command ip (iproute2)"),
+]
+
+PEERS = Path(__file__).parent / "peers"
+HOSTS = {"here": "10.77.0.1", "there": "10.77.0.2"}
+
+
+def ip(*arguments: str) -> None:
+    subprocess.run(["ip", *arguments], check=True, capture_output=True)
+
+
+def namespace(host: str) -> str:
+    return f"turtlewire-{host}-{os.getpid()}"
+
+
+@pytest.fixture(scope="module")
+def hosts() -> Iterator[None]:
+    try:
+        ip("netns", "add", namespace("here"))
+    except subprocess.CalledProcessError as error:
+        pytest.skip(f"this container has no network namespaces: {error.stderr.decode().strip()}")
+    try:
+        ip("netns", "add", namespace("there"))
+        ip("link", "add", "tw-here", "netns", namespace("here"), "type", "veth", "peer", "name", "tw-there", "netns", namespace("there"))
+        for host, address in HOSTS.items():
+            ip("-n", namespace(host), "addr", "add", f"{address}/24", "dev", f"tw-{host}")
+            ip("-n", namespace(host), "link", "set", f"tw-{host}", "up")
+            ip("-n", namespace(host), "link", "set", "lo", "up")
+        yield
+    finally:
+        for host in HOSTS:
+            subprocess.run(["ip", "netns", "delete", namespace(host)], check=False, capture_output=True)
+
+
+def command(host: str, script: str) -> list[str]:
+    return ["ip", "netns", "exec", namespace(host), sys.executable, str(PEERS / script)]
+
+
+@contextmanager
+def echo_there(**environment: str) -> Iterator[None]:
+    peer = subprocess.Popen(
+        command("there", "echo.py"), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | environment
+    )
+    try:
+        assert peer.stdout is not None
+        assert peer.stdout.readline() == "ready\n"
+        yield
+    finally:
+        peer.communicate()
+
+
+def probe_here(**environment: str) -> int:
+    done = subprocess.run(
+        command("here", "probe.py"), env=os.environ | environment, capture_output=True, text=True, timeout=100, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return int(done.stdout)
+
+
+@pytest.mark.usefixtures("hosts")
+def test_subnet_range_finds_the_other_host():
+    with echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"):
+        assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET") == 1
+
+
+@pytest.mark.usefixtures("hosts")
+@pytest.mark.parametrize("chosen", ["SUBNET", "LOCALHOST"])
+def test_static_peers_find_the_other_host_without_multicast(chosen: str):
+    for host in HOSTS:
+        ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "off")
+    with echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["here"]):
+        assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["there"]) == 1
+    for host in HOSTS:
+        ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "on")
+
+
+@pytest.mark.usefixtures("hosts")
+def test_nobody_from_outside_gets_in_by_default():
+    """The older process has no range set; the younger one, which is found, shows that the older one would have been."""
+    with ExitStack() as stack:
+        stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=""))
+        stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"))
+        assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
