@@ -5,3 +5,6 @@ if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/
 fi
 . "$_turtlewire_root/local_setup.bash"
 unset _turtlewire_root
+if [ -n "${PS1:-}" ] && command -v register-python-argcomplete > /dev/null; then
+    eval "$(register-python-argcomplete ros2)" # completion by TAB, in interactive shells
+fi

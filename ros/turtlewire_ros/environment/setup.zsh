@@ -5,3 +5,7 @@ if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/
 fi
 . "$_turtlewire_root/local_setup.zsh"
 unset _turtlewire_root
+if [[ -o interactive ]] && command -v register-python-argcomplete > /dev/null; then
+    autoload -U bashcompinit && bashcompinit
+    eval "$(register-python-argcomplete ros2)" # completion by TAB
+fi

@@ -1,0 +1,58 @@
+"""What a shell is offered for the next word."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+
+def offered(line):
+    """The completions of a command line, asked for as argcomplete's shell function asks."""
+    reading, writing = os.pipe()
+    program = "import sys; from ros2cli.main import main; sys.argv[0] = 'ros2'; sys.exit(main())"
+    environment = os.environ | {
+        "_ARGCOMPLETE": "1",
+        "_ARGCOMPLETE_IFS": "\n",
+        "_ARGCOMPLETE_SUPPRESS_SPACE": "1",
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "COMP_TYPE": "9",
+    }
+    script = f'exec "{sys.executable}" -c "{program}" 8>&{writing} 9>/dev/null'
+    subprocess.run(["bash", "-c", script], env=environment, pass_fds=[writing], check=False, capture_output=True, timeout=60)
+    os.close(writing)
+    with os.fdopen(reading) as answers:
+        return {word.strip() for word in answers.read().split("\n")} - {""}
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("ros2 to", {"topic"}),
+        ("ros2 topic e", {"echo"}),
+        ("ros2 topic pub --qos-rel", {"--qos-reliability"}),
+        ("ros2 interface show geometry_msgs/msg/TwistSt", {"geometry_msgs/msg/TwistStamped"}),
+        ("ros2 topic echo --qos-reliability best_e", {"best_effort"}),
+    ],
+)
+def test_words_that_are_known_without_nodes(line, expected):
+    assert offered(line) == expected
+
+
+def test_names_of_the_graph():
+    context = open_context()
+    try:
+        node = context.create_node("some_node")
+        node.create_publisher("/some/topic", TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64), QoS())
+        assert offered("ros2 topic echo /some") == {"/some/topic"}
+        assert offered("ros2 topic pub /some/topic ") >= {"std_msgs/msg/String"}
+        assert offered("ros2 node info /so") == {"/some_node"}
+    finally:
+        context.close()
