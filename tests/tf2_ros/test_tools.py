@@ -71,6 +71,16 @@ def finish(process):
     return process.returncode, out, err
 
 
+def read_until(process, pattern, stream="stdout"):
+    """What it prints, up to the first line that matches."""
+    text = ""
+    for line in getattr(process, stream):
+        text += line
+        if re.search(pattern, line):
+            return text
+    raise AssertionError(text)
+
+
 @pytest.fixture
 def talker(stamped):
     """Publishes a moving frame, until the test ends."""
@@ -117,8 +127,8 @@ def test_a_static_transform_is_published_until_stopped(tool, listening):
     found = listening[0].lookup_transform("a", "b", Time(), LONG).transform
     assert (found.translation.x, found.translation.y, found.translation.z) == (1.0, -0.5, 0.0)
     assert (found.rotation.z, found.rotation.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
-    status, _, err = stop(process)
-    assert status == 0
+    err = read_until(process, r"^from 'a' to 'b'$", "stderr")
+    assert stop(process)[0] == 0
     assert re.search(
         r"\[static_transform_publisher_\w{16}\]: Spinning until stopped - publishing transform\n"
         r"translation: \('1\.000000', '-0\.500000', '0\.000000'\)\nrotation: \('0\.000000', '0\.000000', '0\.707107', '0\.707107'\)\n"
@@ -226,16 +236,6 @@ def test_a_place_in_words(stamped):
     assert tf2_echo.in_words(transform) == "seen from a, b is at the same place"
     options = argparse.Namespace(precision=1, degrees=True, distance=False)
     assert "radian" not in tf2_echo.describe(transform, options)
-
-
-def read_until(process, pattern):
-    """Its output up to the first line that matches."""
-    text = ""
-    for line in process.stdout:
-        text += line
-        if re.search(pattern, line):
-            return text
-    raise AssertionError(text + process.stderr.read())
 
 
 @pytest.mark.usefixtures("talker")
