@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from .callback_groups import CallbackGroup
     from .executors import Executor
+    from .waitable import Waitable
 
 __all__ = ["Entity", "Work"]
 
@@ -23,7 +24,7 @@ class Entity:
     """Base of all entities.
 
     An entity is *attached* to at most one executor, that of its node. When it is ready, the executor claims its callback group, calls
-    :meth:`_take` and runs the work that comes back. An entity whose group is busy is *paused*: it must not report itself ready
+    :meth:`_work` and runs the work that comes back. An entity whose group is busy is *paused*: it must not report itself ready
     again before it is *resumed*, or the executor would spin.
 
     Attributes:
@@ -42,6 +43,7 @@ class Entity:
         self._rank: tuple[int, int, int] = (0, 0, 0)
         self._destroyed = False
         self._on_destroy: Callable[[Entity], None] | None = None
+        self._owner: Waitable | None = None
         if callback_group is not None:
             self.callback_group = callback_group
             callback_group.add_entity(self)
@@ -93,6 +95,10 @@ class Entity:
     def _resume(self, executor: Executor) -> None:
         """Report again, at once if it is ready."""
         self._attach(executor)
+
+    def _work(self) -> Work | None:
+        """What has to run now; the executor calls it."""
+        return self._take() if self._owner is None else self._owner._work_of(self)
 
     def _take(self) -> Work | None:
         """Take what made it ready and return what has to run; None when there was nothing after all."""

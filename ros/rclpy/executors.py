@@ -19,6 +19,7 @@ from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
 from .entity import Entity, Work
+from .running_callbacks import RunningCallbacks
 from .task import Future, Task
 from .timer_queue import TimerQueue
 
@@ -90,8 +91,7 @@ class Executor:
         self._ready: deque[Entity | Task] = deque()
         self._paused: set[Entity] = set()
         self._holders: dict[Task, Entity] = {}
-        self._running: dict[int, int] = {}
-        self._idle = threading.Condition()
+        self._running = RunningCallbacks()
         self._waiting = False
         self._spinning_thread: int | None = None
         self._response_awaited: Future | None = None
@@ -356,14 +356,14 @@ class Executor:
         if entity._executor is None:
             return None  # destroyed, or moved to another executor meanwhile
         if not entity._GATED:
-            return entity._take()
+            return entity._work()
         group = entity.callback_group
         if not self._may_run(entity) or not group.beginning_execution(entity):
             self._pause(entity)
             return None
         work = None
         try:
-            work = entity._take()
+            work = entity._work()
         finally:
             if work is None:
                 self._release(entity)
@@ -406,8 +406,7 @@ class Executor:
 
     def _execute(self, source: Entity | Task, work: Work | None) -> None:
         """Run a callback to its end or to its first ``await``, or a task to its next one."""
-        self._count_running(1)
-        try:
+        with self._running:
             if work is None:
                 self._advance(source)  # type: ignore[arg-type]
                 return
@@ -422,8 +421,6 @@ class Executor:
                 task = Task(coroutine, executor=self)
                 self._holders[task] = source  # type: ignore[assignment]
                 self._advance(task)
-        finally:
-            self._count_running(-1)
 
     def _advance(self, task: Task) -> None:
         """Run one step of a task; have it run again when what it awaits is done."""
@@ -438,16 +435,6 @@ class Executor:
         if error is not None:
             raise error
 
-    def _count_running(self, change: int) -> None:
-        thread = threading.get_ident()
-        with self._idle:
-            count = self._running.get(thread, 0) + change
-            if count:
-                self._running[thread] = count
-            else:
-                del self._running[thread]
-                self._idle.notify_all()
-
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Run no further callbacks, and wait for those that run in other threads.
 
@@ -458,11 +445,7 @@ class Executor:
         self.wake()
         for blocked in list(self._blocked_waits):
             blocked.set()
-        me = threading.get_ident()
-        timeout = None if timeout_sec is None or timeout_sec < 0 else timeout_sec
-        with self._idle:
-            ended = self._idle.wait_for(lambda: not self._running.keys() - {me}, timeout)
-        if not ended:
+        if not self._running.wait_for_others(None if timeout_sec is None or timeout_sec < 0 else timeout_sec):
             return False
         for node in self.get_nodes():
             self.remove_node(node)

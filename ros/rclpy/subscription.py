@@ -92,6 +92,12 @@ class Subscription(Entity):
     def _detach(self, executor: Executor) -> None:
         executor._unwatch(self._wire)
 
+    def take_message(self) -> tuple[Any, MessageInfo] | None:
+        """For waitables: the next message and its info, or None; CdrError when it is malformed."""
+        for cdr, info in self._wire.take(1):
+            return (cdr if self.raw else deserialize(self.msg_type, cdr)), _message_info(info)
+        return None
+
     def _take(self) -> Work | None:
         for cdr, info in self._wire.take(1):
             try:

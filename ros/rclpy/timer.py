@@ -142,7 +142,7 @@ class Timer(Entity):
         if self._next_call_ns < now_ns:
             self._skip_missed_periods(now_ns)
         self._reschedule()
-        return None if self.callback is None else (self.callback, ())
+        return (_nothing if self.callback is None else self.callback), ()
 
     def _skip_missed_periods(self, now_ns: int) -> None:
         if self._period_ns == 0:
@@ -179,6 +179,10 @@ class Timer(Entity):
             self._on_closing()
         if self._jump_handle is not None:
             self._jump_handle.unregister()
+
+
+def _nothing() -> None:
+    """What a timer without a callback calls."""
 
 
 class Rate:

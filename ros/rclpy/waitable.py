@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from .entity import Entity
+from .entity import Entity, Work
+from .subscription import Subscription
+from .timer import Timer
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .callback_groups import CallbackGroup
     from .executors import Executor
+    from .guard_condition import GuardCondition
     from .task import Future
 
-__all__ = ["NumberOfEntities", "Waitable"]
+__all__ = ["NumberOfEntities", "WaitSet", "Waitable"]
 
 
 class NumberOfEntities:
@@ -49,14 +52,50 @@ class NumberOfEntities:
         return self
 
     def __repr__(self) -> str:
-        counts = ", ".join(str(getattr(self, kind)) for kind in self.__slots__)
+        kinds = ("subscriptions", "guard_conditions", "timers", "clients", "services", "events")
+        counts = ", ".join(str(getattr(self, f"num_{kind}")) for kind in kinds)
         return f"<{self.__class__.__name__}({counts})>"
+
+
+class WaitSet:
+    """The entities that a waitable waits for, and which of them are ready."""
+
+    def __init__(self) -> None:
+        self._entities: dict[str, list[Entity]] = {"guard_condition": [], "subscription": [], "timer": []}
+        self._ready: set[Entity] = set()
+
+    def add_guard_condition(self, guard_condition: GuardCondition) -> int:
+        """Wait for a guard condition, too; its index for :meth:`is_ready`."""
+        return self._add("guard_condition", guard_condition)
+
+    def add_subscription(self, subscription: Subscription) -> int:
+        """Wait for a subscription, too; its index for :meth:`is_ready`."""
+        return self._add("subscription", subscription)
+
+    def add_timer(self, timer: Timer) -> int:
+        """Wait for a timer, too; its index for :meth:`is_ready`."""
+        return self._add("timer", timer)
+
+    def _add(self, entity_type: str, entity: Entity) -> int:
+        self._entities[entity_type].append(entity)
+        return len(self._entities[entity_type]) - 1
+
+    def is_ready(self, entity_type: str, index: int) -> bool:
+        """Whether the entity of this type (``guard_condition``, ``subscription``, ``timer``) and index is ready."""
+        return self._entities[entity_type][index] in self._ready
+
+    def entities(self) -> list[Entity]:
+        """All of them."""
+        return [entity for group in self._entities.values() for entity in group]
 
 
 class Waitable(Entity):
     """Something an executor serves that consists of several entities.
 
     The executor serves the parts; to the outside they are one: they come and go together, and run before the other entities of a cycle.
+    A program's own waitable says in :meth:`add_to_wait_set` what it waits for; then :meth:`is_ready`, :meth:`take_data` and
+    :meth:`execute` are called in this order. Its parts are entities that it made itself (``GuardCondition(None, None)``), not entities
+    that a node serves already.
     """
 
     _ORDER = -1
@@ -64,6 +103,35 @@ class Waitable(Entity):
     def __init__(self, callback_group: CallbackGroup) -> None:
         super().__init__(callback_group)
         self._parts: list[Entity] = []
+        self._wait_set: WaitSet | None = None
+
+    def is_ready(self, wait_set: WaitSet) -> bool:
+        """Whether there is something to execute."""
+        raise NotImplementedError
+
+    def take_data(self) -> Any:
+        """Take what made it ready; :meth:`execute` gets it."""
+        raise NotImplementedError
+
+    def execute(self, taken_data: Any) -> Any:
+        """Run; may be ``async``."""
+        raise NotImplementedError
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """How many entities it waits for."""
+        raise NotImplementedError
+
+    def add_to_wait_set(self, wait_set: WaitSet) -> None:
+        """Add to ``wait_set`` what it waits for. The waitables of this package have fixed parts instead."""
+
+    def _work_of(self, part: Entity) -> Work | None:
+        """What has to run when a part is ready."""
+        assert self._wait_set is not None
+        advanced = None if isinstance(part, Subscription) else part._take()
+        if advanced is None and isinstance(part, Timer):
+            return None  # cancelled, or its clock went back
+        self._wait_set._ready = {part}
+        return (self.execute, (self.take_data(),)) if self.is_ready(self._wait_set) else None
 
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
@@ -71,6 +139,13 @@ class Waitable(Entity):
         future._set_executor(executor)
 
     def _attach(self, executor: Executor) -> None:
+        if self._wait_set is None:
+            self._wait_set = WaitSet()
+            self.add_to_wait_set(self._wait_set)
+            for part in self._wait_set.entities():
+                part._owner = self
+                part.callback_group = self.callback_group
+                self._parts.append(part)
         for part in self._parts:
             executor._adopt(part)
 

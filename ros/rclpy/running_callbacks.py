@@ -1,0 +1,37 @@
+"""Which threads are running callbacks."""
+
+from __future__ import annotations
+
+import threading
+
+__all__ = ["RunningCallbacks"]
+
+
+class RunningCallbacks:
+    """Counts the callbacks that run, thread by thread: ``with running: callback()``. Thread-safe."""
+
+    def __init__(self) -> None:
+        self._counts: dict[int, int] = {}
+        self._changed = threading.Condition()
+
+    def __enter__(self) -> None:
+        self._count(1)
+
+    def __exit__(self, *exception: object) -> None:
+        self._count(-1)
+
+    def _count(self, change: int) -> None:
+        thread = threading.get_ident()
+        with self._changed:
+            count = self._counts.get(thread, 0) + change
+            if count:
+                self._counts[thread] = count
+            else:
+                del self._counts[thread]
+                self._changed.notify_all()
+
+    def wait_for_others(self, timeout_sec: float | None) -> bool:
+        """Block until no other thread runs a callback; False when the time is over before."""
+        me = threading.get_ident()
+        with self._changed:
+            return self._changed.wait_for(lambda: not self._counts.keys() - {me}, timeout_sec)
