@@ -1,0 +1,367 @@
+// Tests of the core for itself: run plain, and under the address, undefined-behaviour and thread sanitizers.
+// test_core [number of mutated messages]
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../core/batch.hpp"
+#include "../core/shared_buffer.hpp"
+#include "../core/tf_message.hpp"
+
+namespace {
+
+using namespace turtlewire;
+
+void check(bool truth, const std::string& what) {
+  if (truth) return;
+  std::fprintf(stderr, "failed: %s\n", what.c_str());
+  std::exit(1);
+}
+
+using Random = std::mt19937_64;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+std::size_t below(Random& random, std::size_t n) { return random() % n; }
+
+Pose random_pose(Random& random) {
+  return {{uniform(random, -5, 5), uniform(random, -5, 5), uniform(random, -5, 5)},
+          {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)}};
+}
+
+// ---------------------------------------------------------------- arithmetic
+
+// The weights against the formula in long double, over all angles and places.
+void test_slerp_weights() {
+  Random random(1);
+  double worst = 0.0;
+  for (int i = 0; i < 400'000; ++i) {
+    const long double angle = std::pow(10.0L, static_cast<long double>(uniform(random, -8, 0.19)));
+    if (angle > 1.55L) continue;
+    const double cosine = static_cast<double>(std::cos(angle));
+    const long double exact_angle = std::acos(static_cast<long double>(cosine));
+    if (exact_angle == 0.0L) continue;
+    const double u = uniform(random, 0, 1);
+    const auto [older, newer] = arc_weights(cosine, u);
+    const long double sine = std::sin(exact_angle);
+    worst = std::max(worst, static_cast<double>(std::fabs(std::sin((1.0L - u) * exact_angle) / sine - older)));
+    worst = std::max(worst, static_cast<double>(std::fabs(std::sin(u * exact_angle) / sine - newer)));
+  }
+  std::printf("slerp weights: largest error %.2g\n", worst);
+  check(worst <= 1e-15, "slerp weights are within 1e-15");
+}
+
+void test_canonical() {
+  Random random(2);
+  for (int i = 0; i < 200'000; ++i) {
+    const Quat q = random_pose(random).rotation;
+    const Quat a = through_matrix(q), b = canonical(a);
+    const Quat doubled{2 * q.x, 2 * q.y, 2 * q.z, 2 * q.w};
+    check(canonical(doubled) == canonical(q), "2q is stored as q is");
+    check(canonical({-q.x, -q.y, -q.z, -q.w}) == canonical(q), "-q is stored as q is");
+    check(std::fabs(dot(a, b)) > 1.0 - 1e-14, "canonical is the same rotation");
+    check(std::fabs(dot(b, b) - 1.0) < 1e-15, "canonical is unit");
+  }
+  check(canonical({0, 0, 0, 1e200}) == Quat{}, "an overflowing length gives the identity, as in tf2");
+  check(has_nan(canonical({0, 0, 0, 0})), "a zero quaternion gives NaN");
+}
+
+void test_kernels_agree() {
+  Random random(3);
+  Lanes a, b, plain, result;
+  double ratio[kLanes], cosine[kLanes];
+  for (int round = 0; round < 200; ++round) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      Pose p = random_pose(random);
+      p.rotation = canonical(p.rotation);
+      Pose q = p;
+      q.rotation.x += uniform(random, -1e-3, 1e-3);
+      q.rotation = canonical(q.rotation);
+      a.set(i, p);
+      b.set(i, q);
+      ratio[i] = uniform(random, 0, 1);
+    }
+    for (const Kernels* kernels : all_kernels()) {
+      kernels->interpolate(a, b, ratio, result, cosine);
+      kernels->compose(a, result);
+      kernels->between(b, result);
+      kernels->canonicalize(result);
+      if (kernels == all_kernels().front()) plain = result;
+      for (std::size_t k = 0; k < 7; ++k) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          check(std::fabs(result.v[k][i] - plain.v[k][i]) < 1e-12, std::string(kernels->name) + " equals plain");
+        }
+      }
+    }
+  }
+}
+
+// ---------------------------------------------------------------- the buffer
+
+// `alone`: nobody else changes the buffer meanwhile, so answers can be compared.
+void ask_everything(SharedBuffer& shared, Random& random, std::size_t frames, bool alone) {
+  const std::string target = "f" + std::to_string(below(random, frames)),
+                    source = "f" + std::to_string(below(random, frames));
+  std::vector<Stamp> stamps(1 + below(random, 100));
+  for (Stamp& t : stamps) t = static_cast<Stamp>(below(random, 2000));
+  Lanes poses;
+  Status statuses[kLanes];
+  BatchLookup batch(shared, target, source);
+  for (std::size_t begin = 0; begin < stamps.size(); begin += kLanes) {
+    const std::size_t n = std::min(kLanes, stamps.size() - begin);
+    batch.block({stamps.data() + begin, n}, poses, statuses);
+    for (std::size_t i = 0; i < n; ++i) {
+      Found found;
+      Failure failure;
+      const Status status = shared.lookup(Request{target, source, stamps[begin + i]}, found, failure);
+      const Status can = shared.can_transform(Request{target, source, stamps[begin + i]}, failure);
+      if (!alone) continue;
+      check(status == statuses[i], "a batch says what a single lookup says");
+      if (status == Status::ok && is_finite(found.target_from_source.translation)) {
+        const Vec3 gap = found.target_from_source.translation - poses.pose(i).translation;
+        check(std::fabs(gap.x) + std::fabs(gap.y) + std::fabs(gap.z) < 1e-9,
+              "a batch gives what a single lookup gives");
+      }
+      check((status == Status::ok) == (can == Status::ok), "can_transform says what lookup does");
+    }
+  }
+}
+
+void test_random_operations() {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    SharedBuffer shared(static_cast<Stamp>(below(random, 3) == 0 ? 100 : 1000));
+    const std::size_t frames = 1 + below(random, 12);
+    for (int i = 0; i < 300; ++i) {
+      const std::string parent = "f" + std::to_string(below(random, frames)),
+                        child = "f" + std::to_string(below(random, frames));
+      const std::size_t kind = below(random, 100);
+      if (kind < 80) {
+        Pose pose = random_pose(random);
+        if (kind == 0) pose.translation.x = INFINITY;
+        if (kind == 1) pose.rotation.w = NAN;
+        const Stamp stamp = static_cast<Stamp>(below(random, 2) ? i * 5 : below(random, 1500));
+        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(kind % 2 ? "x" : "y"), kind % 10 == 0);
+      } else if (kind < 95) {
+        ask_everything(shared, random, frames, true);
+      } else if (kind < 97) {
+        shared.buffer.clear();
+      } else {
+        FrameId id = 0;
+        if (shared.buffer.resolve(child, id) == Status::ok) shared.buffer.remove(id);
+      }
+      check(shared.buffer.fault().empty(), "invariants: " + shared.buffer.fault());
+    }
+  }
+}
+
+void test_search() {
+  Random random(5);
+  for (int round = 0; round < 300; ++round) {
+    Samples samples;
+    Stamp t = 0;
+    std::vector<Stamp> known;
+    for (std::size_t i = 0, n = 2 + below(random, 500); i < n; ++i) {
+      t += static_cast<Stamp>(below(random, 4) == 0 ? below(random, 1000) : 10);
+      samples.push_back(t, Sample{}, 2000);
+      known.push_back(t);
+      if (below(random, 3) == 0 && known.size() > 2) {
+        samples.pop_front();
+        known.erase(known.begin());
+      }
+    }
+    for (Stamp at = known.front(); at <= known.back() + 3; ++at) {
+      const auto after = std::upper_bound(known.begin(), known.end(), at);
+      const auto expected = static_cast<std::size_t>(after - known.begin()) - 1;
+      check(samples.last_at_or_before(at) == expected, "search");
+      check(samples.last_at_or_before(at, below(random, known.size())) == expected, "search with a hint");
+    }
+  }
+}
+
+void test_memory() {
+  Buffer buffer(10'000'000'000);
+  const SourceId me = buffer.sender("me");
+  for (Stamp i = 1; i <= 25'000; ++i) buffer.set("a", "b", i * 1'000'000, Pose{}, me, false);
+  const Samples& samples = buffer.link(1).samples();
+  const double bytes = static_cast<double>(samples.bytes()) / static_cast<double>(samples.size());
+  std::printf("memory: %.1f bytes a sample in a full cache of %zu\n", bytes, samples.size());
+  check(samples.size() == 10'002 || samples.size() == 10'001, "a full cache");
+  check(bytes <= 80.0, "80 bytes a sample, slack included");
+}
+
+// ---------------------------------------------------------------- threads
+
+class Sleeper final : public Waiter {
+ public:
+  void wake() noexcept override {
+    const std::scoped_lock lock(mutex_);
+    awake_ = true;
+    woken_.notify_one();
+  }
+  void sleep() {
+    std::unique_lock lock(mutex_);
+    woken_.wait(lock, [this] { return awake_; });
+    awake_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  bool awake_ = false;
+};
+
+void test_threads() {
+  SharedBuffer shared(1'000'000);
+  constexpr Stamp last = 3000;
+  std::atomic<bool> done = false;
+  std::vector<std::thread> threads;
+  for (int reader = 0; reader < 3; ++reader) {
+    threads.emplace_back([&, reader] {
+      Random random(static_cast<unsigned>(reader));
+      std::vector<FramePose> all;
+      while (!done) {
+        ask_everything(shared, random, 8, false);
+        Failure failure;
+        lookup_all(shared, "f1", 0, all, failure);
+        const std::scoped_lock lock(shared.mutex);
+        check(!shared.buffer.frames_as_yaml(1.0).empty(), "yaml");
+      }
+    });
+  }
+  threads.emplace_back([&] {  // waits for the last sample as a lookup with a timeout does
+    Sleeper sleeper;
+    const Waiting known(shared, sleeper);
+    Found found;
+    for (;;) {
+      Failure failure;
+      if (shared.lookup(Request{"f0", "f3", last}, found, failure) == Status::ok) return;
+      sleeper.sleep();
+    }
+  });
+  Random random(9);
+  for (Stamp t = 1; t <= last; ++t) {
+    const std::scoped_lock lock(shared.mutex);
+    const SourceId me = shared.buffer.sender("me");
+    shared.buffer.set("f0", "f1", t, random_pose(random), me, false);
+    shared.buffer.set("f1", "f2", 0, Pose{}, me, true);
+    shared.buffer.set(t % 100 < 50 ? "f2" : "f1", "f3", t, random_pose(random), me, false);
+    shared.wake_waiters();
+  }
+  threads.back().join();
+  threads.pop_back();
+  done = true;
+  for (std::thread& thread : threads) thread.join();
+}
+
+// ---------------------------------------------------------------- bytes
+
+class Message {
+ public:
+  explicit Message(std::uint32_t count) {
+    put(std::uint32_t{0x00000100});
+    put(count);
+  }
+  void add(std::int32_t sec, const std::string& parent, const std::string& child, const Pose& pose) {
+    align(4);
+    put(sec);
+    put(std::uint32_t{5});
+    text(parent);
+    text(child);
+    align(8);
+    put(pose);
+  }
+  std::vector<unsigned char> bytes;
+
+ private:
+  template <typename T>
+  void put(const T& value) {
+    const auto* p = reinterpret_cast<const unsigned char*>(&value);
+    bytes.insert(bytes.end(), p, p + sizeof(T));
+  }
+  void align(std::size_t size) {
+    while ((bytes.size() - 4) % size != 0) bytes.push_back(0);
+  }
+  void text(const std::string& value) {
+    align(4);
+    put(static_cast<std::uint32_t>(value.size() + 1));
+    bytes.insert(bytes.end(), value.c_str(), value.c_str() + value.size() + 1);
+  }
+};
+
+// Takes the bytes as a binding does; from memory of exactly their size, so that a sanitizer sees each step too far.
+std::size_t ingest(SharedBuffer& shared, const std::vector<unsigned char>& bytes, bool& malformed) {
+  static thread_local TfMessage message;
+  const std::vector<unsigned char> exact(bytes);
+  malformed = !message.decode(exact.data(), exact.size()).empty();
+  std::size_t accepted = 0;
+  const SourceId me = shared.buffer.sender("me");
+  for (const ReceivedTransform& r : message.transforms()) {
+    accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
+  }
+  return accepted;
+}
+
+std::vector<unsigned char> mutated(std::vector<unsigned char> bytes, Random& random) {
+  for (std::size_t n = below(random, 5); n > 0; --n) {
+    static constexpr unsigned char nasty[] = {0, 1, 4, 5, 0x7F, 0x80, 0xC0, 0xED, 0xF0, 0xF4, 0xFF};
+    bytes[below(random, bytes.size())] = nasty[below(random, sizeof nasty)];
+  }
+  if (below(random, 3) == 0) bytes.resize(below(random, bytes.size() + 1));
+  if (below(random, 20) == 0) bytes.resize(bytes.size() + below(random, 9));
+  return bytes;
+}
+
+void test_malformed_messages(std::size_t rounds) {
+  Random random(11);
+  Message small(2), large(10'000), odd(5);
+  small.add(1, "map", "base", random_pose(random));
+  small.add(2, "base", "camera", random_pose(random));
+  for (int i = 0; i < 10'000; ++i) large.add(i, "map", "x" + std::to_string(i), Pose{});
+  odd.add(1, std::string(10'000, 'p'), "long", Pose{});
+  odd.add(1, "map", "\xff\xfe", Pose{});
+  odd.add(1, "map", "nan", Pose{{NAN, 0, 0}, {}});
+  odd.add(1, "map", "zero", Pose{{}, {0, 0, 0, 0}});
+  odd.add(1, "map", "good", Pose{});
+  bool malformed = false;
+  SharedBuffer whole(10'000'000'000);
+  check(ingest(whole, large.bytes, malformed) == 10'000 && !malformed, "10,000 transforms in one message");
+  check(ingest(whole, odd.bytes, malformed) == 1 && !malformed, "the good one among the odd ones is kept");
+  check(whole.buffer.refusals().by_child().size() == 4, "each refusal is counted");
+  std::size_t rejected = 0;
+  auto shared = std::make_unique<SharedBuffer>(10'000'000'000);
+  for (std::size_t i = 0; i < rounds; ++i) {
+    ingest(*shared, mutated(below(random, 10) != 0 ? small.bytes : odd.bytes, random), malformed);
+    rejected += malformed;
+    if (i % 10'000 == 9999) {
+      check(shared->buffer.fault().empty(), "invariants after mutated messages: " + shared->buffer.fault());
+      check(ingest(*shared, small.bytes, malformed) <= 2 && !malformed, "a good message is taken among bad ones");
+      shared = std::make_unique<SharedBuffer>(10'000'000'000);
+    }
+  }
+  std::printf("mutated messages: %zu, of which %zu malformed\n", rounds, rejected);
+  check(rejected > rounds / 10, "many mutations are malformed");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::size_t messages = count > 1 ? std::strtoul(arguments[1], nullptr, 10) : 20'000;
+  test_slerp_weights();
+  test_canonical();
+  test_kernels_agree();
+  test_search();
+  test_random_operations();
+  test_memory();
+  test_threads();
+  test_malformed_messages(messages);
+  std::puts("all passed");
+}
