@@ -147,12 +147,8 @@ def test_threads_may_publish_take_and_close_at_the_same_time(contexts: list[Cont
 @pytest.mark.slow
 def test_fifty_processes_see_each_other(record_property):
     count = 50
-    processes = [
-        subprocess.Popen(
-            [sys.executable, PEERS / "crowd.py", str(count)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ
-        )
-        for _ in range(count)
-    ]
+    command = [sys.executable, PEERS / "crowd.py", str(count)]
+    processes = [subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in range(count)]
     started = time.time()
     try:
         up = [float(process.stdout.readline().split()[1]) for process in processes if process.stdout]
