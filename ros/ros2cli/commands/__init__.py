@@ -7,6 +7,7 @@ __all__ = ["COMMANDS"]
 COMMANDS = {
     "action": "Goals that take time: list them, send one",
     "daemon": "Status of the daemon (there is none, and none is needed)",
+    "doctor": "Look for what is wrong with the setup and the traffic",
     "interface": "Show the definitions of messages, services and actions",
     "launch": "Run a launch file",
     "node": "List nodes, show what one of them offers",

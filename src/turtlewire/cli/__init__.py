@@ -1,0 +1,1 @@
+"""The ``turtlewire`` command: what one looks at and checks without any ROS."""

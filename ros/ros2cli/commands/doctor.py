@@ -1,0 +1,26 @@
+"""``ros2 doctor``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    parser.add_argument("-iw", "--include-warnings", action="store_true", help="Count what is only worth knowing as a failure too")
+    parser.add_argument("--listen", type=float, default=2.0, metavar="S", help="Listen to the transforms for S seconds")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the findings; status 1 when there is a problem."""
+    from turtlewire.cli.doctor import examine, report
+
+    findings = examine(args.listen)
+    failed = [finding for finding in findings if finding.is_problem or args.include_warnings]
+    print(report(findings))
+    return 1 if failed else 0

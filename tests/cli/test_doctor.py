@@ -1,0 +1,195 @@
+"""What the doctor finds, on graphs and traffic made for it."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+
+import pytest
+
+from turtlewire import msg
+from turtlewire.cli import doctor
+from turtlewire.cli.main import main
+from turtlewire.cli.tf_traffic import TfTraffic, listen_to_transforms
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS, Reliability
+
+STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "1" * 64)
+TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
+NOW_NS = 1_800_000_000_000_000_000
+
+
+@pytest.fixture
+def context():
+    opened = open_context(middleware="local")
+    yield opened
+    opened.close()
+
+
+def texts(findings):
+    return [finding.text for finding in findings]
+
+
+def test_an_empty_domain(context):
+    (finding,) = doctor.graph_findings(context.graph)
+    assert finding.is_problem
+    assert finding.text == f"No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
+    assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET" in finding.remedy
+
+
+def test_a_sound_graph_has_no_findings(context):
+    context.create_node("talker").create_publisher("/chatter", STRING, QoS())
+    context.create_node("listener").create_subscription("/chatter", STRING, QoS())
+    assert doctor.graph_findings(context.graph) == []
+
+
+def test_nodes_of_one_name(context):
+    context.create_node("a")
+    context.create_node("a")
+    assert texts(doctor.graph_findings(context.graph)) == ["2 nodes have the same name /a."]
+
+
+@pytest.mark.parametrize(
+    ("offered", "asked", "reason"),
+    [
+        (QoS(reliability=Reliability.BEST_EFFORT), QoS(), "it asks for RELIABLE, and BEST_EFFORT is offered"),
+        (QoS(), QoS(durability=Durability.TRANSIENT_LOCAL), "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"),
+    ],
+)
+def test_qos_that_cannot_match_names_both_ends(context, offered, asked, reason):
+    context.create_node("talker").create_publisher("/x", STRING, offered)
+    context.create_node("listener").create_subscription("/x", STRING, asked)
+    assert texts(doctor.graph_findings(context.graph)) == [f"/x: /listener gets nothing from /talker: {reason}."]
+
+
+def test_weaker_requests_match(context):
+    context.create_node("talker").create_publisher("/x", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    context.create_node("listener").create_subscription("/x", STRING, QoS(reliability=Reliability.BEST_EFFORT))
+    assert doctor.graph_findings(context.graph) == []
+
+
+def test_types_and_definitions_that_differ(context):
+    context.create_node("talker").create_publisher("/x", STRING, QoS())
+    context.create_node("listener").create_subscription("/x", TypeId("std_msgs/msg/Int32", ""), QoS())
+    assert texts(doctor.graph_findings(context.graph)) == ["/x has ends of different types: std_msgs/msg/Int32, std_msgs/msg/String."]
+
+
+def test_definitions_that_differ(context):
+    context.create_node("talker").create_publisher("/x", STRING, QoS())
+    context.create_node("listener").create_subscription("/x", STRING._replace(type_hash="RIHS01_" + "2" * 64), QoS())
+    assert texts(doctor.graph_findings(context.graph)) == ["/x: /listener gets nothing from /talker: their definitions of the type differ."]
+
+
+def transform(parent, child, stamp_ns=NOW_NS):
+    message = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    message.header.frame_id = parent
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 1_000_000_000)
+    return msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[message])
+
+
+@pytest.fixture
+def broadcasters(context):
+    """Two nodes that publish /tf; their gids."""
+    return [context.create_node(name).create_publisher("/tf", TF, QoS()).gid for name in ("one", "two")]
+
+
+def traffic_of(*entries):
+    traffic = TfTraffic()
+    traffic.ended_ns = NOW_NS
+    for message, gid, static in entries:
+        traffic.note(message, gid, static=static)
+    return traffic
+
+
+def test_transforms_without_fault(context, broadcasters):
+    one, two = broadcasters
+    traffic = traffic_of((transform("world", "a"), one, False), (transform("world", "b"), two, False), (transform("a", "c", 0), one, True))
+    assert doctor.tf_findings(context.graph, traffic) == []
+
+
+def test_nobody_publishes(context):
+    assert texts(doctor.tf_findings(context.graph, TfTraffic())) == ["Nobody publishes transforms."]
+
+
+def test_two_publishers_of_one_frame(context, broadcasters):
+    one, two = broadcasters
+    traffic = traffic_of((transform("world", "a"), one, False), (transform("world", "a"), two, False))
+    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frame 'a' is published by /one and /two."]
+
+
+def test_two_parents(context, broadcasters):
+    one, _ = broadcasters
+    traffic = traffic_of((transform("world", "a"), one, False), (transform("map", "a"), one, False), (transform("world", "map"), one, True))
+    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frame 'a' has several parents: map, world."]
+
+
+def test_separate_trees(context, broadcasters):
+    one, _ = broadcasters
+    traffic = traffic_of((transform("world", "a"), one, False), (transform("odom", "b"), one, False))
+    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frames form 2 separate trees, with the roots odom, world."]
+
+
+def test_mixed_and_stale_times(context, broadcasters):
+    one, _ = broadcasters
+    old = NOW_NS - 5_000_000_000
+    traffic = traffic_of((transform("world", "a", old), one, False), (transform("world", "b", 3_000_000_000), one, False))
+    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+        "Wall time and simulated time are mixed: a and b.",
+        "The newest transform of 'a' is 5.0 s old.",
+    ]
+
+
+def test_listening_takes_both_topics_and_drops_nonsense(context):
+    node = context.create_node("one")
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    static, dynamic = node.create_publisher("/tf_static", TF, latched), node.create_publisher("/tf", TF, QoS())
+    static.publish(msg.serialize(transform("world", "fixed")))
+
+    def send():
+        context.graph.wait_for(lambda: dynamic.subscription_count() > 0)
+        for cdr in (b"\x00\x01\x00\x00\xff\xff\xff\xff", msg.serialize(transform("world", "moving"))):
+            dynamic.publish(cdr)
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    traffic = listen_to_transforms(context, 2.0)
+    sender.join()
+    assert traffic.parents == {"fixed": {"world"}, "moving": {"world"}}
+    assert set(traffic.newest_ns) == {"moving"}
+    assert abs(traffic.ended_ns - time.time_ns()) < 60 * 10**9
+
+
+def test_a_real_ros_mixed_into_the_path(tmp_path):
+    for name in ("ours", "theirs"):
+        (tmp_path / name / "rclpy").mkdir(parents=True)
+        (tmp_path / name / "rclpy/__init__.py").touch()
+    path = [str(tmp_path / "ours"), str(tmp_path / "theirs"), str(tmp_path / "ours")]
+    found = [finding for finding in doctor.setup_findings({}, path) if finding.is_problem]
+    assert len(found) == 1
+    assert found[0].text.startswith("Two ROS installations are mixed: rclpy is in ")
+    assert not any(finding.is_problem for finding in doctor.setup_findings({}, path[:1]))
+
+
+def test_another_distribution_is_named():
+    assert "ROS_DISTRO is 'humble', but the names and texts here are those of jazzy." in texts(
+        doctor.setup_findings({"ROS_DISTRO": "humble"}, [])
+    )
+
+
+def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
+    findings = [doctor.Finding(False, "small", "do a"), doctor.Finding(True, "big", "do b")]
+    monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
+    assert main(["doctor"]) == 1
+    assert capsys.readouterr().out == "PROBLEM: big\n    do b\nnote: small\n    do a\n"
+    findings.pop()
+    assert main(["doctor"]) == 0
+    findings.clear()
+    assert main(["doctor"]) == 0
+    assert capsys.readouterr().out.endswith("Nothing is wrong as far as can be seen.\n")
+
+
+def test_a_domain_that_cannot_be_joined_is_a_finding(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_nope")
+    assert "middleware 'rmw_nope' is not available" in texts(doctor.examine(0.0))
