@@ -1,0 +1,36 @@
+from __future__ import annotations
+
+import shutil
+import subprocess
+
+import pytest
+
+from tf2_tools.dot import dot_from_tree
+from turtlewire.tf.frame_tree import FrameTree, Link
+
+
+def test_one_link_as_ros_2_writes_it():
+    tree = FrameTree([Link("turtle1", "world", "default_authority", 62.7, 12.5, 7.25, 5.25)])
+    assert dot_from_tree(tree, "100.000000") == (
+        "digraph G {\n"
+        '"world" -> "turtle1"[label=" Broadcaster: default_authority\\nAverage rate: 62.700\\nBuffer length: 5.250\\n'
+        'Most recent transform: 12.500000\\nOldest transform: 7.250000\\n"];\n'
+        "edge [style=invis];\n"
+        ' subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+        '"Recorded at time: 100.000000"[ shape=plaintext ] ;\n'
+        '}->"world";\n'
+        "}"
+    )
+
+
+def test_no_data():
+    assert dot_from_tree(FrameTree([]), "1.0") == 'digraph G { "No tf data received" }'
+
+
+@pytest.mark.skipif(shutil.which("dot") is None, reason="graphviz is not installed")
+@pytest.mark.parametrize("pairs", [[("a", "b"), ("b", "a")], [('say "hi"', "back\\slash"), ("x", "y")]])
+def test_graphviz_takes_loops_and_quotes(pairs):
+    tree = FrameTree(Link(child, parent, "", 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
+    run = subprocess.run(["dot", "-Tplain"], input=dot_from_tree(tree, "1.0"), capture_output=True, text=True, check=True)
+    assert run.stderr == ""
+    assert run.stdout.count("\nedge ") >= len(pairs)

@@ -1,0 +1,145 @@
+"""view_frames as a process of its own over DDS, and as a node in this one."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+from xml.etree import ElementTree as ET
+
+import pytest
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.context import Context
+from rclpy.node import Node
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+from tf2_tools.view_frames import ViewFrames
+from turtlewire.tf.frame_tree import FrameTree, Link
+
+COMMAND = [sys.executable, "-m", "tf2_tools.view_frames"]
+
+
+def view_frames(*args, cwd):
+    return subprocess.run([*COMMAND, *args], cwd=cwd, capture_output=True, text=True, check=False, timeout=100)
+
+
+def stamped(parent, child):
+    transform = TransformStamped(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp = rclpy.clock.Clock().now().to_msg()
+    return transform
+
+
+@pytest.fixture(scope="module")
+def broadcaster():
+    """A node of this process sends map -> base 50 times a second, and base -> laser once."""
+    context = Context()
+    context.init(args=[])
+    node, stop = Node("robot", context=context), threading.Event()
+    moving, fixed = TransformBroadcaster(node), StaticTransformBroadcaster(node)
+    fixed.sendTransform(stamped("base", "laser"))
+
+    def send():
+        while not stop.wait(0.02):
+            moving.sendTransform(stamped("map", "base"))
+
+    thread = threading.Thread(target=send)
+    thread.start()
+    yield
+    stop.set()
+    thread.join()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def until_all_is_heard(broadcaster_heard, *args, cwd):
+    """Run it, and again for a longer time as long as a busy machine had too little of it."""
+    for wait_time in (1, 4, 16, 60):
+        run = view_frames("-t", str(wait_time), *args, cwd=cwd)
+        if broadcaster_heard(run):
+            return run
+    return run
+
+
+def test_it_listens_and_writes_three_files(broadcaster, tmp_path):
+    run = until_all_is_heard(lambda run: "Received 3 frames" in run.stderr, "-o", "robot", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    said = [line.split("]: ", 1)[1] for line in (run.stdout + run.stderr).splitlines()]
+    assert said[0].startswith("Listening to tf data for ")
+    assert said[1:] == [
+        "Received 3 frames, 2 of them with a parent",
+        *[f"Wrote {tmp_path.resolve() / f'robot.{ending}'}" for ending in ("gv", "pdf", "svg")],
+    ]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["robot.gv", "robot.pdf", "robot.svg"]
+    dot = (tmp_path / "robot.gv").read_text()
+    assert '"map" -> "base"[label=" Broadcaster: ' in dot
+    assert '"base" -> "laser"[label=" Broadcaster: ' in dot
+    assert (tmp_path / "robot.pdf").read_bytes().startswith(b"%PDF-1.4\n")
+    shown = [text.text for text in ET.parse(tmp_path / "robot.svg").getroot().iter("{http://www.w3.org/2000/svg}text")]
+    assert shown[0] == "view_frames Result"
+    assert {"map", "base", "laser", "Static transform"} < set(shown)
+
+
+def test_json(broadcaster, tmp_path):
+    run = until_all_is_heard(lambda run: "laser" in run.stdout and '"map"' in run.stdout, "--json", cwd=tmp_path)
+    links = {link["child"]: link for link in json.loads(run.stdout)}
+    assert {child: link["parent"] for child, link in links.items()} == {"base": "map", "laser": "base"}
+    assert links["base"]["rate_hz"] > 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_hearing_nothing_is_said_and_drawn(broadcaster, tmp_path):
+    run = view_frames("-t", "0", "--tf_topic", "other", "--tf_static_topic", "/other_static", "--ros-args", "-r", "__ns:=/x", cwd=tmp_path)
+    assert run.returncode == 0
+    assert "No tf data received on /x/other and /other_static. Is a broadcaster running" in run.stdout + run.stderr
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert [name.rpartition(".")[2] for name in names] == ["gv", "pdf", "svg"]
+    assert all(name.startswith("frames_20") for name in names)
+    (dot,) = tmp_path.glob("*.gv")
+    assert dot.read_text() == 'digraph G { "No tf data received" }'
+    (svg,) = tmp_path.glob("*.svg")
+    assert "No tf data received" in svg.read_text()
+
+
+def test_ctrl_c_ends_it_without_files(tmp_path):
+    with subprocess.Popen([*COMMAND, "-t", "600"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        assert "Listening to tf data for 600.0 seconds..." in process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        rest = process.stdout.read()
+        assert process.wait(60) == 130
+    assert "Traceback" not in rest
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_that_cannot_be_written(tmp_path):
+    run = view_frames("-t", "0", "-o", "no/such/folder/frames", cwd=tmp_path)
+    assert run.returncode == 1
+    assert "Cannot write no/such/folder/frames.gv: No such file or directory" in run.stdout + run.stderr
+
+
+@pytest.mark.parametrize("wrong", ["soon", "-1", "inf", "nan"])
+def test_no_time_to_wait(wrong, tmp_path):
+    run = view_frames(f"--wait-time={wrong}", cwd=tmp_path)
+    assert run.returncode == 2
+    assert f"argument -t/--wait-time: '{wrong}' is no number of seconds" in run.stderr
+
+
+def test_a_loop_is_told_and_written(monkeypatch, tmp_path, capfd):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    rclpy.init(args=[])
+    try:
+        with ViewFrames() as node:
+            for parent, child in (("a", "b"), ("b", "a")):
+                node._buffer.set_transform(stamped(parent, child), "test")
+            tree = node.listen(0.0)
+            node.write(tree, str(tmp_path / "loop"))
+    finally:
+        rclpy.try_shutdown()
+    assert "These frames form a loop, no lookup across it works: b -> a -> b" in capfd.readouterr().err
+    assert isinstance(tree, FrameTree)
+    assert isinstance(tree.links["a"], Link)
+    assert '"a" -> "b"' in (tmp_path / "loop.gv").read_text()
+    assert len(list(tmp_path.iterdir())) == 3
