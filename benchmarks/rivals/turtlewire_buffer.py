@@ -8,7 +8,7 @@ from array import array
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from clock import per_call, report, summary
-from world import FIRST, LINKS_IN_MESSAGE, OLD, RECENT, STEP, chain, message
+from world import FIRST, LINKS_IN_MESSAGE, OLD, RECENT, STEP, chain, message, random_stamps
 
 import turtlewire
 from turtlewire import msg
@@ -30,6 +30,26 @@ def lookups(figures):
     figures["can_transform"] = per_call('can("map", "camera", recent)', names)
     failing = 'try:\n    lookup("map", "nobody", 0)\nexcept error:\n    pass'
     figures["failing lookup"] = per_call(failing, names)
+
+
+def batches(figures):
+    import numpy as np
+
+    buffer = filled()
+    stamps = np.array(random_stamps(100_000), dtype=np.int64)
+    names = {"batch": buffer.lookup_batch, "stamps": stamps, "sorted_stamps": np.sort(stamps), "out": np.empty((100_000, 7))}
+    for case, which in (("batch random", "stamps"), ("batch sorted", "sorted_stamps")):
+        figures[case] = [value / 1e5 for value in per_call(f'batch("map", "camera", {which}, out=out)', names)]
+    points = np.random.default_rng(1).normal(size=(100_000, 3)).astype(np.float32)
+    names.update(move=buffer.transform_points, points=points, moved=np.empty_like(points))
+    figures["points"] = [value / 1e5 for value in per_call('move("map", "camera", points, sorted_stamps, out=moved)', names)]
+
+
+def memory(figures):
+    from turtlewire.tf.inspection import links
+
+    full = links(filled())
+    figures["memory"] = [sum(link.memory_bytes for link in full) / sum(link.samples for link in full)] * 2
 
 
 def messages(figures):
@@ -104,7 +124,7 @@ def wake_up(figures):
 
 def main():
     figures = {}
-    for part in (lookups, messages, ingest, wake_up):
+    for part in (lookups, batches, memory, messages, ingest, wake_up):
         part(figures)
     report(figures)
 
