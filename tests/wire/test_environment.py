@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from turtlewire.errors import WireError
-from turtlewire.wire import environment, report
+from turtlewire.wire import environment, open_context, report
 from turtlewire.wire.cyclone.configuration import domain_configuration
 from turtlewire.wire.environment import Discovery, Range
 
@@ -122,3 +122,16 @@ def test_a_broken_configuration_of_the_user_is_one_clear_error():
     done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 1
     assert "WireError: join domain" in done.stderr
+
+
+def test_a_platform_without_cyclone_gets_one_clear_line():
+    code = "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom turtlewire.wire import open_context\nopen_context()\n"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert "WireError: Cyclone DDS is not available for Python" in done.stderr
+    assert "pip install cyclonedds==11.0.1" in done.stderr or sys.version_info < (3, 11)
+
+
+@pytest.mark.parametrize("domain_id", [-1, 233])
+def test_a_domain_out_of_range_is_refused(domain_id: int):
+    with pytest.raises(WireError, match=f"domain {domain_id} does not exist"):
+        open_context(domain_id)

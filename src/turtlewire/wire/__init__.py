@@ -31,6 +31,8 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
     """
     if domain_id is None:
         domain_id = environment.domain_id()
+    if not 0 <= domain_id <= environment.MAX_DOMAIN_ID:
+        raise WireError(f"domain {domain_id} does not exist: domains have numbers from 0 to {environment.MAX_DOMAIN_ID}")
     name = middleware or os.environ.get("RMW_IMPLEMENTATION") or "rmw_cyclonedds_cpp"
     if name == "rmw_cyclonedds_cpp":
         from .cyclone.context import CycloneContext
