@@ -14,6 +14,7 @@ __all__ = [
     "executables",
     "interface_packages",
     "interfaces",
+    "managed_node_names",
     "node_names",
     "packages",
     "service_names",
@@ -97,3 +98,12 @@ def _ask(question: str) -> Any:
 
     with GraphNode() as known:
         return getattr(graph, question)(known)
+
+
+def managed_node_names(**_: Any) -> list[str]:
+    """Full names of the managed nodes there are now."""
+    from ros2cli.discovery import GraphNode
+    from ros2cli.managed_nodes import managed_nodes
+
+    with GraphNode() as known:
+        return managed_nodes(known)

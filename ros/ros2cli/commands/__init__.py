@@ -10,6 +10,7 @@ COMMANDS = {
     "doctor": "Look for what is wrong with the setup and the traffic",
     "interface": "Show the definitions of messages, services and actions",
     "launch": "Run a launch file",
+    "lifecycle": "Show and change the states of managed nodes",
     "node": "List nodes, show what one of them offers",
     "param": "Read and set parameters of nodes",
     "pkg": "List and create packages",

@@ -1,0 +1,33 @@
+"""``ros2 lifecycle get``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import managed_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    node = parser.add_argument("node_name", nargs="?", help="Full name of the node; all when it is not given")
+    node.completer = managed_node_names  # type: ignore[attr-defined]
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print label and number of the state."""
+    from lifecycle_msgs.srv import GetState
+    from ros2cli.managed_nodes import ask, managed_nodes, require_managed_node
+
+    with DirectNode(args) as direct:
+        one = None if args.node_name is None else require_managed_node(direct.graph, args.node_name)
+        for name in managed_nodes(direct.graph) if one is None else [one]:
+            state = ask(direct, GetState, f"{name}/get_state", GetState.Request()).current_state
+            print(f"{'' if one else f'{name}: '}{state.label} [{state.id}]")

@@ -1,0 +1,32 @@
+"""``ros2 lifecycle nodes``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.discovery import GraphNode, add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    parser.add_argument("-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore")
+    parser.add_argument("-c", "--count-nodes", action="store_true", help="Only show how many there are")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the full names."""
+    from ros2cli.managed_nodes import managed_nodes
+
+    with GraphNode(args.spin_time) as graph:
+        names = managed_nodes(graph, hidden=args.all)
+    if args.count_nodes:
+        print(len(names))
+        return
+    for name in names:
+        print(name)

@@ -1,0 +1,43 @@
+"""``ros2 lifecycle set``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import managed_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    node = parser.add_argument("node_name", help="Full name of the node")
+    node.completer = managed_node_names  # type: ignore[attr-defined]
+    parser.add_argument("transition", help="Label or number of a transition that the node offers, for example configure")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Ask for the transition, and print how it went."""
+    from lifecycle_msgs.msg import Transition
+    from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions
+    from ros2cli.managed_nodes import ask, require_managed_node
+
+    with DirectNode(args) as direct:
+        name = require_managed_node(direct.graph, args.node_name)
+        answer = ask(direct, GetAvailableTransitions, f"{name}/get_available_transitions", GetAvailableTransitions.Request())
+        offered = [item.transition for item in answer.available_transitions]
+        chosen = next((item for item in offered if args.transition in (item.label, str(item.id))), None)
+        if chosen is None:
+            known = "".join(f"\n- {item.label} [{item.id}]" for item in offered)
+            return f"Unknown transition requested, available ones are:{known}"
+        request = ChangeState.Request(transition=Transition(id=chosen.id, label=chosen.label))
+        if not ask(direct, ChangeState, f"{name}/change_state", request).success:
+            return "Transitioning failed"
+    print("Transitioning successful")
+    return None

@@ -1,0 +1,54 @@
+"""Talking to the lifecycle services of nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ros2cli.direct_node import DirectNode
+    from turtlewire.wire.base import Graph
+
+__all__ = ["ask", "managed_nodes", "require_managed_node"]
+
+_SERVICE = "/get_state"
+_TYPE = "lifecycle_msgs/srv/GetState"
+_TIMEOUT_S = 5.0
+
+
+def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
+    """Full names of the nodes that offer to tell their state, sorted."""
+    from ros2cli.graph import is_hidden_node, services
+
+    names = [name.removesuffix(_SERVICE) for name, types in services(graph, hidden=True) if name.endswith(_SERVICE) and _TYPE in types]
+    return sorted(name for name in names if hidden or not is_hidden_node(name))
+
+
+def require_managed_node(graph: Graph, name: str) -> str:
+    """The full name of a managed node.
+
+    Raises:
+        RuntimeError: There is none of that name.
+    """
+    from ros2cli.parameters import full_node_name
+    from ros2cli.suggestion import did_you_mean
+
+    full_name = full_node_name(name)
+    known = managed_nodes(graph, hidden=True)
+    if full_name not in known:
+        raise RuntimeError(f"Node not found{did_you_mean(full_name, known)}")
+    return full_name
+
+
+def ask(direct: DirectNode, service_class: Any, service: str, request: Any) -> Any:
+    """Call a service of a managed node.
+
+    Raises:
+        RuntimeError: It does not answer.
+    """
+    client = direct.node.create_client(service_class, service)
+    if not client.wait_for_service(_TIMEOUT_S):
+        raise RuntimeError(f"The service {service} is not available")
+    try:
+        return direct.result(client.call_async(request), _TIMEOUT_S)
+    except TimeoutError as error:
+        raise RuntimeError(f"The service {service} did not answer within {_TIMEOUT_S} s") from error

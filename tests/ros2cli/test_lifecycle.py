@@ -1,0 +1,60 @@
+"""`ros2 lifecycle` with a managed node."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from ros2cli.main import main
+
+NODE = """
+import sys, threading
+import rclpy
+from rclpy.lifecycle import LifecycleNode
+rclpy.init()
+node = LifecycleNode("managed")
+print("ready", flush=True)
+threading.Thread(target=lambda: (sys.stdin.read(), rclpy.try_shutdown()), daemon=True).start()
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
+    pass
+"""
+
+
+@pytest.fixture
+def managed():
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    process = subprocess.Popen([sys.executable, "-c", NODE], **pipes)
+    assert process.stdout.readline() == b"ready\n"
+    yield
+    process.communicate(timeout=60)
+
+
+def ros2(*words):
+    """Run in a process of its own, as rclpy's default context belongs to a process."""
+    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
+    result = subprocess.run([sys.executable, "-c", program, *words], capture_output=True, text=True, check=False, timeout=100)
+    return result.returncode, result.stdout, result.stderr
+
+
+def test_a_managed_node_is_listed_and_changes_its_state(managed):
+    assert ros2("lifecycle", "nodes") == (0, "/managed\n", "")
+    assert ros2("lifecycle", "get", "/managed") == (0, "unconfigured [1]\n", "")
+    assert ros2("lifecycle", "get") == (0, "/managed: unconfigured [1]\n", "")
+    status, shown, _ = ros2("lifecycle", "list", "/managed")
+    assert status == 0
+    assert shown.startswith("- configure [1]\n\tStart: unconfigured\n\tGoal: configuring\n")
+    assert ros2("lifecycle", "set", "/managed", "configure") == (0, "Transitioning successful\n", "")
+    assert ros2("lifecycle", "get", "managed") == (0, "inactive [2]\n", "")
+    status, _, told = ros2("lifecycle", "set", "/managed", "configure")
+    assert status == 1
+    assert told.startswith("Unknown transition requested, available ones are:\n- ")
+
+
+def test_without_managed_nodes(capsys):
+    assert main(["lifecycle", "nodes", "-c"]) == 0
+    assert capsys.readouterr().out == "0\n"
+    assert ros2("lifecycle", "get", "/nope") == (1, "", "Node not found\n")
