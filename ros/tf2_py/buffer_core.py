@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import turtlewire
 from tf2_py.messages import message_lookup
 from tf2_py.times import to_nanoseconds
+from turtlewire.tf.inspection import links
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
     from rclpy.duration import Duration
     from rclpy.time import Time
+
+    Triple: TypeAlias = tuple[float, float, float]
 
 __all__ = ["BufferCore"]
 
@@ -93,7 +96,53 @@ class BufferCore:
 
         return Time(nanoseconds=self.engine.latest_common_time(target_frame, source_frame))
 
+    # -- velocities
+
+    def lookupVelocityCore(  # noqa: N802 -- ROS 2's name
+        self, tracking_frame: str, observation_frame: str, time: Time | Any, averaging_interval: Duration | Any
+    ) -> tuple[Triple, Triple]:
+        """The velocity of the origin of ``tracking_frame`` (m/s) and its angular velocity (rad/s), seen from ``observation_frame``.
+
+        The mean over the interval around ``time``, in the axes of the observation frame.
+        """
+        return self.lookupVelocityFullCore(
+            tracking_frame, observation_frame, observation_frame, (0.0, 0.0, 0.0), tracking_frame, time, averaging_interval
+        )
+
+    def lookupVelocityFullCore(  # noqa: N802 -- ROS 2's name
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        reference_frame: str,
+        reference_point: Triple,
+        reference_point_frame: str,
+        time: Time | Any,
+        averaging_interval: Duration | Any,
+        /,
+    ) -> tuple[Triple, Triple]:
+        """The same for the point of the body that is at ``reference_point`` of another frame, in the axes of ``reference_frame``."""
+        vx, vy, vz, wx, wy, wz = self.engine.lookup_velocity(
+            tracking_frame,
+            observation_frame,
+            to_nanoseconds(time),
+            interval_ns=to_nanoseconds(averaging_interval, "duration"),
+            reference_frame=reference_frame,
+            point=reference_point,
+            point_frame=reference_point_frame,
+        ).tolist()
+        return (vx, vy, vz), (wx, wy, wz)
+
     # -- descriptions
+
+    def _chain(self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str) -> list[str]:
+        """The frames on the way from the source over the fixed frame to the target.
+
+        Raises:
+            TransformException: There is no way at these times.
+        """
+        self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+        parents = {link.child_frame: link.parent_frame for link in links(self.engine)}
+        return _way(parents, source_frame, fixed_frame) + _way(parents, fixed_frame, target_frame)[1:]
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """Frames, parents, senders, rates and ages as YAML. Arguments are ignored, as in ROS 2."""
@@ -118,6 +167,20 @@ class BufferCore:
     def _getFrameStrings(self) -> list[str]:  # noqa: N802 -- ROS 2's name
         """The names of all frames, in order of arrival."""
         return self.engine.frame_strings()
+
+
+def _way(parents: dict[str, str], start: str, end: str) -> list[str]:
+    """Up from one frame to the nearest common ancestor and down to the other."""
+    up, down = _line(parents, start), _line(parents, end)
+    meeting = next(frame for frame in up if frame in down)
+    return up[: up.index(meeting) + 1] + down[: down.index(meeting)][::-1]
+
+
+def _line(parents: dict[str, str], frame: str) -> list[str]:
+    line = [frame]
+    while (parent := parents.get(line[-1])) and parent not in line:
+        line.append(parent)
+    return line
 
 
 def _log_refusal(reason: str) -> None:

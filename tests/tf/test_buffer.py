@@ -370,6 +370,44 @@ class TestWaiting:
             assert child.stdout.read() == "interrupted\n"
 
 
+class TestThreads:
+    def test_readers_beside_a_writer(self, core: Any) -> None:
+        """100 transforms a message; readers of every kind, each of whose answers must be of one state of the buffer."""
+        import numpy as np
+
+        buffer = core.Buffer(SECOND)
+        links = [("base", f"link{i}") for i in range(100)]
+        stop, faults = threading.Event(), []
+
+        def message(i: int) -> bytes:
+            return tf_message(*[(parent, child, i * SECOND // 1000, (i, i, i, *NO_TURN)) for parent, child in links])
+
+        def read(i: int) -> None:
+            try:
+                while not stop.is_set():
+                    found = buffer.lookup_transform("base", f"link{i}")
+                    assert found.x == found.y == found.z == pytest.approx(found.stamp_ns / 1e6)
+                    stamps = found.stamp_ns - np.arange(20, dtype=np.int64) * 100_000
+                    status = np.empty(20, dtype=np.uint8)
+                    poses = buffer.lookup_batch("base", f"link{i}", stamps, status=status)[status == 0]
+                    assert np.allclose(poses[:, 0], stamps[status == 0] / 1e6)
+                    buffer.can_transform(f"link{i}", "link99", found.stamp_ns)
+                    buffer.all_frames_as_string()
+            except Exception as error:
+                faults.append(error)
+
+        buffer.ingest(message(1))
+        readers = [threading.Thread(target=read, args=(i,)) for i in range(4)]
+        for reader in readers:
+            reader.start()
+        for i in range(2, 150):
+            assert buffer.ingest(message(i)) == 100
+        stop.set()
+        for reader in readers:
+            reader.join()
+        assert faults == []
+
+
 class TestListeners:
     def test_called_after_data(self, buffer: turtlewire.Buffer) -> None:
         seen: list[bool] = []

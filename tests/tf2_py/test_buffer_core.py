@@ -105,6 +105,26 @@ def test_latest_common_time(buffer: tf2_py.BufferCore) -> None:
         buffer.get_latest_common_time("map", "nobody")
 
 
+def test_velocity(buffer: tf2_py.BufferCore) -> None:
+    linear, angular = buffer.lookupVelocityCore("camera", "map", Time(seconds=1.5), Duration(seconds=0.5))
+    assert (linear, angular) == ((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    full = buffer.lookupVelocityFullCore(
+        "camera", "map", "base", (1.0, 0.0, 0.0), "base", Time(seconds=1.5), DurationMsg(sec=0, nanosec=1000)
+    )
+    assert full[0] == pytest.approx((1.0, 0.0, 0.0))
+    with pytest.raises(tf2_py.ExtrapolationException):
+        buffer.lookupVelocityCore("camera", "map", Time(seconds=9), Duration(seconds=0.5))
+
+
+def test_chain(buffer: tf2_py.BufferCore) -> None:
+    buffer.set_transform_static(stamped("base", "arm", 0), "me")
+    chain = buffer._chain("arm", Time(seconds=2), "camera", Time(seconds=1), "map")
+    assert chain == ["camera", "base", "map", "base", "arm"]
+    assert buffer._chain("arm", Time(), "camera", Time(), "base") == ["camera", "base", "arm"]
+    with pytest.raises(tf2_py.LookupException):
+        buffer._chain("arm", Time(), "nobody", Time(), "base")
+
+
 def test_descriptions(buffer: tf2_py.BufferCore) -> None:
     assert buffer.all_frames_as_string() == "Frame base exists with parent map.\nFrame camera exists with parent base.\n"
     assert buffer.all_frames_as_yaml(1, "anything").startswith("base: \n  parent: 'map'\n  broadcaster: 'me'\n")
