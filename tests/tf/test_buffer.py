@@ -396,11 +396,11 @@ class TestThreads:
             except Exception as error:
                 faults.append(error)
 
-        buffer.ingest(message(1))
+        buffer.ingest(message(99))
         readers = [threading.Thread(target=read, args=(i,)) for i in range(4)]
         for reader in readers:
             reader.start()
-        for i in range(2, 150):
+        for i in range(100, 250):
             assert buffer.ingest(message(i)) == 100
         stop.set()
         for reader in readers:
