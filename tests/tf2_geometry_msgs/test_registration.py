@@ -90,3 +90,10 @@ def test_the_package_lists_what_it_has():
     assert set(tf2.__all__) <= set(dir(tf2))
     with pytest.raises(AttributeError, match="has no attribute 'nonsense'"):
         tf2.nonsense  # noqa: B018
+
+
+def test_ros_2s_module_path_has_ros_2s_functions():
+    from tf2_geometry_msgs import tf2_geometry_msgs as module
+
+    assert len(module.__all__) == 9
+    assert all(getattr(module, name) is getattr(tf2, name) for name in module.__all__)

@@ -234,3 +234,10 @@ def test_points_of_any_type_and_stride(transform):
 
 def test_the_package_lists_what_it_has():
     assert tf2_sensor_msgs.__all__ == ["do_transform_cloud", "from_msg_msg", "to_msg_msg", "transform_points"]
+
+
+def test_ros_2s_module_path_has_ros_2s_functions():
+    from tf2_sensor_msgs import tf2_sensor_msgs as module
+
+    assert module.__all__ == tf2_sensor_msgs.__all__
+    assert module.do_transform_cloud is do_transform_cloud
