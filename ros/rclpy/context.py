@@ -195,6 +195,7 @@ class Context:
             raise TypeError("callback should be a callable, got {}", type(callback))
         with self._lock:
             if self._valid:
+                self._callbacks = [reference for reference in self._callbacks if reference() is not None]
                 self._callbacks.append(_reference(callback))
                 return
         callback()

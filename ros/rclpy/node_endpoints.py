@@ -193,8 +193,7 @@ class NodeEndpoints:
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         # a group of its own: a callback that sleeps must not hold up the timer that wakes it
-        self._rate_group = MutuallyExclusiveCallbackGroup()
-        timer = self.create_timer(1.0 / frequency, None, self._rate_group, clock, autostart=True)
+        timer = self.create_timer(1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock, autostart=True)
         return Rate(timer, context=self._node.context)
 
     def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None) -> GuardCondition:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from .qos import QoSProfile
 
 __all__ = ["Publisher"]
+
+_SLICE_NS = 100_000_000
 
 
 class Publisher:
@@ -98,10 +101,22 @@ class Publisher:
         self._wire.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
-        """Block until all reliable subscriptions have acknowledged all messages; False when the time is over before."""
+        """Block until all reliable subscriptions have received all messages.
+
+        Args:
+            timeout: None or negative waits until the context is shut down.
+
+        Returns:
+            False when the time was over, or the context was shut down, before.
+        """
         self._check_usable()
-        timeout_ns = None if timeout is None or timeout.nanoseconds < 0 else timeout.nanoseconds
-        return self._wire.wait_for_acknowledgments(timeout_ns)
+        deadline_ns = None if timeout is None or timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
+        while True:  # in slices: the middleware's wait hears neither of signals nor of a shutdown
+            remaining_ns = _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
+            if self._wire.wait_for_acknowledgments(min(remaining_ns, _SLICE_NS)):
+                return True
+            if remaining_ns == 0 or not self._context.ok():
+                return False
 
     def destroy(self) -> None:
         """Close it; further use raises ``InvalidHandle``. Idempotent."""

@@ -9,6 +9,7 @@ import pytest
 from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -282,6 +283,16 @@ def test_two_contexts(context, node, spin_until):
         spin_until(lambda: got)
         talker.destroy_node()
     assert got == [9]
+
+
+def test_wait_for_all_acked(context, node):
+    publisher = node.create_publisher(Int32, "number", 10)
+    node.create_subscription(Int32, "number", lambda _: None, 10)
+    matched(context, publisher)
+    publisher.publish(Int32())
+    assert publisher.wait_for_all_acked(Duration(seconds=10))
+    assert publisher.wait_for_all_acked()
+    publisher.assert_liveliness()
 
 
 def test_wait_for_message(context, node):

@@ -183,6 +183,10 @@ class Publisher(Entity):
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive (for ``MANUAL_BY_TOPIC``; publishing says it too)."""
 
+    @abstractmethod
+    def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
+        """Block until all reliable subscriptions have received all that was published; False when the time is over before."""
+
 
 class Subscription(Entity):
     """Receives messages of one topic. Waitable (ready: messages can be taken)."""

@@ -206,6 +206,7 @@ create_read_condition = _waits("dds_create_readcondition", _entity, _entity, c_u
 create_guard_condition = _waits("dds_create_guardcondition", _entity, _entity)
 create_wait_set = _waits("dds_create_waitset", _entity, _entity)
 delete = _waits("dds_delete", _retcode, _entity)
+wait_for_acks = _waits("dds_wait_for_acks", _retcode, _entity, c_int64)
 set_qos = _waits("dds_set_qos", _retcode, _entity, c_void_p)
 
 set_guard_condition = _short("dds_set_guardcondition", _retcode, _entity, c_bool)

@@ -74,3 +74,11 @@ class CyclonePublisher(Endpoint, Publisher):
     def assert_liveliness(self) -> None:
         """See :meth:`Publisher.assert_liveliness`."""
         dds.check(dds.assert_liveliness(self.handle), f"assert liveliness on {self.topic}")
+
+    def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
+        """See :meth:`Publisher.wait_for_acknowledgments`."""
+        code = dds.wait_for_acks(self.handle, timeout_ns)
+        if code == dds.RETCODE_TIMEOUT:
+            return False
+        dds.check(code, f"wait for acknowledgments on {self.topic}")
+        return True
