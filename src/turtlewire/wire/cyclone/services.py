@@ -76,7 +76,8 @@ class CycloneService(TopicService):
         self._reader = reader
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
-        self._reachable: set[str | None] | None = None
+        self._matches = 0  # how often the matching subscriptions changed
+        self._reachable: tuple[int, set[str | None]] = (-1, set())  # the clients that could be reached after so many changes
         self._waiting: list[_Waiting] = []
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
@@ -114,15 +115,15 @@ class CycloneService(TopicService):
             self.replies.publish(payload)
 
     def _can_reach(self, client: str) -> bool:
-        reachable = self._reachable
-        if reachable is None:
-            reachable = _matched_ids(self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data, "clientid")
-            self._reachable = reachable
-        return client in reachable
+        matches = self._matches  # read first: a change while we look must not be missed
+        if self._reachable[0] != matches:
+            ids = _matched_ids(self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data, "clientid")
+            self._reachable = (matches, ids)
+        return client in self._reachable[1]
 
     def matched(self) -> None:
         """On the reader thread: the matching subscriptions of the reply topic are others now."""
-        self._reachable = None
+        self._matches += 1
         if self._waiting:
             self.send_waiting()
 
