@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -123,14 +124,13 @@ class DrawSquare(Node):
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""
     rclpy.init(args=args)
-    try:
-        with DrawSquare() as node:
-            node.reset_and_start()
-            rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        try:
+            with DrawSquare() as node:
+                node.reset_and_start()
+                rclpy.spin(node)
+        finally:
+            rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

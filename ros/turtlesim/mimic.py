@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any
 
 import rclpy
@@ -32,13 +33,12 @@ class MimicNode(Node):
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""
     rclpy.init(args=args)
-    try:
-        with MimicNode() as node:
-            rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        try:
+            with MimicNode() as node:
+                rclpy.spin(node)
+        finally:
+            rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -156,17 +156,16 @@ def main(args: list[str] | None = None) -> int:
     node = TeleopTurtle()
     spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
     spinner.start()
-    try:
-        with keyboard:
-            print(BANNER, flush=True)  # noqa: T201 - the terminal is this program's face
-            while (key := keyboard.read()) not in (b"", _QUIT):
-                node.press(key)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        rclpy.try_shutdown()
-        spinner.join()
-        node.destroy_node()
+    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C, which may also come while it shuts down
+        try:
+            with keyboard:
+                print(BANNER, flush=True)  # noqa: T201 - the terminal is this program's face
+                while (key := keyboard.read()) not in (b"", _QUIT):
+                    node.press(key)
+        finally:
+            rclpy.try_shutdown()
+            spinner.join()
+            node.destroy_node()
     return 0
 
 

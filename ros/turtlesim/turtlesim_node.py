@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import itertools
 import math
 import sys
@@ -272,15 +273,14 @@ def main(args: list[str] | None = None) -> None:
     options = _parse_options(sys.argv if args is None else args)
     rclpy.init(args=args)
     node = None
-    try:
-        node = TurtlesimNode(headless=options.headless, speed=options.speed)
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()  # before the node: all endpoints go at once, which for a thousand turtles saves many seconds
-        if node is not None:
-            node.destroy_node()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):  # Ctrl-C may also come while it shuts down
+        try:
+            node = TurtlesimNode(headless=options.headless, speed=options.speed)
+            rclpy.spin(node)
+        finally:
+            rclpy.try_shutdown()  # before the node: all endpoints go at once, which for a thousand turtles saves many seconds
+            if node is not None:
+                node.destroy_node()
 
 
 def _parse_options(args: list[str]) -> argparse.Namespace:
