@@ -102,13 +102,12 @@ class LaunchService:
         if not self._running.acquire(blocking=False):
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
-            self._logger.info("All log files can be found below %s", logging.launch_config.log_dir)
-            self._logger.info("Default logging verbosity is set to %s", logging.getLevelName(logging.launch_config.level))
             self._context._asyncio_loop = asyncio.get_running_loop()
             self._context._is_shutdown = False
             self._return_code = 0
             self._wake = asyncio.Event()
             with self._signals_handled():
+                logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)
             return self._return_code
         finally:

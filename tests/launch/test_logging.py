@@ -1,0 +1,86 @@
+"""Where log lines go, and how they look."""
+
+from __future__ import annotations
+
+import os
+import re
+
+import pytest
+
+from launch import logging
+from launch.actions import ExecuteProcess, LogInfo
+
+
+@pytest.fixture(autouse=True)
+def fresh(monkeypatch, tmp_path):
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    logging.reset()
+    yield
+    logging.reset()
+
+
+def test_default_folder(monkeypatch):
+    monkeypatch.setenv("ROS_LOG_DIR", "/elsewhere")
+    assert logging.default_log_dir() == "/elsewhere"
+    monkeypatch.delenv("ROS_LOG_DIR")
+    monkeypatch.setenv("ROS_HOME", "/home/turtle")
+    assert logging.default_log_dir() == "/home/turtle/log"
+    monkeypatch.delenv("ROS_HOME")
+    assert logging.default_log_dir() == os.path.expanduser("~/.ros/log")
+
+
+def test_each_launch_has_a_folder_and_the_last_one_a_link(launch, tmp_path):
+    first, second = launch(LogInfo(msg="one")), launch(LogInfo(msg="two"))
+    assert first.log_dir != second.log_dir
+    assert re.fullmatch(rf"\d{{4}}(-\d\d){{5}}-\d{{6}}-.+-{os.getpid()}", second.log_dir.name)
+    link = tmp_path / "log" / "latest"
+    assert link.is_symlink()
+    assert link.resolve() == second.log_dir
+    assert "[INFO] [launch.user]: two" in (link / "launch.log").read_text()
+
+
+def test_files_have_times_and_the_screen_has_none(launch):
+    outcome = launch(LogInfo(msg="hello"))
+    assert "[INFO] [launch.user]: hello" in outcome.lines
+    assert re.search(r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$", (outcome.log_dir / "launch.log").read_text(), re.MULTILINE)
+
+
+def test_the_environment_sets_formats(launch, monkeypatch):
+    monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname}/{message}")
+    monkeypatch.setenv("OVERRIDE_LAUNCH_LOG_FORMAT", "LOG {message}")
+    outcome = launch(LogInfo(msg="hello"))
+    assert "INFO/hello" in outcome.lines
+    assert "LOG hello\n" in (outcome.log_dir / "launch.log").read_text()
+
+
+def test_times_on_the_screen(launch, monkeypatch):
+    monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "default_with_timestamp")
+    outcome = launch(LogInfo(msg="hello"), ExecuteProcess(cmd=["echo", "there"], output="screen"))
+    assert re.search(r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$", outcome.text, re.MULTILINE)
+    assert re.search(r"^\d{10}\.\d{7} \[echo-\d+\] there$", outcome.text, re.MULTILINE)
+
+
+def test_other_styles_of_formats_are_refused():
+    with pytest.raises(ValueError, match=r"only the style '\{' of log formats is supported, not '%'"):
+        logging.launch_config.set_screen_format("%(message)s", screen_style="%")
+
+
+def test_the_folder_can_be_chosen_before_its_first_use(tmp_path):
+    logging.launch_config.log_dir = str(tmp_path / "mine")
+    logging.get_logger("launch.test").warning("hello")
+    assert "hello" in (tmp_path / "mine" / "launch.log").read_text()
+    with pytest.raises(RuntimeError, match="already in use"):
+        logging.launch_config.log_dir = str(tmp_path / "other")
+
+
+def test_loggers_of_launch_files(capsys):
+    logging.get_logger("my_file").info("hello")
+    assert capsys.readouterr().out == "[INFO] [my_file]: hello\n"
+
+
+def test_the_log_folder_cannot_be_made(ros2_launch, tmp_path):
+    (tmp_path / "file").touch()
+    launch = ros2_launch("", environment={"ROS_LOG_DIR": str(tmp_path / "file")})
+    assert launch.wait() == 1
+    assert "Traceback" not in launch.text
+    assert str(tmp_path / "file") in launch.text

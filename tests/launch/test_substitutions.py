@@ -1,0 +1,172 @@
+"""What each substitution becomes, how it is shown, and what it says when it cannot be performed."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import pytest
+
+from launch import LaunchContext, logging
+from launch.substitutions import (
+    AllSubstitution,
+    AndSubstitution,
+    AnonName,
+    AnySubstitution,
+    Command,
+    EnvironmentVariable,
+    EqualsSubstitution,
+    FileContent,
+    FindExecutable,
+    IfElseSubstitution,
+    LaunchConfiguration,
+    LaunchLogDir,
+    LocalSubstitution,
+    NotEqualsSubstitution,
+    NotSubstitution,
+    OrSubstitution,
+    PathJoinSubstitution,
+    PythonExpression,
+    SubstitutionFailure,
+    TextSubstitution,
+    ThisLaunchFile,
+    ThisLaunchFileDir,
+)
+
+
+def test_launch_configuration(context):
+    context.launch_configurations["colour"] = "green"
+    assert LaunchConfiguration("colour").perform(context) == "green"
+    assert LaunchConfiguration(["col", TextSubstitution(text="our")]).perform(context) == "green"
+    assert LaunchConfiguration("none", default=["a", LaunchConfiguration("colour")]).perform(context) == "agreen"
+    assert LaunchConfiguration("none", default=5).perform(context) == "5"
+    assert LaunchConfiguration("colour").describe() == "LaunchConfig('colour')"
+    with pytest.raises(SubstitutionFailure, match=r"^launch configuration 'none' does not exist$"):
+        LaunchConfiguration("none").perform(context)
+
+
+def test_environment_variable(context, monkeypatch):
+    monkeypatch.setenv("TURTLE_COLOUR", "red")
+    assert EnvironmentVariable("TURTLE_COLOUR").perform(context) == "red"
+    monkeypatch.delenv("TURTLE_COLOUR")
+    assert EnvironmentVariable("TURTLE_COLOUR", default_value="").perform(context) == ""
+    with pytest.raises(SubstitutionFailure, match=r"^environment variable 'TURTLE_COLOUR' does not exist$"):
+        EnvironmentVariable("TURTLE_COLOUR").perform(context)
+
+
+def test_paths(context):
+    path = PathJoinSubstitution(["share", ["turtle", TextSubstitution(text="sim")], "launch"])
+    assert path.perform(context) == os.path.join("share", "turtlesim", "launch")
+    with pytest.raises(SubstitutionFailure, match="outside of a launch file"):
+        ThisLaunchFile().perform(context)
+    with pytest.raises(SubstitutionFailure, match="outside of a launch file"):
+        ThisLaunchFileDir().perform(context)
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "equal"),
+    [
+        ("a", "a", True),
+        ("a", "b", False),
+        ("1", "1.0", True),
+        (1, "1", True),
+        (0.1 + 0.2, 0.3, True),
+        (True, "1", True),
+        (True, "true", True),
+        (False, "0", True),
+        ("true", "0", False),
+        (None, "", True),
+        ("a", 1, False),
+    ],
+)
+def test_equality(context, left, right, equal):
+    assert EqualsSubstitution(left, right).perform(context) == str(equal).lower()
+    assert NotEqualsSubstitution(left, right).perform(context) == str(not equal).lower()
+
+
+def test_logic(context):
+    assert NotSubstitution("true").perform(context) == "false"
+    assert NotSubstitution("0").perform(context) == "true"
+    assert AndSubstitution("true", "1").perform(context) == "true"
+    assert AndSubstitution("true", "False").perform(context) == "false"
+    assert OrSubstitution("0", "TRUE").perform(context) == "true"
+    assert OrSubstitution("0", "false").perform(context) == "false"
+    assert AnySubstitution("0", "0", "1").perform(context) == "true"
+    assert AnySubstitution().perform(context) == "false"
+    assert AllSubstitution("1", "true").perform(context) == "true"
+    assert AllSubstitution("1", "0").perform(context) == "false"
+    with pytest.raises(SubstitutionFailure, match="invalid condition expression"):
+        NotSubstitution("perhaps").perform(context)
+
+
+def test_if_else(context):
+    assert IfElseSubstitution("true", "yes", "no").perform(context) == "yes"
+    assert IfElseSubstitution("false", if_value="yes").perform(context) == ""
+    with pytest.raises(RuntimeError, match="One of if_value and else_value must be specified"):
+        IfElseSubstitution("true")
+
+
+def test_python_expression(context):
+    context.launch_configurations["count"] = "3"
+    assert PythonExpression([LaunchConfiguration("count"), " * 2 + int(sqrt(4))"]).perform(context) == "8"
+    assert PythonExpression(["os.sep.join(['a'])"], python_modules=["os"]).perform(context) == "a"
+    assert PythonExpression("1 +").describe() == "PythonExpr('1 +', ['math'])"
+    with pytest.raises(SubstitutionFailure, match="division by zero"):
+        PythonExpression("1 / 0").perform(context)
+
+
+def test_command(context, capsys):
+    logging.reset()
+    python = sys.executable
+    assert Command([python, " -c 'print(1)'"]).perform(context) == "1\n"
+    noisy = [python, " -c \"import sys; sys.stderr.write('oh'); print(1)\""]
+    assert Command(noisy, on_stderr="ignore").perform(context) == "1\n"
+    assert "oh" in Command(noisy, on_stderr="capture").perform(context)
+    assert Command(noisy, on_stderr="warn").perform(context) == "1\n"
+    assert "executed command showed stderr output" in capsys.readouterr().out
+    with pytest.raises(SubstitutionFailure, match="executed command showed stderr output"):
+        Command(noisy).perform(context)
+    with pytest.raises(SubstitutionFailure, match="executed command failed"):
+        Command([python, " -c 'raise SystemExit(3)'"]).perform(context)
+    with pytest.raises(SubstitutionFailure, match="file not found"):
+        Command("no_such_program").perform(context)
+    with pytest.raises(SubstitutionFailure, match="expected one of: 'fail', 'ignore', 'warn' or 'capture'"):
+        Command("true", on_stderr="perhaps").perform(context)
+
+
+def test_files(context, tmp_path):
+    (tmp_path / "x.txt").write_text("Grüße")
+    assert FileContent(str(tmp_path / "x.txt")).perform(context) == "Grüße"
+    with pytest.raises(SubstitutionFailure, match=r"Failed to read file 'nowhere'"):
+        FileContent("nowhere").perform(context)
+    assert os.path.basename(FindExecutable(name="sh").perform(context)) == "sh"
+    with pytest.raises(SubstitutionFailure, match=r"^executable 'no_such_program' not found on the PATH$"):
+        FindExecutable(name="no_such_program").perform(context)
+
+
+def test_anonymous_names_are_kept_within_a_launch(context):
+    name = AnonName("rviz").perform(context)
+    assert name.startswith("rviz_")
+    assert name.isidentifier()
+    assert AnonName("rviz").perform(context) == name
+    assert AnonName("rviz").perform(LaunchContext()) != name
+
+
+def test_locals(context):
+    context.extend_locals({"event": OSError(5, "broken")})
+    assert LocalSubstitution("event.strerror").perform(context) == "broken"
+    assert LocalSubstitution("event.strerror", "why").describe() == "LocalVar('why')"
+    with pytest.raises(SubstitutionFailure, match=r"no local 'event\.nothing'"):
+        LocalSubstitution("event.nothing").perform(context)
+
+
+def test_log_dir(context, tmp_path):
+    logging.reset()
+    logging.launch_config.log_dir = str(tmp_path / "here")
+    assert LaunchLogDir().perform(context) == str(tmp_path / "here")
+    logging.reset()
+
+
+def test_text_is_text():
+    with pytest.raises(TypeError, match="expected Text object got"):
+        TextSubstitution(text=1)
