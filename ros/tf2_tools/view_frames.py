@@ -53,7 +53,7 @@ class ViewFrames(Node):
         rclpy.spin_until_future_complete(self, Future(), timeout_sec=wait_time_s)
         if not self.context.ok():
             raise ExternalShutdownException
-        tree = read_frame_tree(self._buffer)
+        tree = read_frame_tree(self._buffer.engine)
         if tree.links:
             self.get_logger().info(f"Received {len(tree.children)} frames, {len(tree.links)} of them with a parent")
         else:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+import yaml
 
 from turtlewire.tf.frame_tree import FrameTree, Link, read_frame_tree
 
@@ -8,7 +9,7 @@ IDENTITY = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 
 def tree_of(*pairs):
-    return FrameTree(Link(child, parent, "", 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
+    return FrameTree(Link(child, parent, "", False, 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
 
 
 def test_figures_of_a_buffer(buffer):
@@ -16,9 +17,8 @@ def test_figures_of_a_buffer(buffer):
         buffer.set_transform("map", "base", second * 10**9, *IDENTITY, authority="robot")
     buffer.set_transform("base", "laser", 0, *IDENTITY, static=True, authority="urdf")
     tree = read_frame_tree(buffer)
-    assert tree.links["base"] == Link("base", "map", "robot", 1.5, 3.0, 1.0, 2.0)
-    assert tree.links["laser"].is_static
-    assert not tree.links["base"].is_static
+    assert tree.links["base"] == Link("base", "map", "robot", False, 1.5, 3.0, 1.0, 2.0)
+    assert tree.links["laser"] == Link("laser", "base", "urdf", True, 10_000.0, 0.0, 0.0, 0.0)
     assert (tree.roots, tree.loops) == (["map"], [])
     assert tree.children == {"map": ["base"], "base": ["laser"], "laser": []}
 
@@ -26,6 +26,31 @@ def test_figures_of_a_buffer(buffer):
 def test_an_empty_buffer(buffer):
     tree = read_frame_tree(buffer)
     assert (tree.links, tree.roots, tree.children, tree.loops) == ({}, [], {}, [])
+
+
+def test_figures_are_those_of_tf2s_yaml(buffer):
+    buffer.set_transform("map", "base", 10**9, *IDENTITY, authority="robot")
+    buffer.set_transform("map", "base", 3 * 10**9, *IDENTITY, authority="another")
+    buffer.set_transform("base", "laser", 0, *IDENTITY, static=True)
+    described = yaml.safe_load(buffer.all_frames_as_yaml())
+    links = read_frame_tree(buffer).links
+    assert described.keys() == links.keys()
+    for child, link in links.items():
+        assert described[child] == {
+            "parent": link.parent,
+            "broadcaster": link.broadcaster,
+            "rate": link.rate_hz,
+            "most_recent_transform": link.newest,
+            "oldest_transform": link.oldest,
+            "buffer_length": link.length,
+        }
+
+
+def test_links_whose_samples_are_forgotten_are_left_out(buffer):
+    buffer.set_transform("map", "base", 10**9, *IDENTITY)
+    buffer.set_transform("map", "fixed", 0, *IDENTITY, static=True)
+    buffer.clear()
+    assert list(read_frame_tree(buffer).links) == ["fixed"]
 
 
 @pytest.mark.parametrize("name", ["a: b", "it's", "- x", "a\nb", "{}", "日本", "'", "null"])

@@ -11,8 +11,8 @@ from turtlewire.tf.tree_drawing import draw_tree
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def tree_of(*pairs, newest=2.0, oldest=1.0):
-    return FrameTree(Link(child, parent, "someone", 62.5, newest, oldest, newest - oldest) for parent, child in pairs)
+def tree_of(*pairs, static=False, newest=2.0, oldest=1.0):
+    return FrameTree(Link(child, parent, "someone", static, 62.5, newest, oldest, newest - oldest) for parent, child in pairs)
 
 
 def texts(drawing):
@@ -37,7 +37,7 @@ def test_a_card_has_what_view_frames_shows():
 
 
 def test_a_static_transform_has_no_rate_and_a_single_one_neither():
-    assert texts(draw_tree(tree_of(("a", "b"), newest=0.0, oldest=0.0)))[1:] == ["b", "Broadcaster: someone", "Static transform"]
+    assert texts(draw_tree(tree_of(("a", "b"), static=True)))[1:] == ["b", "Broadcaster: someone", "Static transform"]
     assert "Average rate: unknown, one time only" in texts(draw_tree(tree_of(("a", "b"), newest=5.0, oldest=5.0)))
 
 

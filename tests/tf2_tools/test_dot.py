@@ -10,7 +10,7 @@ from turtlewire.tf.frame_tree import FrameTree, Link
 
 
 def test_one_link_as_ros_2_writes_it():
-    tree = FrameTree([Link("turtle1", "world", "default_authority", 62.7, 12.5, 7.25, 5.25)])
+    tree = FrameTree([Link("turtle1", "world", "default_authority", False, 62.7, 12.5, 7.25, 5.25)])
     assert dot_from_tree(tree, "100.000000") == (
         "digraph G {\n"
         '"world" -> "turtle1"[label=" Broadcaster: default_authority\\nAverage rate: 62.700\\nBuffer length: 5.250\\n'
@@ -30,7 +30,7 @@ def test_no_data():
 @pytest.mark.skipif(shutil.which("dot") is None, reason="graphviz is not installed")
 @pytest.mark.parametrize("pairs", [[("a", "b"), ("b", "a")], [('say "hi"', "back\\slash"), ("x", "y")]])
 def test_graphviz_takes_loops_and_quotes(pairs):
-    tree = FrameTree(Link(child, parent, "", 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
+    tree = FrameTree(Link(child, parent, "", False, 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
     run = subprocess.run(["dot", "-Tplain"], input=dot_from_tree(tree, "1.0"), capture_output=True, text=True, check=True)
     assert run.stderr == ""
     assert run.stdout.count("\nedge ") >= len(pairs)

@@ -1,0 +1,1 @@
+"""The transform buffer, what fills it, and what shows it."""

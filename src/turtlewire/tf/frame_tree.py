@@ -2,45 +2,43 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.tf import inspection
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from turtlewire.tf.buffer import Buffer
+
 __all__ = ["FrameTree", "Link", "read_frame_tree"]
 
-# One frame of tf2's YAML. Frame names are not quoted in it and may hold colons and quotes, so a YAML parser would not do.
-_ENTRY = re.compile(
-    r"(?P<child>.*?): \n  parent: '(?P<parent>.*?)'\n  broadcaster: '(?P<broadcaster>.*?)'\n  rate: (?P<rate>\S+)\n"
-    r"  most_recent_transform: (?P<newest>\S+)\n  oldest_transform: (?P<oldest>\S+)\n  buffer_length: (?P<length>\S+)\n",
-    re.DOTALL,
-)
-
-
-class Describes(Protocol):
-    """A buffer of any kind."""
-
-    def all_frames_as_yaml(self) -> str:
-        """tf2's description of all frames."""
-        ...
+#: tf2 divides by at least this [s] for a rate.
+_SHORTEST = 1e-4
 
 
 class Link(NamedTuple):
-    """A frame, its parent, and the samples between them; times in seconds."""
+    """A frame, its parent, and the samples between them; times in seconds.
+
+    Attributes:
+        child: Frame id.
+        parent: Frame id.
+        broadcaster: Who sent the newest sample.
+        is_static: Whether it holds at all times; it has no time of its own then.
+        rate_hz: As tf2 reckons it: samples by time, of which there is at least 100 microseconds.
+        newest: Stamp of the newest sample.
+        oldest: Stamp of the oldest sample.
+        length: Time between the two.
+    """
 
     child: str
     parent: str
     broadcaster: str
+    is_static: bool
     rate_hz: float
     newest: float
     oldest: float
     length: float
-
-    @property
-    def is_static(self) -> bool:
-        """Whether it holds at all times: static links have no time of their own."""
-        return self.newest == 0.0 == self.oldest
 
 
 class FrameTree:
@@ -68,12 +66,17 @@ class FrameTree:
                 self.children[link.parent].append(link.child)
 
 
-def read_frame_tree(buffer: Describes) -> FrameTree:
+def read_frame_tree(buffer: Buffer) -> FrameTree:
     """The tree of a buffer as it is now."""
-    return FrameTree(
-        Link(entry["child"], entry["parent"], entry["broadcaster"], *(float(entry[key]) for key in ("rate", "newest", "oldest", "length")))
-        for entry in _ENTRY.finditer(buffer.all_frames_as_yaml())
-    )
+    return FrameTree(_link(info) for info in inspection.links(buffer) if info.samples)
+
+
+def _link(info: inspection.LinkInfo) -> Link:
+    length = (info.newest_ns - info.oldest_ns) / 1e9
+    rate_hz = info.samples / max(length, _SHORTEST)
+    broadcaster = info.senders[-1].name if info.senders else "no recorded authority"
+    newest, oldest = info.newest_ns / 1e9, info.oldest_ns / 1e9
+    return Link(info.child_frame, info.parent_frame, broadcaster, info.static, rate_hz, newest, oldest, length)
 
 
 def _loops(links: dict[str, Link]) -> list[list[str]]:

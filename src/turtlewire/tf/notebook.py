@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.tf import conversions
 from turtlewire.tf.drawing import Drawing, Line, Shape, Text, svg_from_drawing, text_width
-from turtlewire.tf.frame_tree import Describes, read_frame_tree
+from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from turtlewire.tf.arrays import HasPose
+    from turtlewire.tf.buffer import Buffer
 
     class Stamped(HasPose, Protocol):
         """A Transform of either core."""
@@ -47,7 +48,7 @@ _MARGIN = 34.0
 _AZIMUTH, _ELEVATION = math.radians(-125.0), math.radians(28.0)
 
 
-def buffer_svg(buffer: Describes) -> str:
+def buffer_svg(buffer: Buffer) -> str:
     """The tree of a buffer as an SVG document."""
     return svg_from_drawing(draw_tree(read_frame_tree(buffer)))
 

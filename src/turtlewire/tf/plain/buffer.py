@@ -206,7 +206,7 @@ class Buffer:
         """The tree of frames as SVG, for notebooks."""
         from turtlewire.tf.notebook import buffer_svg
 
-        return buffer_svg(self)
+        return buffer_svg(self)  # type: ignore[arg-type] # the twin has the methods of the compiled one
 
     def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
         """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
