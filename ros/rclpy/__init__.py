@@ -219,11 +219,17 @@ def spin_until_future_complete(node: Node, future: Future, executor: Executor | 
             executor.remove_node(node)
 
 
+#: Names that ROS 2's package has because it imports them; programs use ``rclpy.Parameter`` and the like.
+_ALSO_HERE = {"Context": "context", "Future": "task", "Parameter": "parameter", "get_rmw_implementation_identifier": "utilities"}
+
+
 def __getattr__(name: str) -> ModuleType | Any:
     """Load a module of the package at its first use as an attribute."""
     import importlib
     import importlib.util
 
+    if name in _ALSO_HERE:
+        return getattr(importlib.import_module(f"{__name__}.{_ALSO_HERE[name]}"), name)
     if name.startswith("__") or importlib.util.find_spec(f"{__name__}.{name}") is None:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return importlib.import_module(f"{__name__}.{name}")

@@ -43,7 +43,11 @@ __all__ = [
     "ShutdownException",
     "SingleThreadedExecutor",
     "TimeoutException",
+    "await_or_execute",
 ]
+
+#: A spin within a callback that finds nothing to do for so long is warned of.
+_PATIENCE_NS = 1_000_000_000
 
 
 class TimeoutException(Exception):
@@ -267,6 +271,7 @@ class Executor:
         """The next thing to run, its callback group claimed."""
         deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
         expired = False
+        is_patient = bool(self._running.of_this_thread()) and self._response_awaited is None
         while True:
             if condition is not None and condition():
                 raise ConditionReachedException
@@ -281,6 +286,12 @@ class Executor:
                 raise TimeoutException
             remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
             expired = remaining == 0
+            if is_patient and remaining is None and self._paused:
+                is_patient = False
+                self._collect(_PATIENCE_NS)
+                if not self._ready:
+                    self._warn_of_nested_spin()
+                continue
             self._collect(remaining)
 
     def _serve_responses(self, future: Future, deadline: float | None, is_hopeless: Callable[[set[Entity]], bool]) -> None:
@@ -308,6 +319,15 @@ class Executor:
         finally:
             self._response_awaited = outer
             self._resume_paused()
+
+    def _warn_of_nested_spin(self) -> None:
+        from .logging import get_logger
+
+        kinds = ", ".join(sorted({type(entity).__name__ for entity in self._paused}))
+        get_logger("rclpy").warning(
+            f"A callback spins the executor that runs it, and nothing happens: what is ready ({kinds}) belongs to the callback's "
+            "own group. Use an async callback with await, or put them into different callback groups"
+        )
 
     def _check_alive(self) -> None:
         if self._is_shutdown:
@@ -452,6 +472,12 @@ class Executor:
         if not self._waiting:
             self._wait_set.close()
         return True
+
+
+async def await_or_execute(callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any) -> Any:
+    """The result of a function or of a coroutine (function)."""
+    outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
+    return await outcome if isinstance(outcome, CoroutineType) else outcome
 
 
 def _rank(entity: Entity) -> tuple[int, int, int]:

@@ -49,7 +49,10 @@ if TYPE_CHECKING:
     from .topic_endpoint_info import TopicEndpointInfo
     from .waitable import Waitable
 
-__all__ = ["Node"]
+__all__ = ["HIDDEN_NODE_PREFIX", "Node"]
+
+#: Tools leave nodes out whose names begin so.
+HIDDEN_NODE_PREFIX = "_"
 
 
 class Node:

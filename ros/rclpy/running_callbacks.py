@@ -30,6 +30,10 @@ class RunningCallbacks:
                 del self._counts[thread]
                 self._changed.notify_all()
 
+    def of_this_thread(self) -> int:
+        """How many run in this thread, one within the other."""
+        return self._counts.get(threading.get_ident(), 0)
+
     def wait_for_others(self, timeout_sec: float | None) -> bool:
         """Block until no other thread runs a callback; False when the time is over before."""
         me = threading.get_ident()

@@ -443,6 +443,23 @@ def test_spinning_within_a_callback(node, executor):
     assert sums == [8]
 
 
+def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executor, capfd):
+    done = Future()
+    same_group = node.create_guard_condition(lambda: done.set_result("in the same group"))
+
+    def wait():
+        same_group.trigger()
+        helping = threading.Timer(1.5, done.set_result, args=("from outside",))
+        helping.start()
+        executor.spin_until_future_complete(done)
+        helping.join()
+
+    node.create_guard_condition(wait).trigger()
+    executor.spin_once(timeout_sec=10)
+    assert done.result() == "from outside"
+    assert "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)" in capfd.readouterr().err
+
+
 def test_two_threads_cannot_spin_one_executor(executor, spinning):
     spinning(executor)
     while executor._spinning_thread is None:

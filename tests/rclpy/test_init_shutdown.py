@@ -209,6 +209,9 @@ def test_every_module_is_an_attribute_of_the_package():
     lines = [f"assert rclpy.{name}.__name__ == 'rclpy.{name}'" for name in names.split()]
     program = "\n".join(["import rclpy", *lines, "print(rclpy.time.Time().nanoseconds)"])
     assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == "0\n"
+    assert rclpy.Parameter is rclpy.parameter.Parameter
+    assert rclpy.Future is rclpy.task.Future
+    assert rclpy.Context is Context
     with pytest.raises(AttributeError, match="module 'rclpy' has no attribute 'no_such_module'"):
         _ = rclpy.no_such_module
 

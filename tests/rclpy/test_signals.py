@@ -225,7 +225,7 @@ def test_signal_options(program):
             print(get_current_signal_handlers_options().name, [a is not b for a, b in zip(before, now)])
             rclpy.shutdown()
         print([signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before)
-        context = rclpy.Context() if hasattr(rclpy, "Context") else rclpy.context.Context()
+        context = rclpy.Context()
         rclpy.init(context=context)
         print(get_current_signal_handlers_options().name)
         rclpy.shutdown(context=context)

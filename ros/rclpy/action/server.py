@@ -5,9 +5,9 @@ from __future__ import annotations
 import threading
 from enum import Enum
 from functools import partial
-from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from rclpy.executors import await_or_execute
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.service import Service
 from rclpy.task import Future
@@ -270,10 +270,10 @@ class ActionServer(Waitable):
         self._goal_service.send_response(response, header)
         if accepted:
             self._publish_status()
-            await _outcome(self._handle_accepted_callback(goal_handle))
+            await await_or_execute(self._handle_accepted_callback, goal_handle)
 
     async def _is_accepted(self, goal: Any) -> bool:
-        decision = await _outcome(self._goal_callback(goal))
+        decision = await await_or_execute(self._goal_callback, goal)
         if not isinstance(decision, GoalResponse):
             self._logger.warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
         return decision is GoalResponse.ACCEPT
@@ -288,7 +288,7 @@ class ActionServer(Waitable):
     async def _execute_goal(self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle) -> None:
         goal_id = goal_handle.goal_id.uuid
         try:
-            result = await _outcome(execute_callback(goal_handle))
+            result = await await_or_execute(execute_callback, goal_handle)
         except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
             result = self._action_type.Result()
             self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400 - a ROS logger
@@ -347,7 +347,7 @@ class ActionServer(Waitable):
         response = self._action_type.Impl.CancelGoalService.Response()
         wanted, response.return_code = self._goals_to_cancel(request.goal_info)
         for goal_handle in wanted:
-            if await _outcome(self._cancel_callback(goal_handle)) is not CancelResponse.ACCEPT or not goal_handle.is_active:
+            if await await_or_execute(self._cancel_callback, goal_handle) is not CancelResponse.ACCEPT or not goal_handle.is_active:
                 continue
             if not goal_handle.is_cancel_requested:
                 goal_handle._update_state(GoalEvent.CANCEL_GOAL)
@@ -402,11 +402,6 @@ class ActionServer(Waitable):
         super()._close()
         self._feedback_publisher.destroy()
         self._status_publisher.destroy()
-
-
-async def _outcome(outcome: Any) -> Any:
-    """What a callback returned, or what its coroutine returns."""
-    return await outcome if isinstance(outcome, CoroutineType) else outcome
 
 
 def _message(name: str) -> Any:

@@ -1,0 +1,5 @@
+"""Where ROS 2 programs find what is the C extension there: ``from rclpy.impl.implementation_singleton import rclpy_implementation``."""
+
+from rclpy import _rclpy_pybind11 as rclpy_implementation
+
+__all__ = ["rclpy_implementation"]
