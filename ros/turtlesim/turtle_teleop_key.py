@@ -13,8 +13,8 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
 from turtlesim.action import RotateAbsolute
+from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ _CANCEL = b"f"
 _QUIT = b"q"
 
 
-class TeleopTurtle(Node):
+class TeleopTurtle(CppNode):
     """Turns keys into commands for turtle1. Not for several threads."""
 
     def __init__(self) -> None:
@@ -169,7 +169,7 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-def _spin(node: Node) -> None:
+def _spin(node: CppNode) -> None:
     """Serve the node's parameters, beside the keyboard."""
     with contextlib.suppress(ExternalShutdownException):
         rclpy.spin(node)

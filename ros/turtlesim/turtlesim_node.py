@@ -16,11 +16,11 @@ from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 from turtlesim import page_commands
+from turtlesim.cpp_node import CppNode
 from turtlesim.missing_turtles import MissingTurtles
 from turtlesim.model import FIELD_SIZE, TICK_NS, World
 from turtlesim.path import PathImage
@@ -39,7 +39,7 @@ __all__ = ["TurtlesimNode", "main"]
 _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
 
 
-class TurtlesimNode(Node):
+class TurtlesimNode(CppNode):
     """One simulator: it moves its turtles every 16 ms, of its own clock or of ``/clock`` when ``use_sim_time`` is true.
 
     Args:
