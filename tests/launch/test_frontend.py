@@ -1,0 +1,235 @@
+"""What XML and YAML launch files have in common: the same files in both languages do the same."""
+
+from __future__ import annotations
+
+import pytest
+
+from launch.actions import IncludeLaunchDescription
+from launch.frontend import Parser, expose_action, expose_substitution
+from launch.frontend.parse_substitution import parse_substitution
+from launch.substitutions import TextSubstitution
+
+XML = """
+<launch>
+  <arg name="who" default="world" description="Whom it\\'s for"><choice value="world"/><choice value="turtle"/></arg>
+  <let name="greeting" value="hello $(var who)"/>
+  <log message="$(var greeting)"/>
+  <log message="never" if="false"/>
+  <log message="always" unless="$(equals 1 2)"/>
+  <set_env name="TURTLE_FRONTEND" value="a"/>
+  <append_env name="TURTLE_FRONTEND" value="b" prepend="true" separator="+"/>
+  <log message="$(env TURTLE_FRONTEND)"/>
+  <group>
+    <let name="greeting" value="inside"/>
+    <unset_env name="TURTLE_FRONTEND"/>
+    <log message="$(var greeting) $(env TURTLE_FRONTEND none)"/>
+  </group>
+  <group scoped="false"><let name="left" value="1"/></group>
+  <group forwarding="false"><keep name="left" value="$(var left)2"/><log message="$(var left) $(var greeting gone)"/></group>
+  <log message="$(var greeting) $(env TURTLE_FRONTEND)"/>
+  <reset><keep name="who" value="$(var who)"/></reset>
+  <log message="$(var left gone)"/>
+  <reset_env/>
+  <log message="$(env TURTLE_FRONTEND gone)"/>
+  <executable cmd="sh -c 'echo &quot;$TURTLE $0&quot; $(var who)' '$(var who)'" name="exe" output="screen"
+              cwd="/" output_format="OUT {line}">
+    <env name="TURTLE" value="green"/>
+  </executable>
+  <timer period="0.01"><log message="later"/></timer>
+  <timer period="0.05"><shutdown reason="enough"/></timer>
+</launch>
+"""
+YAML = """
+launch:
+- arg: {name: who, default: world, description: "Whom it\\\\'s for", choice: [{value: world}, {value: turtle}]}
+- let: {name: greeting, value: hello $(var who)}
+- log: {message: $(var greeting)}
+- log: {message: never, if: "false"}
+- log: {message: always, unless: $(equals 1 2)}
+- set_env: {name: TURTLE_FRONTEND, value: a}
+- append_env: {name: TURTLE_FRONTEND, value: b, prepend: true, separator: +}
+- log: {message: $(env TURTLE_FRONTEND)}
+- group:
+  - let: {name: greeting, value: inside}
+  - unset_env: {name: TURTLE_FRONTEND}
+  - log: {message: $(var greeting) $(env TURTLE_FRONTEND none)}
+- group: {scoped: false, children: [{let: {name: left, value: "1"}}]}
+- group: {forwarding: false, children: [{keep: {name: left, value: $(var left)2}}, {log: {message: $(var left) $(var greeting gone)}}]}
+- log: {message: $(var greeting) $(env TURTLE_FRONTEND)}
+- reset: [{keep: {name: who, value: $(var who)}}]
+- log: {message: $(var left gone)}
+- reset_env: {}
+- log: {message: $(env TURTLE_FRONTEND gone)}
+- executable:
+    cmd: sh -c 'echo "$TURTLE $0" $(var who)' '$(var who)'
+    name: exe
+    output: screen
+    cwd: /
+    output_format: OUT {line}
+    env: [{name: TURTLE, value: green}]
+- timer: {period: 0.01, children: [{log: {message: later}}]}
+- timer: {period: 0.05, children: [{shutdown: {reason: enough}}]}
+"""
+
+
+@pytest.fixture(params=["xml", "yaml"])
+def language(request):
+    return request.param
+
+
+@pytest.fixture
+def launch_file(launch, tmp_path, language):
+    def start(xml, yaml, *arguments):
+        path = tmp_path / f"x.launch.{language}"
+        path.write_text(xml if language == "xml" else yaml)
+        return launch(IncludeLaunchDescription(str(path), launch_arguments=arguments))
+
+    return start
+
+
+def test_actions(launch_file):
+    outcome = launch_file(XML, YAML, ("who", "turtle"))
+    assert outcome.messages == ["hello turtle", "always", "b+a", "inside none", "12 gone", "hello turtle b+a", "gone", "gone", "later"]
+    assert "OUT green turtle turtle" in outcome.lines
+    assert outcome.status == 0
+
+
+def test_choices(launch_file):
+    assert launch_file(XML, YAML, ("who", "nobody")).error.endswith("is not valid. Valid options are: ['world', 'turtle']")
+
+
+def test_descriptions_are_unescaped(tmp_path):
+    (tmp_path / "x.launch.xml").write_text(XML)
+    description = IncludeLaunchDescription(str(tmp_path / "x.launch.xml")).launch_description_source
+    (argument,) = description.try_get_launch_description_without_context().get_launch_arguments()
+    assert argument.description == "Whom it's for Valid choices are: ['world', 'turtle']"
+
+
+def test_includes_with_arguments(launch_file, tmp_path):
+    (tmp_path / "inner.launch.xml").write_text("<launch><arg name='who'/><log message='$(var who)'/></launch>")
+    xml = "<launch><include file='$(dirname)/inner.launch.xml'><arg name='who' value='me'/></include></launch>"
+    yaml = "launch: [{include: {file: $(dirname)/inner.launch.xml, arg: [{name: who, value: me}]}}]"
+    assert launch_file(xml, yaml).messages == ["me"]
+
+
+def test_processes(launch_file):
+    attributes = {"respawn": "false", "respawn_delay": "1.0", "respawn_max_retries": "1", "shell": "true", "emulate_tty": "false"}
+    attributes |= {"sigterm_timeout": "1", "sigkill_timeout": "$(var none 2)", "launch-prefix": "env", "on_exit": "shutdown"}
+    xml = (
+        "<launch><executable cmd='echo a' output='screen' "
+        + " ".join(f"{name}='{value}'" for name, value in attributes.items())
+        + "/></launch>"
+    )
+    yaml = (
+        "launch: [{executable: {cmd: echo a, output: screen, " + ", ".join(f"{name}: {value}" for name, value in attributes.items()) + "}}]"
+    )
+    outcome = launch_file(xml, yaml)
+    assert "was required: shutting down launched system" in outcome.text
+    assert any(line.endswith("] a") for line in outcome.lines)
+
+
+@pytest.mark.parametrize(
+    ("xml", "yaml", "error"),
+    [
+        ("<log/>", "log: {}", "Attribute 'message' of type '<class 'str'>' not found in Entity 'log'"),
+        (
+            "<log message='a' if='1' unless='1'/>",
+            "log: {message: a, if: '1', unless: '1'}",
+            "if and unless conditions can't be used simultaneously",
+        ),
+        ("<log message='a' colour='b'/>", "log: {message: a, colour: b}", " found in `log`: {'colour'}"),
+        ("<log message='$(nope a)'/>", "log: {message: $(nope a)}", "Unknown substitution: nope"),
+        ("<log message='$(var a'/>", "log: {message: $(var a}", "the substitution '$(var a' is not closed by ')'"),
+        (
+            "<executable cmd='a' on_exit='x'/>",
+            "executable: {cmd: a, on_exit: x}",
+            'on_exit of Entity node expected to be "shutdown" but got `x`',
+        ),
+    ],
+)
+def test_elements_that_are_wrong(launch_file, xml, yaml, error):
+    outcome = launch_file(f"<launch>{xml}</launch>", f"launch:\n- {yaml}")
+    assert outcome.status == 1
+    assert error in outcome.text
+
+
+@pytest.mark.parametrize(
+    ("text", "performed"),
+    [
+        ("", ""),
+        ("plain", "plain"),
+        ("$(var a)", "1"),
+        ("x$(var a)$(var b)y", "x12y"),
+        ("$(var $(var name))", "1"),
+        ("$(var 'a')", "1"),
+        ('$(var "a")', "1"),
+        ("$(var c 'two words')", "two words"),
+        ("$(var c '$(var a) and $(var b)')", "1 and 2"),
+        ("$(var c '')", ""),
+        (r"\$(var a) \'\"\\", "$(var a) '\"\\"),
+        ("costs $5", "costs $5"),
+        (r"C:\turtle", r"C:\turtle"),
+        ("$(not $(equals 1 2))", "true"),
+        ("$(and true $(or 0 1))", "true"),
+        ("$(any 0 0 1) $(all 1 0)", "true false"),
+        ("$(not-equals a b)", "true"),
+        ("$(if 1 yes no)$(if 0 yes)", "yes"),
+        ("$(eval '1 + $(var a)')", "2"),
+        ("$(command 'echo hi')", "hi\n"),
+        ("( $ ) $", "( $ ) $"),
+    ],
+)
+def test_texts_with_substitutions(context, text, performed):
+    Parser().parse_substitution("$(var a)")  # makes the names known
+    context.launch_configurations.update(a="1", b="2", name="a")
+    assert "".join(part.perform(context) for part in parse_substitution(text)) == performed
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "$(",
+        "$(var",
+        "$(var a",
+        "$(var 'a)",
+        "$()",
+        "$(var)",
+        "$(not)",
+        "$(equals a)",
+        "$(env)",
+        "$(anon)",
+        "$(find-exec)",
+        "$(dirname x)",
+        "$(filename x)",
+        "$(command)",
+        "$(eval)",
+        "$(if 1)",
+        "$(launch_log_dir x)",
+        "$(file-content)",
+        "$(and a)",
+    ],
+)
+def test_texts_that_are_wrong(text):
+    with pytest.raises((SyntaxError, RuntimeError, TypeError, AttributeError, ValueError)):
+        Parser().parse_substitution(text)
+
+
+def test_names_are_given_once():
+    @expose_substitution("test-only")
+    class _Mine(TextSubstitution):
+        @classmethod
+        def parse(cls, data):
+            return cls, {"text": str(len(data))}
+
+    (made,) = parse_substitution("$(test-only a b)")
+    assert made.text == "2"
+    with pytest.raises(RuntimeError, match="Two substitutions are exposed as 'test-only'"):
+        expose_substitution("test-only")(lambda data: (TextSubstitution, {"text": str(data)}))
+    with pytest.raises(RuntimeError, match="While exposing action 'x', it must be a callable"):
+        expose_action("x")(3)
+
+
+def test_languages():
+    assert {"xml", "yaml", "yml"} <= set(Parser.get_available_extensions())
+    assert Parser.is_extension_valid(".xml")
+    assert not Parser.is_extension_valid("py")

@@ -1,0 +1,13 @@
+"""What the tests of launch_ros share."""
+
+from __future__ import annotations
+
+import pytest
+
+from launch import LaunchContext
+
+
+@pytest.fixture
+def context():
+    """A context for substitutions that need no running launch."""
+    return LaunchContext()
