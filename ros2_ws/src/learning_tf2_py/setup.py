@@ -25,6 +25,9 @@ setup(
             "static_turtle_tf2_broadcaster = learning_tf2_py.static_turtle_tf2_broadcaster:main",
             "turtle_tf2_broadcaster = learning_tf2_py.turtle_tf2_broadcaster:main",
             "turtle_tf2_listener = learning_tf2_py.turtle_tf2_listener:main",
+            "fixed_frame_tf2_broadcaster = learning_tf2_py.fixed_frame_tf2_broadcaster:main",
+            "dynamic_frame_tf2_broadcaster = learning_tf2_py.dynamic_frame_tf2_broadcaster:main",
+            "turtle_tf2_time_travel = learning_tf2_py.turtle_tf2_time_travel:main",
         ],
     },
 )
