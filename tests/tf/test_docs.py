@@ -1,0 +1,13 @@
+"""The examples of the buffer's how-to page, run."""
+
+from __future__ import annotations
+
+import doctest
+from pathlib import Path
+
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "tf_buffer.md"
+
+
+def test_the_examples_do_what_the_page_says() -> None:
+    failed, tried = doctest.testfile(str(PAGE), module_relative=False)
+    assert (failed, tried) == (0, 26)
