@@ -256,61 +256,67 @@ int clear_references(PyObject* self) {
 }
 
 PyMethodDef hot_methods[] = {
-    fast_method("lookup_transform", lookup_transform,
-                "lookup_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
-                "The pose of source_frame in target_frame at one time: `target_from_source`.\n\n"
-                "Args:\n"
-                "    target_frame: The frame in which the answer is expressed.\n"
-                "    source_frame: The frame whose pose is asked for.\n"
-                "    stamp_ns: Time in nanoseconds; 0 asks for the latest time known to the whole chain.\n"
-                "    timeout_ns: How long to wait for data, with the GIL released; 0 does not wait.\n\n"
-                "Returns:\n"
-                "    A Transform.\n\n"
-                "Raises:\n"
-                "    InvalidArgumentException: A frame id is empty or starts with a slash.\n"
-                "    LookupException: A frame does not exist.\n"
-                "    ConnectivityException: The frames are not in one tree.\n"
-                "    ExtrapolationException: The data does not reach the time."),
-    fast_method(
-        "lookup_transform_full", lookup_transform_full,
+    fast_method<lookup_transform>(
+        "lookup_transform",
+        "lookup_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+        "The pose of source_frame in target_frame at one time: `target_from_source`.\n\n"
+        "Args:\n"
+        "    target_frame: The frame in which the answer is expressed.\n"
+        "    source_frame: The frame whose pose is asked for.\n"
+        "    stamp_ns: Time in nanoseconds; 0 asks for the latest time known to the whole chain.\n"
+        "    timeout_ns: How long to wait for data, with the GIL released; 0 does not wait.\n\n"
+        "Returns:\n"
+        "    A Transform.\n\n"
+        "Raises:\n"
+        "    InvalidArgumentException: A frame id is empty or starts with a slash.\n"
+        "    LookupException: A frame does not exist.\n"
+        "    ConnectivityException: The frames are not in one tree.\n"
+        "    ExtrapolationException: The data does not reach the time."),
+    fast_method<lookup_transform_full>(
+        "lookup_transform_full",
         "lookup_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
         "timeout_ns=0)\n--\n\n"
         "The pose of source_frame at one time in target_frame at another, by way of a frame that did not move.\n\n"
         "Returns and raises as lookup_transform; the stamp is that of the target."),
-    fast_method("can_transform", can_transform,
-                "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
-                "Whether lookup_transform with the same arguments gives an answer."),
-    fast_method("can_transform_full", can_transform_full,
-                "can_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
-                "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the same arguments gives an answer."),
-    fast_method("can_transform_reason", can_transform_reason,
-                "can_transform_reason($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
-                "An empty string if can_transform is true, else tf2's text of why it is not."),
-    fast_method("can_transform_full_reason", can_transform_full_reason,
-                "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, "
-                "fixed_frame, timeout_ns=0)\n--\n\n"
-                "An empty string if can_transform_full is true, else tf2's text of why it is not."),
-    fast_method("set_transform", set_transform,
-                "set_transform($self, parent_frame, child_frame, stamp_ns, translation, rotation, static=False, "
-                "authority='default_authority')\n--\n\n"
-                "Adds one sample: the pose of child_frame in parent_frame at a time.\n\n"
-                "Args:\n"
-                "    parent_frame: header.frame_id of a TransformStamped.\n"
-                "    child_frame: Its child_frame_id.\n"
-                "    stamp_ns: Its time, in nanoseconds.\n"
-                "    translation: (x, y, z) in metres.\n"
-                "    rotation: Quaternion (x, y, z, w); it is normalised.\n"
-                "    static: Whether the pose holds for all times.\n"
-                "    authority: Who says so.\n\n"
-                "Returns:\n"
-                "    An empty string if the sample was accepted, else tf2's reason for refusing it."),
-    fast_method("ingest", ingest,
-                "ingest($self, cdr, static=False, authority='default_authority')\n--\n\n"
-                "Adds the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.\n\n"
-                "Returns:\n"
-                "    How many were accepted.\n\n"
-                "Raises:\n"
-                "    CdrError: The bytes are malformed; nothing of them was added."),
+    fast_method<can_transform>("can_transform",
+                               "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+                               "Whether lookup_transform with the same arguments gives an answer."),
+    fast_method<can_transform_full>(
+        "can_transform_full",
+        "can_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
+        "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the same arguments gives an answer."),
+    fast_method<can_transform_reason>(
+        "can_transform_reason",
+        "can_transform_reason($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+        "An empty string if can_transform is true, else tf2's text of why it is not."),
+    fast_method<can_transform_full_reason>(
+        "can_transform_full_reason",
+        "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, "
+        "fixed_frame, timeout_ns=0)\n--\n\n"
+        "An empty string if can_transform_full is true, else tf2's text of why it is not."),
+    fast_method<set_transform>(
+        "set_transform",
+        "set_transform($self, parent_frame, child_frame, stamp_ns, translation, rotation, static=False, "
+        "authority='default_authority')\n--\n\n"
+        "Adds one sample: the pose of child_frame in parent_frame at a time.\n\n"
+        "Args:\n"
+        "    parent_frame: header.frame_id of a TransformStamped.\n"
+        "    child_frame: Its child_frame_id.\n"
+        "    stamp_ns: Its time, in nanoseconds.\n"
+        "    translation: (x, y, z) in metres.\n"
+        "    rotation: Quaternion (x, y, z, w); it is normalised.\n"
+        "    static: Whether the pose holds for all times.\n"
+        "    authority: Who says so.\n\n"
+        "Returns:\n"
+        "    An empty string if the sample was accepted, else tf2's reason for refusing it."),
+    fast_method<ingest>(
+        "ingest",
+        "ingest($self, cdr, static=False, authority='default_authority')\n--\n\n"
+        "Adds the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.\n\n"
+        "Returns:\n"
+        "    How many were accepted.\n\n"
+        "Raises:\n"
+        "    CdrError: The bytes are malformed; nothing of them was added."),
     {nullptr, nullptr, 0, nullptr},
 };
 

@@ -187,12 +187,13 @@ PyObject* lookup_full(PyObject* object, PyObject* const* arguments, Py_ssize_t c
 }
 
 PyMethodDef methods[] = {
-    fast_method("lookup", lookup,
-                "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
-                "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
-    fast_method("lookup_full", lookup_full,
-                "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=None)\n"
-                "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
+    fast_method<lookup>("lookup",
+                        "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
+                        "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
+    fast_method<lookup_full>(
+        "lookup_full",
+        "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=None)\n"
+        "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
     {nullptr, nullptr, 0, nullptr},
 };
 

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstddef>
+#include <exception>
+#include <new>
 #include <string_view>
 
 #include "../core/samples.hpp"
@@ -13,9 +15,22 @@ namespace turtlewire::python {
 
 namespace nb = nanobind;
 
-// A hot method in the vectorcall convention, as the method table wants it.
+// A hot method in the vectorcall convention, as the method table wants it. No C++ exception may pass through Python.
 using FastMethod = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
-inline PyMethodDef fast_method(const char* name, FastMethod method, const char* doc) {
+template <FastMethod Method>
+PyObject* guarded(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  try {
+    return Method(self, arguments, count, keywords);
+  } catch (const std::bad_alloc&) {
+    return PyErr_NoMemory();
+  } catch (const std::exception& error) {
+    PyErr_SetString(PyExc_RuntimeError, error.what());
+    return nullptr;
+  }
+}
+template <FastMethod Method>
+PyMethodDef fast_method(const char* name, const char* doc) {
+  const FastMethod method = guarded<Method>;
   return {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method)), METH_FASTCALL | METH_KEYWORDS,
           doc};
 }

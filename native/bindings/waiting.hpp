@@ -1,7 +1,7 @@
 // Waiting for data with the GIL released, in a way that Ctrl-C ends.
 #pragma once
 
-#include <Python.h>
+#include <nanobind/nanobind.h>
 
 #include <atomic>
 #include <chrono>
@@ -10,6 +10,8 @@
 #include "../core/shared_buffer.hpp"
 
 namespace turtlewire::python {
+
+namespace nb = nanobind;
 
 // Python's own lock, as threading.Lock is: the one portable thing to sleep on that a signal interrupts.
 class Sleeper final : public Waiter {
@@ -63,14 +65,15 @@ Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interr
   std::uint64_t seen = interrupts;
   for (;;) {
     bool over = false, signalled = false;
-    Py_BEGIN_ALLOW_THREADS;
-    while (!over && !signalled) {
-      over = attempt();
-      const std::int64_t left = timeout_ns - std::chrono::nanoseconds(Clock::now() - start).count();
-      over = over || left <= 0;
-      if (!over) signalled = sleeper.sleep(std::min((left + 999) / 1000, longest_sleep_us)) || interrupts != seen;
+    {
+      const nb::gil_scoped_release unlocked;
+      while (!over && !signalled) {
+        over = attempt();
+        const std::int64_t left = timeout_ns - std::chrono::nanoseconds(Clock::now() - start).count();
+        over = over || left <= 0;
+        if (!over) signalled = sleeper.sleep(std::min((left + 999) / 1000, longest_sleep_us)) || interrupts != seen;
+      }
     }
-    Py_END_ALLOW_THREADS;
     if (over) return Waited::done;
     seen = interrupts;
     if (PyErr_CheckSignals() != 0) return Waited::python_error;
