@@ -1,0 +1,134 @@
+"""What a launch file and its scope say about one node, as words after ``--ros-args``."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.parameter_descriptions import Parameter, ParameterFile
+from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from launch_ros.utilities.parameter_values import evaluate_parameter_dict
+from launch_ros.utilities.scope import global_parameters, remaps
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.parameters_type import SomeParameters
+    from launch_ros.remap_rule_type import SomeRemapRules
+
+__all__ = ["NodeArguments"]
+
+
+class NodeArguments:
+    """Name, namespace, parameters and remappings of one node.
+
+    Args:
+        name: Remaps the node's name.
+        namespace: The node's namespace, within that of the scope.
+        parameters: Files and mappings of parameters.
+        remappings: ``(from, to)`` pairs.
+
+    Raises:
+        TypeError: The parameters are no list.
+    """
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType | None,
+        namespace: SomeSubstitutionsType | None,
+        parameters: SomeParameters | None,
+        remappings: SomeRemapRules | None,
+    ) -> None:
+        if parameters is not None and (isinstance(parameters, (str, Path, Substitution)) or not hasattr(parameters, "__iter__")):
+            raise TypeError("Expecting a list of parameter files or parameter dictionaries")
+        self._name = None if name is None else normalize_to_list_of_substitutions(name)
+        self._namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
+        self._parameters = [parameters] if hasattr(parameters, "items") else list(parameters or ())
+        self._remappings = [
+            (normalize_to_list_of_substitutions(source), normalize_to_list_of_substitutions(target)) for source, target in remappings or ()
+        ]
+        self._made_files: list[str] = []
+        self._parameter_files: list[ParameterFile] = []
+        #: Known once :meth:`expand_names` ran; None when the launch file leaves it to the program.
+        self.name: str | None = None
+        #: Known once :meth:`expand_names` ran; None when neither the launch file nor the scope has one.
+        self.namespace: str | None = None
+
+    @property
+    def full_name(self) -> str:
+        """Namespace and name; ``<node_name_unspecified>`` stands for a name that the program chooses."""
+        return f"{(self.namespace or '').rstrip('/')}/{self.name or '<node_name_unspecified>'}"
+
+    def expand_names(self, context: LaunchContext) -> list[str]:
+        """Find name and namespace; the words for them."""
+        if self._name is not None:
+            self.name = perform_substitutions(context, self._name)
+        own = None if self._namespace is None else perform_substitutions(context, self._namespace)
+        joined = prefix_namespace(context.launch_configurations.get("ros_namespace"), own)
+        if joined is not None:
+            self.namespace = make_namespace_absolute(joined)
+        name = [] if self.name is None else ["-r", f"__node:={self.name}"]
+        return name + ([] if not self.namespace else ["-r", f"__ns:={self.namespace}"])
+
+    def expand_parameters(self, context: LaunchContext) -> list[str]:
+        """The words for the parameters; mappings become files, which :meth:`clean_up` removes."""
+        words: list[str] = []
+        for entry in global_parameters(context):
+            if isinstance(entry, tuple):
+                words += ["-p", f"{entry[0]}:={_yaml_text(entry[1])}"]
+            else:
+                words += ["--params-file", str(entry)]
+        for parameter in self._parameters:
+            words += self._words_for(parameter, context)
+        return words
+
+    def expand_remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
+        """``(from, to)`` pairs: those of the scope, then the node's own."""
+        own = [(perform_substitutions(context, source), perform_substitutions(context, target)) for source, target in self._remappings]
+        return remaps(context) + own
+
+    def clean_up(self) -> None:
+        """Remove the files that were made for the node."""
+        for path in self._made_files:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(path)
+        self._made_files.clear()
+        for file in self._parameter_files:
+            file.cleanup()
+
+    def _words_for(self, parameter: Any, context: LaunchContext) -> list[str]:
+        if isinstance(parameter, Parameter):
+            name, value = parameter.evaluate(context)
+            return ["-p", f"{name}:={_yaml_text(value)}"]
+        if hasattr(parameter, "items"):
+            return ["--params-file", self._file_of(evaluate_parameter_dict(context, parameter))]
+        # A file of our own: several nodes may be given the same one, and each removes its copy at its end.
+        file = parameter.copy() if isinstance(parameter, ParameterFile) else ParameterFile(parameter)
+        self._parameter_files.append(file)
+        path = file.evaluate(context)
+        if not path.is_file():
+            logging.get_logger("launch_ros.actions.node").warning("Parameter file path is not a file: %s", path)
+            return []
+        return ["--params-file", str(path)]
+
+    def _file_of(self, values: dict[str, Any]) -> str:
+        import yaml
+
+        key = "/**" if self.name is None else self.full_name
+        with tempfile.NamedTemporaryFile("w", prefix="launch_params_", delete=False, encoding="utf-8") as file:
+            yaml.safe_dump({key: {"ros__parameters": values}}, file, default_flow_style=False, allow_unicode=True)
+        self._made_files.append(file.name)
+        return file.name
+
+
+def _yaml_text(value: Any) -> str:
+    """A value as YAML on one line, as it stands after ``:=``."""
+    import yaml
+
+    return yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True).removesuffix("...\n").strip()
