@@ -21,7 +21,7 @@ __all__ = ["GraphNode", "add_spin_arguments", "add_strategy_arguments", "wait_un
 # Other hosts are given so much time to answer; participants of this host are counted. Measured on two cores: the last of 50 participants
 # answers 70 ms after the first question.
 _ANSWER_S = 0.15
-_SPIN_S = 0.5
+_PATIENCE_S = 2.0
 
 _NODE_TOPICS = (
     ("/rosout", "rcl_interfaces/msg/Log", "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac", 10_000_000_000),
@@ -50,7 +50,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
     """Wait until the graph is known.
 
     That is when all participants of this host, and all that they announced, are known, and other hosts that are in range had the time
-    to answer. When something that is announced does not arrive, the wait ends after half a second without news.
+    to answer. When something that is announced does not arrive, the wait ends after two seconds without news.
 
     Args:
         graph: The graph.
@@ -69,7 +69,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
             elif graph.is_complete():
                 rest = started + answer_time - now
             else:
-                rest = last_change + _SPIN_S - now
+                rest = last_change + _PATIENCE_S - now
             if rest <= 0:
                 return
             if changed.wait(rest):

@@ -50,6 +50,7 @@ def examine(listen_s: float) -> list[Finding]:
     try:
         context.create_node("_turtlewire_doctor")
         context.graph.wait_for(lambda: False, 500_000_000)  # discovery: as long as ROS 2's own tools take
+        context.graph.wait_for(context.graph.is_complete, 2_000_000_000)  # and longer on a busy machine
         traffic = listen_to_transforms(context, listen_s)
         return [*found, *graph_findings(context.graph), *tf_findings(context.graph, traffic)]
     finally:
