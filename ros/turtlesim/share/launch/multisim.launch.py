@@ -1,10 +1,10 @@
-"""Two simulators, each in a namespace of its own."""
+"""Two simulators, each in a namespace of its own."""  # noqa: INP001 - data of the package, not a module
 
 from launch import LaunchDescription
 from launch_ros.actions import Node
 
 
-def generate_launch_description():
+def generate_launch_description() -> LaunchDescription:
     """Give the description to `ros2 launch turtlesim multisim.launch.py`."""
     return LaunchDescription(
         [
