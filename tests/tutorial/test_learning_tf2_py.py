@@ -28,7 +28,7 @@ def test_two_turtles_appear_and_one_follows(run, workspace, turtles):
         assert buffer.lookup_transform("turtle2", "turtle1", 0, LONG_NS).stamp_ns > 0
 
     launch.signal_group(signal.SIGINT)
-    assert launch.wait(10) == 0
+    assert launch.wait() == 0
     assert launch.survivors() == []
     assert "Traceback" not in launch.text
     assert launch.text.count("process has finished cleanly") == 4
@@ -59,7 +59,7 @@ def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles
     assert found.translation == (1.0, 2.0, 0.5)
     assert found.rotation == pytest.approx((0.0, 0.0, 0.5**0.5, 0.5**0.5))
     program.signal_group(signal.SIGINT)
-    program.wait(10)
+    program.wait()
     assert "Traceback" not in program.text
 
 
