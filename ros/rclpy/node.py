@@ -7,6 +7,7 @@ endpoints, ``node_graph.py`` answers questions about other nodes, ``parameters.p
 from __future__ import annotations
 
 import weakref
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
@@ -49,7 +50,10 @@ if TYPE_CHECKING:
     from .topic_endpoint_info import TopicEndpointInfo
     from .waitable import Waitable
 
-__all__ = ["HIDDEN_NODE_PREFIX", "Node"]
+__all__ = ["HIDDEN_NODE_PREFIX", "Node", "component_arguments"]
+
+#: Command line for the next node of this thread, whose class need not know that it is loaded as a component.
+component_arguments: ContextVar[list[str] | None] = ContextVar("component_arguments", default=None)
 
 #: Tools leave nodes out whose names begin so.
 HIDDEN_NODE_PREFIX = "_"
@@ -646,6 +650,10 @@ def _arguments(context: Context, cli_args: list[str] | None, *, use_global_argum
     """The node's own command line before the context's."""
     from .arguments import Arguments
 
+    component = component_arguments.get()
+    if component is not None:  # a component's process was started for others
+        component_arguments.set(None)
+        return Arguments.parse_local(component)
     own = Arguments.parse_local(cli_args or [])
     return own.followed_by(context.arguments) if use_global_arguments else own
 

@@ -1,0 +1,154 @@
+"""Nodes that are loaded into a running process."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import types
+
+import pytest
+
+import rclpy
+from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy_components import ComponentManager
+from std_msgs.msg import String
+
+MODULE = "test_components"
+
+
+class Talker(Node):
+    """Says its parameter once; knows nothing of components."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.text = self.declare_parameter("text", "nothing").value
+        self.said = self.create_publisher(String, "chatter", 1)
+        self.helper = Node("helper")  # the request does not apply to a second node
+        self.ran = threading.Event()
+        self.thread = None
+        self.create_timer(0.001, self.on_timer)
+        CREATED.append(self)
+
+    def on_timer(self):
+        self.thread = threading.current_thread()
+        self.ran.set()
+
+    def destroy_node(self):
+        self.helper.destroy_node()
+        super().destroy_node()
+
+
+class Fails(Node):
+    def __init__(self):
+        raise ValueError("no battery")
+
+
+class Crashes(Talker):
+    def on_timer(self):
+        super().on_timer()
+        raise ValueError("crashed")
+
+
+CREATED = []
+
+
+@pytest.fixture
+def manager(monkeypatch):
+    module = types.ModuleType(MODULE)
+    module.Talker, module.Fails, module.Crashes, module.NoNode = Talker, Fails, Crashes, dict
+    monkeypatch.setitem(sys.modules, MODULE, module)
+    CREATED.clear()
+    rclpy.init(args=["x", "--ros-args", "-r", "__node:=container", "-p", "text:=of the container"])
+    manager = ComponentManager()
+    executor = SingleThreadedExecutor()
+    executor.add_node(manager)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    yield manager
+    executor.shutdown()
+    thread.join()
+    manager.destroy_node()
+    rclpy.shutdown()
+
+
+@pytest.fixture
+def call(manager):
+    node = Node("caller", use_global_arguments=False)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def ask(kind, name, **fields):
+        client = node.create_client(kind, f"/container/_container/{name}")
+        assert client.wait_for_service(30)
+        future = client.call_async(kind.Request(**fields))
+        executor.spin_until_future_complete(future, 30)
+        return future.result()
+
+    yield ask
+    executor.shutdown()
+    node.destroy_node()
+
+
+def load(call, name="Talker", **fields):
+    return call(LoadNode, "load_node", package_name="test", plugin_name=f"{MODULE}.{name}", **fields)
+
+
+def test_a_component_gets_what_the_request_says(call):
+    parameters = [Parameter("text", value="5").to_parameter_msg()]
+    response = load(call, node_name="loud", node_namespace="/ns", remap_rules=["chatter:=talk"], parameters=parameters, log_level=10)
+    assert response.success, response.error_message
+    assert response.full_node_name == "/ns/loud"
+    (node,) = CREATED
+    assert node.text == "5"
+    assert node.said.topic_name == "/ns/talk"
+    assert node.helper.get_fully_qualified_name() == "/container"
+    assert node.get_logger().get_effective_level() == 10
+
+
+def test_a_component_has_its_own_name_and_defaults(call):
+    assert load(call).full_node_name == "/talker"
+    assert CREATED[0].text == "nothing"  # the container's arguments are the container's
+
+
+def test_components_run_in_threads_of_their_own(call):
+    load(call, node_name="a")
+    load(call, node_name="b")
+    assert all(node.ran.wait(30) for node in CREATED)
+    assert [node.thread.name for node in CREATED] == ["a", "b"]
+
+
+def test_one_that_crashes_leaves_the_others(call):
+    load(call, "Crashes", node_name="a")
+    load(call, node_name="b")
+    assert all(node.ran.wait(30) for node in CREATED)
+    listed = call(ListNodes, "list_nodes")
+    assert listed.full_node_names == ["/a", "/b"]
+
+
+def test_unloading(call):
+    first, second = load(call, node_name="a"), load(call, node_name="b")
+    assert (first.unique_id, second.unique_id) == (1, 2)
+    assert call(UnloadNode, "unload_node", unique_id=1).success
+    assert list(call(ListNodes, "list_nodes").unique_ids) == [2]
+    again = call(UnloadNode, "unload_node", unique_id=1)
+    assert (again.success, again.error_message) == (False, "No node found with unique_id: 1")
+    assert load(call).unique_id == 3
+
+
+@pytest.mark.parametrize(
+    ("plugin", "message"),
+    [
+        (f"{MODULE}.Fails", "ValueError: no battery"),
+        (f"{MODULE}.Nobody", "AttributeError: module 'test_components' has no attribute 'Nobody'"),
+        ("no_such_module.Talker", "ModuleNotFoundError: No module named 'no_such_module'"),
+        (f"{MODULE}.NoNode", "TypeError: 'test_components.NoNode' makes a dict, which is no node"),
+        ("Talker", "ValueError: 'Talker' is no component of test; expected 'package.module.Class'"),
+    ],
+)
+def test_what_cannot_be_loaded(call, plugin, message):
+    response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
+    assert (response.success, response.error_message) == (False, message)
+    assert load(call).success
