@@ -1,10 +1,9 @@
 """The field, a broadcaster for each of the two turtles, and the listener that drives turtle2 after the target frame."""
 
-from launch_ros.actions import Node
-
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
 
 
 def generate_launch_description():

@@ -2,13 +2,12 @@
 
 import sys
 
+import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from tf2_ros import StaticTransformBroadcaster
-
-import rclpy
 from rclpy.utilities import remove_ros_args
+from tf2_ros import StaticTransformBroadcaster
 from tf_transformations import quaternion_from_euler
 
 USAGE = "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW (metres and radians in world)"

@@ -1,13 +1,12 @@
 """Broadcasts where a turtle of turtlesim is, in the frame `world`, each time that the simulator tells its pose."""
 
+import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from tf2_ros import TransformBroadcaster
-from turtlesim.msg import Pose
-
-import rclpy
 from tf_transformations import quaternion_from_euler
+from turtlesim.msg import Pose
 
 
 class TurtleBroadcaster(Node):

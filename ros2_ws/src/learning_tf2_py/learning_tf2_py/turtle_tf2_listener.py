@@ -2,14 +2,13 @@
 
 import math
 
+import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.time import Time
 from tf2_ros import Buffer, TransformException, TransformListener
 from turtlesim.srv import Spawn
-
-import rclpy
-from rclpy.time import Time
 
 FOLLOWER = "turtle2"
 
