@@ -232,10 +232,11 @@ def _ros2(*words: str) -> list[str]:
     return [str(Path(sys.executable).parent / "ros2"), *words]
 
 
-def _wait_for_nodes(*names: str) -> None:
-    deadline = time.monotonic() + 20
+def _wait_for(kind: str, *names: str) -> None:
+    """Wait for nodes ("node") or topics ("topic") to appear."""
+    deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
-        listed = subprocess.run(_ros2("node", "list"), capture_output=True, text=True, check=True).stdout.split()
+        listed = subprocess.run(_ros2(kind, "list"), capture_output=True, text=True, check=True).stdout.split()
         if set(names) <= set(listed):
             return
     raise AssertionError(f"{names} did not all appear; there are {listed}")
@@ -275,24 +276,24 @@ def surroundings(number: int) -> Iterator[None]:
         stack.enter_context(workspace())
         if 174 <= number <= 326 or 333 <= number <= 344:
             stack.enter_context(process(_ros2("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")))
-            _wait_for_nodes("/sim", "/broadcaster1", "/broadcaster2", "/listener")
+            _wait_for("node", "/sim", "/broadcaster1", "/broadcaster2", "/listener")
         if 174 <= number <= 326:
             static = ("static_turtle_tf2_broadcaster", "mystaticturtle", "0", "0", "1", "0", "0", "0")
             stack.enter_context(process(_ros2("run", "learning_tf2_py", *static)))
             stack.enter_context(terminal_process(_ros2("run", "turtlesim", "turtle_teleop_key")))
             spawn = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
             subprocess.run(_ros2("service", "call", "/spawn", "turtlesim/srv/Spawn", spawn), check=True, stdout=subprocess.DEVNULL)
-            _wait_for_nodes("/static_turtle_tf2_broadcaster", "/teleop_turtle")
+            _wait_for("node", "/static_turtle_tf2_broadcaster", "/teleop_turtle")
         if 339 <= number <= 340:
             stack.enter_context(process(_ros2("run", "turtlesim", "turtlesim_node", "--ros-args", "-r", "__node:=sim")))
             time.sleep(3)
         if 341 <= number <= 344:
             remaps = ["-r", "__node:=sim2", "-r", "__ns:=/robot1", "-r", "turtle1/cmd_vel:=cmd"]
             stack.enter_context(process(_ros2("run", "turtlesim", "turtlesim_node", "--ros-args", *remaps)))
-            _wait_for_nodes("/robot1/sim2")
+            _wait_for("node", "/robot1/sim2")
         if number >= 345:
             stack.enter_context(process([sys.executable, str(HERE / "wire_talker.py")]))
-            _wait_for_nodes("/wire_talker")
+            _wait_for("topic", "/w/wstring_empty")  # the last one that it makes
         yield
 
 
