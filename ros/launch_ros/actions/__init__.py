@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from launch_ros.actions.composable_node_container import ComposableNodeContainer
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes
 from launch_ros.actions.node import Node
 from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
 from launch_ros.actions.set_parameter import SetParameter
@@ -11,6 +13,8 @@ from launch_ros.actions.set_ros_log_dir import SetROSLogDir
 from launch_ros.actions.set_use_sim_time import SetUseSimTime
 
 __all__ = [
+    "ComposableNodeContainer",
+    "LoadComposableNodes",
     "Node",
     "PushROSNamespace",
     "PushRosNamespace",

@@ -1,7 +1,8 @@
-"""Descriptions of parameters."""
+"""Descriptions of parameters and of nodes in containers."""
 
 from __future__ import annotations
 
+from launch_ros.descriptions.composable_node import ComposableNode
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
-__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+__all__ = ["ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]

@@ -1,0 +1,71 @@
+"""Runs a process for several nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.frontend import Entity, expose_action
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes
+from launch_ros.actions.node import Node
+from launch_ros.descriptions.composable_node import ComposableNode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.frontend import Parser
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["ComposableNodeContainer"]
+
+
+@expose_action("node_container")
+class ComposableNodeContainer(Node):
+    """Runs a process for several nodes, and loads them.
+
+    ::
+
+        ComposableNodeContainer(
+            name="demo",
+            composable_node_descriptions=[
+                ComposableNode(package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode", name="sim"),
+            ],
+        )
+
+    Args:
+        name: Name of the container.
+        namespace: Namespace of the container.
+        composable_node_descriptions: The nodes.
+        package: Package of the container's executable.
+        executable: The container's executable; by default the one for nodes in Python.
+        **kwargs: See :class:`Node`.
+    """
+
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType = "",
+        composable_node_descriptions: Iterable[ComposableNode] | None = None,
+        package: SomeSubstitutionsType = "rclpy_components",
+        executable: SomeSubstitutionsType = "component_container",
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(package=package, executable=executable, name=name, namespace=namespace, **kwargs)
+        self._descriptions = list(composable_node_descriptions or ())
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type[ComposableNodeContainer], dict[str, Any]]:
+        """Read a ``node_container`` element."""
+        _, kwargs = super().parse(entity, parser, ignore)
+        nodes = entity.get_attr("composable_node", data_type=list[Entity], optional=True) or ()
+        kwargs["composable_node_descriptions"] = [ComposableNode.parse(parser, node) for node in nodes]
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Run the process; its nodes are loaded next."""
+        entities = super().execute(context) or []
+        if not self._descriptions:
+            return entities
+        return [*entities, LoadComposableNodes(composable_node_descriptions=self._descriptions, target_container=self)]

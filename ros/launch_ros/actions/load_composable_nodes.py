@@ -1,0 +1,103 @@
+"""Loads nodes into the process of a container."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.action import Action
+from launch.event_handlers import OnProcessExit
+from launch.frontend import Entity, expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.actions.node import Node
+from launch_ros.descriptions.composable_node import ComposableNode
+from launch_ros.ros_adapters import call_service, get_ros_node
+from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from launch_ros.utilities.node_names import add_node_name
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Iterable
+
+    from launch.frontend import Parser
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["LoadComposableNodes"]
+
+
+@expose_action("load_composable_node")
+class LoadComposableNodes(Action):
+    """Loads nodes into the process of a container, one after the other, as soon as the container is there.
+
+    Args:
+        composable_node_descriptions: The nodes.
+        target_container: The container: the action that starts it, or its full name.
+        **kwargs: See :class:`launch.Action`.
+    """
+
+    def __init__(
+        self, *, composable_node_descriptions: Iterable[ComposableNode], target_container: SomeSubstitutionsType | Node, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        self._descriptions = list(composable_node_descriptions)
+        self._container = target_container
+        self._logger = logging.get_logger(__name__)
+        self._task: asyncio.Task[None] | None = None
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[LoadComposableNodes], dict[str, Any]]:
+        """Read a ``load_composable_node`` element."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
+        nodes = entity.get_attr("composable_node", data_type=list[Entity])
+        kwargs["composable_node_descriptions"] = [ComposableNode.parse(parser, node) for node in nodes]
+        return cls, kwargs
+
+    def get_asyncio_future(self) -> asyncio.Task[None] | None:
+        """Done when all are loaded."""
+        return self._task
+
+    def execute(self, context: LaunchContext) -> None:
+        """Begin to load them; what the scope adds to them is what it has now."""
+        if context.is_shutdown:
+            return
+        assert context.asyncio_loop is not None
+        requests = [description.load_request(context) for description in self._descriptions if description.is_wanted(context)]
+        get_ros_node(context)
+        self._task = context.asyncio_loop.create_task(self._load(context, self._container_name(context), requests))
+        if isinstance(self._container, Node):
+            context.register_event_handler(OnProcessExit(target_action=self._container, on_exit=self._abandon))
+
+    def _abandon(self, *_: Any) -> None:
+        """Stop waiting: nobody would answer any more."""
+        assert self._task is not None
+        self._task.cancel()
+
+    def _container_name(self, context: LaunchContext) -> str:
+        if isinstance(self._container, Node):
+            return self._container.node_name
+        name = perform_substitutions(context, normalize_to_list_of_substitutions(self._container))
+        return make_namespace_absolute(prefix_namespace(context.launch_configurations.get("ros_namespace"), name) or name)
+
+    async def _load(self, context: LaunchContext, container: str, requests: list[Any]) -> None:
+        from composition_interfaces.srv import LoadNode
+
+        for request in requests:
+            response = await call_service(context, LoadNode, f"{container}/_container/load_node", request)
+            if response is None:
+                self._logger.warning("Abandoning wait for the '%s' service, due to shutdown.", f"{container}/_container/load_node")
+                return
+            if response.success:
+                self._logger.info("Loaded node '%s' in container '%s'", response.full_node_name, container)
+                self._warn_of_equal_names(context, response.full_node_name)
+            else:
+                self._logger.error(
+                    "Failed to load node '%s' of type '%s' in container '%s': %s",
+                    *(request.node_name, request.plugin_name, container, response.error_message),
+                )
+
+    def _warn_of_equal_names(self, context: LaunchContext, name: str) -> None:
+        count = add_node_name(context, name)
+        if count > 1:
+            self._logger.warning("there are now at least %s nodes with the name %s created within this launch context", count, name)

@@ -1,0 +1,110 @@
+"""A node that runs in the process of a container."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.conditions import IfCondition, UnlessCondition
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities.elements import parse_parameters, parse_remappings, parse_value
+from launch_ros.utilities.node_arguments import NodeArguments
+from launch_ros.utilities.parameter_values import evaluate_parameter_dict
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from launch.condition import Condition
+    from launch.frontend import Entity, Parser
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.parameters_type import SomeParameters
+    from launch_ros.remap_rule_type import SomeRemapRules
+
+__all__ = ["ComposableNode"]
+
+
+class ComposableNode:
+    """A node that runs in the process of a container.
+
+    Args:
+        package: The package.
+        plugin: The class: ``package.module.Class`` for a container of ours, ``package::Class`` for a C++ one.
+        name: Remaps the node's name.
+        namespace: The node's namespace, within that of the scope.
+        parameters: Files and mappings of parameters.
+        remappings: ``(from, to)`` pairs.
+        extra_arguments: For the container: a list of mappings.
+        condition: Load it only when it holds.
+    """
+
+    def __init__(
+        self,
+        *,
+        package: SomeSubstitutionsType,
+        plugin: SomeSubstitutionsType,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        parameters: SomeParameters | None = None,
+        remappings: SomeRemapRules | None = None,
+        extra_arguments: list[Mapping[Any, Any]] | None = None,
+        condition: Condition | None = None,
+    ) -> None:
+        self._package = normalize_to_list_of_substitutions(package)
+        self._plugin = normalize_to_list_of_substitutions(plugin)
+        self._ros = NodeArguments(name, namespace, parameters, remappings)
+        self._extra_arguments = list(extra_arguments or ())
+        self._condition = condition
+
+    @classmethod
+    def parse(cls, parser: Parser, entity: Entity) -> ComposableNode:
+        """Read a ``composable_node`` element."""
+        kwargs: dict[str, Any] = {"package": parser.parse_substitution(entity.get_attr("pkg"))}
+        kwargs["plugin"] = parser.parse_substitution(entity.get_attr("plugin"))
+        for attribute in ("name", "namespace"):
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs[attribute] = parser.parse_substitution(text)
+        for attribute, condition in (("if", IfCondition), ("unless", UnlessCondition)):
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs["condition"] = condition(parser.parse_substitution(text))
+        kwargs["parameters"] = parse_parameters(entity, parser)
+        kwargs["remappings"] = parse_remappings(entity, parser)
+        extra = entity.get_attr("extra_arg", data_type=list[type(entity)], optional=True) or ()  # type: ignore[misc]
+        kwargs["extra_arguments"] = [{tuple(parser.parse_substitution(item.get_attr("name"))): parse_value(item, parser)} for item in extra]
+        entity.assert_entity_completely_parsed()
+        return cls(**kwargs)
+
+    def is_wanted(self, context: LaunchContext) -> bool:
+        """Whether its condition holds."""
+        return self._condition is None or self._condition.evaluate(context)
+
+    def load_request(self, context: LaunchContext) -> Any:
+        """A request of ``composition_interfaces/srv/LoadNode`` for it, with all that the scope adds.
+
+        Raises:
+            SubstitutionFailure: A substitution has no text.
+            RCLInvalidROSArgsError: A parameter file is malformed.
+        """
+        from composition_interfaces.srv import LoadNode
+        from rclpy.arguments import Arguments
+        from rclpy.parameter import Parameter
+
+        request = LoadNode.Request()
+        request.package_name = perform_substitutions(context, self._package)
+        request.plugin_name = perform_substitutions(context, self._plugin)
+        self._ros.expand_names(context)
+        request.node_name = self._ros.name or ""
+        request.node_namespace = self._ros.namespace or ""
+        request.remap_rules = [f"{source}:={target}" for source, target in self._ros.expand_remappings(context)]
+        try:
+            words = self._ros.expand_parameters(context)
+            values = Arguments.parse_local(["--ros-args", *words]).parameter_overrides(self._ros.full_name)
+        finally:
+            self._ros.clean_up()
+        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        extra: dict[str, Any] = {}
+        for mapping in self._extra_arguments:
+            extra |= evaluate_parameter_dict(context, mapping)
+        request.extra_arguments = [Parameter(name, value=value).to_parameter_msg() for name, value in extra.items()]
+        return request

@@ -1,0 +1,94 @@
+"""The node by which a launch talks to the nodes that it started."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import threading
+from typing import TYPE_CHECKING, Any
+
+from launch.event_handlers import OnShutdown
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from rclpy.node import Node
+
+__all__ = ["ROSAdapter", "call_service", "get_ros_adapter", "get_ros_node"]
+
+_KEY = "ros_adapter"
+
+
+class ROSAdapter:
+    """A node on a context of its own that runs in a thread of its own, from the construction to :meth:`shutdown`."""
+
+    def __init__(self) -> None:
+        import rclpy
+        from rclpy.context import Context
+        from rclpy.executors import SingleThreadedExecutor
+
+        self._context = Context()
+        rclpy.init(args=["launch_ros"], context=self._context)
+        self._node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, name="launch_ros", daemon=True)
+        self._thread.start()
+
+    @property
+    def ros_node(self) -> Node:
+        """The node."""
+        return self._node
+
+    def _spin(self) -> None:
+        from rclpy.executors import ExternalShutdownException, ShutdownException
+
+        with contextlib.suppress(ExternalShutdownException, ShutdownException):
+            self._executor.spin()
+
+    def shutdown(self) -> None:
+        """End node and thread; whoever waits for a service stops waiting."""
+        self._executor.shutdown()
+        self._context.try_shutdown()
+        self._thread.join()
+        self._node.destroy_node()
+
+
+def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
+    """The adapter of a launch, made when it is first asked for; it ends with the launch."""
+    adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
+    if adapter is None:
+        adapter = ROSAdapter()
+        context.extend_globals({_KEY: adapter})
+        context.register_event_handler(OnShutdown(on_shutdown=lambda *_: adapter.shutdown()))
+    return adapter
+
+
+def get_ros_node(context: LaunchContext) -> Node:
+    """The node of the adapter of a launch."""
+    return get_ros_adapter(context).ros_node
+
+
+async def call_service(context: LaunchContext, service_type: Any, name: str, request: Any) -> Any:
+    """Ask a service as soon as it is there.
+
+    Returns:
+        The response; None when the launch ended before.
+    """
+    node = get_ros_node(context)
+    return await asyncio.get_running_loop().run_in_executor(None, _ask, node, service_type, name, request)
+
+
+def _ask(node: Node, service_type: Any, name: str, request: Any) -> Any:
+    client = node.create_client(service_type, name)
+    ended = threading.Event()
+    node.context.on_shutdown(ended.set)
+    if not client.wait_for_service():
+        return None
+    future = client.call_async(request)
+    future.add_done_callback(lambda _: ended.set())
+    ended.wait()
+    if not future.done():
+        return None
+    node.destroy_client(client)
+    return future.result()
