@@ -60,7 +60,8 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     if adapter is None:
         adapter = ROSAdapter()
         context.extend_globals({_KEY: adapter})
-        context.register_event_handler(OnShutdown(on_shutdown=lambda *_: adapter.shutdown()))
+        # After all others: they may still cancel what they have at the node.
+        context.register_event_handler(OnShutdown(on_shutdown=lambda *_: adapter.shutdown()), append=True)
     return adapter
 
 

@@ -51,7 +51,7 @@ class TimerAction(Action):
         text = str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
         self._cancel_on_shutdown = normalize_to_list_of_substitutions(text)
         self._completed: asyncio.Future[None] | None = None
-        self._timer: asyncio.TimerHandle | None = None
+        self._timer: Any = None
         self._canceled = False
         self._logger = logging.get_logger("launch.timer_action")
 
@@ -92,11 +92,15 @@ class TimerAction(Action):
         self._completed = loop.create_future()
         context.register_event_handler(EventHandler(matcher=self._is_mine, entities=self._actions))
         context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
-        self._timer = loop.call_later(self.seconds(context), self._expire, context)
+        self._timer = self._start_time(context, loop)
 
     def seconds(self, context: LaunchContext) -> float:
         """The period."""
         return float(perform_substitutions(context, self._period))
+
+    def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:
+        """Begin the time; what is returned has a method ``cancel``."""
+        return loop.call_later(self.seconds(context), self._expire, context)
 
     def cancel(self) -> None:
         """The actions will not be visited, if they were not yet."""

@@ -1,0 +1,60 @@
+"""Changes the state of managed nodes."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any
+
+from launch.action import Action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.actions.lifecycle_node import change_state
+from launch_ros.ros_adapters import get_ros_node
+from launch_ros.utilities.namespace_utils import make_namespace_absolute
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["LifecycleTransition"]
+
+
+class LifecycleTransition(Action):
+    """Takes managed nodes through transitions, each node through one after the other; a failure ends those of its node.
+
+    Args:
+        lifecycle_node_names: Full names of the nodes.
+        transition_ids: The transitions, for example ``Transition.TRANSITION_CONFIGURE``.
+        **kwargs: See :class:`launch.Action`.
+
+    Raises:
+        RuntimeError: No nodes or no transitions are given.
+    """
+
+    def __init__(self, *, lifecycle_node_names: Iterable[SomeSubstitutionsType], transition_ids: Iterable[int], **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._names = [normalize_to_list_of_substitutions(name) for name in lifecycle_node_names]
+        self._transitions = [int(transition) for transition in transition_ids]
+        if not self._names:
+            raise RuntimeError("No lifecycle_node_names provided.")
+        if not self._transitions:
+            raise RuntimeError("No transition_ids provided.")
+        self._done: asyncio.Future[Any] | None = None
+
+    def get_asyncio_future(self) -> asyncio.Future[Any] | None:
+        """Done when all nodes went through all transitions."""
+        return self._done
+
+    def execute(self, context: LaunchContext) -> None:
+        """Begin."""
+        if context.is_shutdown:
+            return
+        get_ros_node(context)
+        names = [make_namespace_absolute(perform_substitutions(context, name)) for name in self._names]
+        self._done = asyncio.gather(*(self._change(context, name) for name in names))
+
+    async def _change(self, context: LaunchContext, name: str) -> None:
+        for transition in self._transitions:
+            if not await change_state(context, name, transition):
+                return

@@ -1,0 +1,45 @@
+"""Delays actions by the time of ROS."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.actions import TimerAction
+from launch.frontend import expose_action
+from launch_ros.ros_adapters import get_ros_node
+from launch_ros.utilities.scope import global_parameters
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from launch.launch_context import LaunchContext
+
+__all__ = ["ROSTimer", "RosTimer"]
+
+
+@expose_action("ros_timer")
+class ROSTimer(TimerAction):
+    """Visits actions after a time of ROS: that of ``/clock`` when the scope sets ``use_sim_time``, else that of the computer.
+
+    Args:
+        period: Seconds: a number, or a text that is one.
+        actions: The actions.
+        **kwargs: See :class:`launch.actions.TimerAction`.
+    """
+
+    def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:
+        from rclpy.parameter import Parameter
+
+        node = get_ros_node(context)
+        if ("use_sim_time", True) in global_parameters(context):
+            node.set_parameters([Parameter("use_sim_time", value=True)])
+
+        def expire() -> None:
+            timer.cancel()
+            loop.call_soon_threadsafe(self._expire, context)
+
+        timer = node.create_timer(self.seconds(context), expire)
+        return timer
+
+
+RosTimer = ROSTimer

@@ -1,0 +1,8 @@
+"""Events of ROS nodes."""
+
+from __future__ import annotations
+
+from launch_ros.events import lifecycle
+from launch_ros.events.matchers import matches_node_name
+
+__all__ = ["lifecycle", "matches_node_name"]

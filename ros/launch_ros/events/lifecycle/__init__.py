@@ -1,0 +1,8 @@
+"""Events of managed nodes."""
+
+from __future__ import annotations
+
+from launch_ros.events.lifecycle.change_state import ChangeState
+from launch_ros.events.lifecycle.state_transition import StateTransition
+
+__all__ = ["ChangeState", "StateTransition"]

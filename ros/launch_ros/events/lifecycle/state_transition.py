@@ -1,0 +1,57 @@
+"""A managed node has changed its state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch_ros.actions import LifecycleNode
+
+__all__ = ["StateTransition"]
+
+
+class StateTransition(Event):
+    """A managed node has changed its state.
+
+    Args:
+        action: The action that runs it.
+        msg: What it said, a ``lifecycle_msgs/msg/TransitionEvent``.
+    """
+
+    name = "launch_ros.events.lifecycle.StateTransition"
+
+    def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
+        self._action = action
+        self._msg = msg
+
+    @property
+    def action(self) -> LifecycleNode:
+        """The action that runs the node."""
+        return self._action
+
+    @property
+    def msg(self) -> Any:
+        """What the node said."""
+        return self._msg
+
+    @property
+    def timestamp(self) -> int:
+        """When, in nanoseconds."""
+        return int(self._msg.timestamp)
+
+    @property
+    def transition(self) -> str:
+        """Name of the transition, for example ``configure``."""
+        return str(self._msg.transition.label)
+
+    @property
+    def start_state(self) -> str:
+        """Name of the state before, for example ``unconfigured``."""
+        return str(self._msg.start_state.label)
+
+    @property
+    def goal_state(self) -> str:
+        """Name of the state after, for example ``configuring``."""
+        return str(self._msg.goal_state.label)
