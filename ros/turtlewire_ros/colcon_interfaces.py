@@ -1,0 +1,90 @@
+"""Lets ``colcon build`` make the interface packages of a workspace importable, without CMake and without a compiler.
+
+colcon-ros hands every ``ament_cmake`` package to CMake. A package whose CMakeLists.txt generates interfaces and builds nothing else is
+taken here instead: it gets a type of its own, which only this distribution knows how to build. All other packages stay with colcon-ros.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from shutil import copyfile
+from typing import TYPE_CHECKING
+
+from colcon_core.environment import create_environment_hooks, create_environment_scripts
+from colcon_core.logging import colcon_logger
+from colcon_core.package_identification import PackageIdentificationExtensionPoint
+from colcon_core.python_install_path import get_python_install_path
+from colcon_core.shell import create_environment_hook, get_command_environment
+from colcon_core.task import TaskExtensionPoint, run
+from colcon_ros.package_identification.ros import RosPackageIdentification
+
+if TYPE_CHECKING:
+    from colcon_core.package_descriptor import PackageDescriptor
+
+__all__ = ["InterfacePackageBuild", "InterfacePackageIdentification"]
+
+_TYPE = "ros.turtlewire_interfaces"  # "ros." has colcon-ros read the dependencies in package.xml
+_KINDS = ("msg", "srv", "action")
+_BUILDS_CODE = re.compile(r"^\s*(add_executable|add_library|ament_python_install_package)\s*\(", re.MULTILINE)
+_GENERATES_INTERFACES = re.compile(r"^\s*rosidl_generate_interfaces\s*\(", re.MULTILINE)
+
+
+class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
+    """Recognizes packages that consist of interface definitions."""
+
+    PRIORITY = RosPackageIdentification.PRIORITY + 10
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._ros = RosPackageIdentification()
+
+    def identify(self, desc: PackageDescriptor) -> None:
+        """Set name and type of a package that is ours; leave the others alone."""
+        cmake = desc.path / "CMakeLists.txt"
+        if not cmake.is_file() or not (desc.path / "package.xml").is_file():
+            return
+        text = cmake.read_text(encoding="utf-8", errors="replace")
+        if not _GENERATES_INTERFACES.search(text) or _BUILDS_CODE.search(text):
+            return
+        self._ros.identify(desc)
+        if desc.type == "ros.ament_cmake":
+            desc.type = _TYPE
+
+
+class InterfacePackageBuild(TaskExtensionPoint):
+    """Installs definitions, modules and stubs of an interface package."""
+
+    async def build(self) -> int:
+        """Build the package of the context; returns the exit status."""
+        args, name = self.context.args, self.context.pkg.name
+        prefix, source = Path(args.install_base), Path(args.path)
+        try:
+            environment = await get_command_environment("build", args.build_base, self.context.dependencies)
+        except RuntimeError as error:
+            colcon_logger.error(str(error))
+            return 1
+        modules = Path(get_python_install_path("purelib", {"base": str(prefix), "platbase": str(prefix)}))
+        command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(modules), "--package", name]
+        done = await run(self.context, command, cwd=args.build_base, env=environment)
+        if done.returncode:
+            return int(done.returncode)
+        _install_share(name, source, prefix)
+        hooks = create_environment_hooks(prefix, name)
+        hooks += create_environment_hook("ament_prefix_path", prefix, name, "AMENT_PREFIX_PATH", "", mode="prepend")
+        create_environment_scripts(self.context.pkg, args, default_hooks=hooks)
+        return 0
+
+
+def _install_share(name: str, source: Path, prefix: Path) -> None:
+    """What ``ros2 interface``, ``ros2 pkg`` and rosbag tools look for: the package's files, and its marks in ament's index."""
+    share = prefix / "share" / name
+    definitions = [path.relative_to(source) for kind in _KINDS for path in sorted((source / kind).glob(f"*.{kind}"))]
+    for file in (Path("package.xml"), *definitions):
+        (share / file).parent.mkdir(parents=True, exist_ok=True)
+        copyfile(source / file, share / file)
+    index = prefix / "share" / "ament_index" / "resource_index"
+    for resource, content in {"packages": "", "rosidl_interfaces": "\n".join(path.as_posix() for path in definitions)}.items():
+        (index / resource).mkdir(parents=True, exist_ok=True)
+        (index / resource / name).write_text(content, encoding="utf-8")
