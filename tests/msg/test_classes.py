@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
 from array import array
 
 import numpy as np
@@ -198,3 +201,25 @@ def test_the_modules_of_packages_list_their_interfaces():
         _ = std_srvs.srv.Nope
     with pytest.raises(ImportError, match=r"cannot import name 'Nope' from 'std_srvs\.srv'"):
         from std_srvs.srv import Nope  # noqa: F401
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
+def test_a_ctrl_c_that_was_caught_while_a_class_is_made_does_not_decide_how_the_process_ends():
+    """After a KeyboardInterrupt in ``exec(string)``, CPython ends with -2, whatever the program did about it."""
+    program = """
+import os, signal, sys
+from turtlewire import msg
+
+def interrupt(frame, event, argument):
+    if frame.f_code.co_name == "<module>" and frame.f_back.f_code.co_name == "_make_constructor":
+        sys.settrace(None)
+        os.kill(os.getpid(), signal.SIGINT)
+
+sys.settrace(interrupt)
+try:
+    msg.get_message("std_msgs/msg/String")
+except KeyboardInterrupt:
+    print("caught")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "caught\n", "")

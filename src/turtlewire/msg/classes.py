@@ -247,7 +247,8 @@ def _make_constructor(definition: MessageDefinition) -> Any:
             body.append(f" _self.{field.name} = {field.name}")
     condition = "" if checks_are_on() else "if _unknown: "
     source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join([*body, f" {condition}_finish(_self, _unknown)"])
-    exec(source, environment)  # noqa: S102 - the source is ours, its names are validated identifiers
+    # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program caught.
+    exec(compile(source, f"<constructor of {definition.full_name}>", "exec"), environment)  # noqa: S102 - our own source, checked names
     return environment["__init__"]
 
 
