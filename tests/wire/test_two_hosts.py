@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
@@ -23,6 +24,15 @@ pytestmark = [
 
 PEERS = Path(__file__).parent / "peers"
 HOSTS = {"here": "10.77.0.1", "there": "10.77.0.2"}
+ROOT = Path(__file__).parents[2]
+
+#: Which host runs which node of the follow demo, and its arguments: each arrow of the data flow crosses the cable.
+DEMO = [
+    ("here", "turtlesim.turtlesim_node", []),
+    ("there", "learning_tf2_py.turtle_tf2_broadcaster", ["-r", "__node:=broadcaster1", "-p", "turtlename:=turtle1"]),
+    ("here", "learning_tf2_py.turtle_tf2_broadcaster", ["-r", "__node:=broadcaster2", "-p", "turtlename:=turtle2"]),
+    ("there", "learning_tf2_py.turtle_tf2_listener", ["-p", "target_frame:=turtle1"]),
+]
 
 
 def ip(*arguments: str) -> None:
@@ -101,3 +111,41 @@ def test_nobody_from_outside_gets_in_by_default():
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=""))
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"))
         assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
+
+
+@pytest.fixture
+def split_demo(tmp_path) -> Iterator[list[subprocess.Popen[bytes]]]:
+    """The follow demo, two of its nodes on each host."""
+    environment = os.environ | {
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
+        "PYTHONPATH": str(ROOT / "ros2_ws/src/learning_tf2_py"),
+        "TURTLEWIRE_PORT": "0",
+        "TURTLEWIRE_BROWSER": "0",
+    }
+    processes = []
+    try:
+        for number, (host, module, arguments) in enumerate(DEMO):
+            program = f"from {module} import main; main()"
+            run = ["ip", "netns", "exec", namespace(host), sys.executable, "-c", program, "--ros-args", *arguments]
+            with (tmp_path / f"{number}.txt").open("wb") as output:
+                processes.append(subprocess.Popen(run, env=environment, stdout=output, stderr=subprocess.STDOUT))
+        yield processes
+    finally:
+        for process in processes:
+            process.send_signal(signal.SIGINT)
+        for process in processes:
+            process.wait(20)
+
+
+@pytest.mark.usefixtures("hosts")
+def test_the_follow_demo_runs_split_over_both_hosts(split_demo, tmp_path):
+    run = command("here", "follow.py")
+    environment = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
+    done = subprocess.run(run, env=environment, capture_output=True, text=True, timeout=100, check=False)
+    said = "".join(path.read_text() for path in sorted(tmp_path.glob("*.txt")))
+    assert done.returncode == 0, done.stderr + said
+    way_of_turtle2, final_distance = (float(word) for word in done.stdout.split())
+    assert way_of_turtle2 > 1.5
+    assert final_distance <= 0.3
+    assert all(process.poll() is None for process in split_demo), said
+    assert "Traceback" not in said
