@@ -11,10 +11,11 @@ COMMANDS = {
     "interface": "Show the definitions of messages, services and actions",
     "launch": "Run a launch file",
     "lifecycle": "Show and change the states of managed nodes",
+    "multicast": "Find out whether this network passes multicast on",
     "node": "List nodes, show what one of them offers",
     "param": "Read and set parameters of nodes",
     "pkg": "List and create packages",
     "run": "Run an executable of a package",
-    "service": "List services, call one",
+    "service": "List services, call one, watch the calls of others",
     "topic": "List topics, listen to one, publish to one",
 }

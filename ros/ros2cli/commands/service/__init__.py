@@ -11,6 +11,7 @@ __all__ = ["VERBS", "add_arguments"]
 
 VERBS = {
     "call": "Call a service",
+    "echo": "Print the requests and responses of a service that has introspection on",
     "find": "List the services of a type",
     "info": "Show how many offer and may call a service",
     "list": "List the services",

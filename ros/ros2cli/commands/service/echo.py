@@ -1,0 +1,84 @@
+"""``ros2 service echo``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.completion import service_names, service_types
+from ros2cli.qos_options import add_qos_arguments, with_options
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from turtlewire.wire.base import Graph
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
+    name.completer = service_names  # type: ignore[attr-defined]
+    kind = parser.add_argument("service_type", nargs="?", help="Type of the service; by default that of the service there is")
+    kind.completer = service_types  # type: ignore[attr-defined]
+    add_qos_arguments(parser)
+    parser.add_argument("--csv", action="store_true", help="One line of comma-separated values for each event")
+    parser.add_argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings")
+    parser.add_argument("-l", "--truncate-length", type=unsigned_int, default=128, help="Length to which arrays and strings are shortened")
+    parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
+    parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
+    parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the events until Ctrl-C."""
+    from ros2cli.direct_node import DirectNode
+
+    if args.service_type is not None:
+        _service_class(args.service_type, f"The service type '{args.service_type}' is invalid")  # refused before anything is started
+    with DirectNode(args) as direct:
+        service = direct.node.resolve_service_name(args.service_name)
+        kind = args.service_type or _type_of_service(direct.graph, service)
+        if kind is None:
+            return "Could not load the type for the passed service"
+        srv_type = _service_class(kind, f"The service name '{args.service_name}' is invalid")
+        topic = f"{service}/_service_event"
+        qos = with_options(args, "services_default")
+        subscription = direct.node.create_subscription(srv_type.Event, topic, lambda event: print(_text(event, args)), qos)
+        if subscription.get_publisher_count() < 1:
+            print(f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?")
+        direct.spin()
+    return None
+
+
+def _service_class(name: str, refusal: str) -> Any:
+    from rosidl_runtime_py.utilities import get_service
+
+    try:
+        return get_service(name)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError(refusal) from None
+
+
+def _type_of_service(graph: Graph, service: str) -> str | None:
+    from ros2cli.graph import services
+
+    types = dict(services(graph, hidden=True)).get(service, [])
+    if len(types) > 1:
+        raise RuntimeError(f"Cannot echo service '{service}', as it contains more than one type: [{', '.join(types)}]")
+    return types[0] if types else None
+
+
+def _text(event: Any, args: argparse.Namespace) -> str:
+    from rclpy.service_introspection import EventType
+    from rosidl_runtime_py import message_to_csv, message_to_yaml
+
+    length = None if args.full_length else args.truncate_length
+    if args.csv:
+        return message_to_csv(event, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str)
+    text = message_to_yaml(event, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str, flow_style=args.flow_style)
+    number = event.info.event_type
+    if number in list(EventType):  # the wire may say anything
+        text = text.replace(f"event_type: {number}\n", f"event_type: {EventType(number).name}\n", 1)
+    return text + "---"
