@@ -160,6 +160,11 @@ long BufferObject::add(std::span<const ReceivedTransform> transforms, std::strin
   return accepted;
 }
 
+void BufferObject::refuse_message(std::string_view fault, std::string_view authority) {
+  const std::scoped_lock lock(shared.mutex);
+  shared.buffer.refuse_message(fault, shared.buffer.sender(authority));
+}
+
 void BufferObject::call_listeners() {
   if (listeners.size() == 0) return;
   for (const nb::handle listener : nb::tuple(listeners)) {

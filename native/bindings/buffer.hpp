@@ -43,6 +43,7 @@ class BufferObject {
                   std::string_view authority, bool is_static);
   // Adds those of one message; the number accepted.
   long add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static);
+  void refuse_message(std::string_view fault, std::string_view authority);
   void call_listeners();
   void wake();
 

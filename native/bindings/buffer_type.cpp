@@ -192,7 +192,10 @@ PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, P
     return nullptr;
   }
   const std::string fault = message.decode(bytes.data(), bytes.size());
-  if (!fault.empty()) return raise_cdr_error(fault);
+  if (!fault.empty()) {
+    buffer->refuse_message(fault, authority);
+    return raise_cdr_error(fault);
+  }
   const long accepted = buffer->add(message.transforms(), authority, is_static);
   if (accepted > 0) buffer->call_listeners();
   return PyLong_FromLong(accepted);

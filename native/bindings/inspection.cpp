@@ -178,6 +178,23 @@ nb::dict describe_refusals(BufferObject& self) {
   return all;
 }
 
+// How many messages could not be decoded, what was wrong with the last one, and who sent it.
+nb::tuple describe_malformed(BufferObject& self) {
+  MalformedMessages malformed;
+  std::string sender;
+  {
+    const std::scoped_lock lock(self.shared.mutex);
+    malformed = self.shared.buffer.refusals().malformed();
+    if (malformed.count > 0) sender = self.shared.buffer.sender_name(malformed.source);
+  }
+  return nb::make_tuple(malformed.count, text(malformed.last), text(sender));
+}
+
+void rename_sender(BufferObject& self, std::string_view name, std::string_view shown) {
+  const std::scoped_lock lock(self.shared.mutex);
+  self.shared.buffer.rename_sender(name, shown);
+}
+
 // ---------------------------------------------------------------- whole histories
 
 struct Run {
@@ -300,6 +317,9 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
            "    How many were accepted.")
       .def("_describe_links", &describe_links)
       .def("_describe_refusals", &describe_refusals)
+      .def("_describe_malformed", &describe_malformed)
+      .def("_rename_sender", &rename_sender, "name"_a, "shown"_a,
+           "Shows another name for a sender, in what it has sent already as well.")
       .def(
           "_fault",
           [](BufferObject& self) {

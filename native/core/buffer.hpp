@@ -48,7 +48,11 @@ class Buffer {
   bool remove(FrameId child);
   SourceId sender(std::string_view name) { return senders_.intern(name); }
   std::string_view sender_name(SourceId id) const { return senders_[id]; }
+  // For a sender whose name becomes known only after its first data.
+  void rename_sender(std::string_view name, std::string_view shown) { senders_.rename(name, shown); }
   const Refusals& refusals() const { return refusals_; }
+  // Counts a message that could not be decoded.
+  void refuse_message(std::string_view fault, SourceId source) { refusals_.add_malformed(fault, source); }
 
   // -- names
   const Names& frames() const { return frames_; }

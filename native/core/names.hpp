@@ -31,6 +31,9 @@ class Names {
     return ids_.emplace(names_.back(), size() - 1).first->second;
   }
 
+  // What is called `name`, now or later, is shown as `shown` from now on.
+  void rename(std::string_view name, std::string_view shown) { names_[intern(name)] = texts_.emplace_back(shown); }
+
  private:
   std::deque<std::string> texts_;  // a deque, because the two below point into it
   std::vector<std::string_view> names_;

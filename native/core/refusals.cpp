@@ -21,4 +21,10 @@ void Refusals::add(const Refusal& refusal) {
   record.pose = refusal.pose;
 }
 
+void Refusals::add_malformed(std::string_view fault, SourceId source) {
+  ++malformed_.count;
+  malformed_.last = fault;
+  malformed_.source = source;
+}
+
 }  // namespace turtlewire

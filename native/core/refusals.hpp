@@ -20,15 +20,25 @@ struct RefusalRecord {
   Pose pose;
 };
 
+// Messages of which not even the transforms could be told apart.
+struct MalformedMessages {
+  std::uint64_t count = 0;
+  std::string last;     // what was wrong with the last one
+  SourceId source = 0;  // who sent it
+};
+
 class Refusals {
  public:
   static constexpr std::size_t kMostFrames = 1000;  // the refusals of further frames are counted together
 
   void add(const Refusal& refusal);
+  void add_malformed(std::string_view fault, SourceId source);
   const std::map<std::string, RefusalRecord, std::less<>>& by_child() const { return records_; }
+  const MalformedMessages& malformed() const { return malformed_; }
 
  private:
   std::map<std::string, RefusalRecord, std::less<>> records_;
+  MalformedMessages malformed_;
 };
 
 }  // namespace turtlewire

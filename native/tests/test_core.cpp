@@ -301,9 +301,11 @@ class Message {
 std::size_t ingest(SharedBuffer& shared, const std::vector<unsigned char>& bytes, bool& malformed) {
   static thread_local TfMessage message;
   const std::vector<unsigned char> exact(bytes);
-  malformed = !message.decode(exact.data(), exact.size()).empty();
+  const std::string fault = message.decode(exact.data(), exact.size());
+  malformed = !fault.empty();
   std::size_t accepted = 0;
   const SourceId me = shared.buffer.sender("me");
+  if (malformed) shared.buffer.refuse_message(fault, me);
   for (const ReceivedTransform& r : message.transforms()) {
     accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
   }
@@ -336,7 +338,7 @@ void test_malformed_messages(std::size_t rounds) {
   check(ingest(whole, large.bytes, malformed) == 10'000 && !malformed, "10,000 transforms in one message");
   check(ingest(whole, odd.bytes, malformed) == 1 && !malformed, "the good one among the odd ones is kept");
   check(whole.buffer.refusals().by_child().size() == 4, "each refusal is counted");
-  std::size_t rejected = 0;
+  std::size_t rejected = 0, counted = 0;
   auto shared = std::make_unique<SharedBuffer>(10'000'000'000);
   for (std::size_t i = 0; i < rounds; ++i) {
     ingest(*shared, mutated(below(random, 10) != 0 ? small.bytes : odd.bytes, random), malformed);
@@ -344,11 +346,15 @@ void test_malformed_messages(std::size_t rounds) {
     if (i % 10'000 == 9999) {
       check(shared->buffer.fault().empty(), "invariants after mutated messages: " + shared->buffer.fault());
       check(ingest(*shared, small.bytes, malformed) <= 2 && !malformed, "a good message is taken among bad ones");
+      check(!shared->buffer.refusals().malformed().last.empty(), "what is malformed is explained");
+      counted += shared->buffer.refusals().malformed().count;
       shared = std::make_unique<SharedBuffer>(10'000'000'000);
     }
   }
   std::printf("mutated messages: %zu, of which %zu malformed\n", rounds, rejected);
+  counted += shared->buffer.refusals().malformed().count;
   check(rejected > rounds / 10, "many mutations are malformed");
+  check(counted == rejected, "each malformed message is counted");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from turtlewire import errors
+from turtlewire import errors, msg
 from turtlewire.tf import inspection
 
 if TYPE_CHECKING:
@@ -70,6 +70,46 @@ def test_refusals_are_counted(buffer: turtlewire.Buffer) -> None:
     refused = inspection.refusals(buffer)
     assert len(refused) <= 1001
     assert refused["(others)"].counts["self_transform"] >= 999
+
+
+def test_malformed_messages_are_counted(buffer: turtlewire.Buffer) -> None:
+    assert inspection.malformed(buffer) == (0, "", "")
+    for data in (b"", b"\x00\x01\x00\x00\xff\xff\xff\xff"):
+        with pytest.raises(errors.CdrError):
+            buffer.ingest(data, authority="broken")
+    assert inspection.malformed(buffer) == (2, "4294967295 transforms are announced, which do not fit into 8 bytes", "broken")
+
+
+def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlewire.Buffer) -> None:
+    good = tf_message([("map", "base"), ("map", "robo#"), ("m#p", "cart"), ("map", "arm")])
+    assert buffer.ingest(good.replace(b"#", b"\xff"), authority="broken") == 2
+    assert buffer.frame_strings() == ["base", "map", "arm"]
+    refused = inspection.refusals(buffer)
+    assert {child: record.counts for child, record in refused.items()} == {"robo\ufffd": {"bad_name": 1}, "cart": {"bad_name": 1}}
+    assert (
+        refused["cart"].last
+        == 'Ignoring transform from authority "broken": a frame id must be UTF-8 text without NUL, of at most 4096 bytes'
+    )
+
+
+def tf_message(frames: list[tuple[str, str]]) -> bytes:
+    stamped = msg.get_message("geometry_msgs/msg/TransformStamped")
+    message = msg.get_message("tf2_msgs/msg/TFMessage")()
+    for parent, child in frames:
+        message.transforms.append(stamped(child_frame_id=child))
+        message.transforms[-1].header.frame_id = parent
+    return msg.serialize(message)
+
+
+def test_a_sender_may_get_its_name_late(buffer: turtlewire.Buffer) -> None:
+    for t, sender in ((1, "/slam"), (2, "0a0b"), (3, "/slam"), (4, "0a0b")):
+        buffer.set_transform("map", "base", t, (0, 0, 0), STILL, authority=sender)
+    buffer._rename_sender("0a0b", "/odometry")
+    buffer._rename_sender("0c0d", "/odometry")
+    buffer.set_transform("map", "base", 5, (0, 0, 0), STILL, authority="0c0d")
+    (link,) = inspection.links(buffer)
+    assert link.senders == (("/slam", "map", 2, 3), ("/odometry", "map", 3, 5))
+    assert "'/odometry'" in buffer.all_frames_as_yaml()
 
 
 def test_remove(buffer: turtlewire.Buffer) -> None:

@@ -10,6 +10,7 @@ import weakref
 import pytest
 
 from turtlewire import Buffer, errors, msg, wire
+from turtlewire.tf import inspection
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
@@ -178,7 +179,48 @@ def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
             publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
         publisher.publish(tf_bytes("world", "robot"))
         buffer.lookup_transform("world", "robot", 0, LONG_NS)
+        assert domain.receiver.graph.wait_for(lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS)
     assert capfd.readouterr().err.count(f"a message on {topic} was lost") == 1
+    assert inspection.malformed(buffer).messages == 3
+    assert inspection.malformed(buffer).last.startswith("4294967295 transforms are announced")
+
+
+def test_the_buffer_knows_who_publishes(domain):
+    other = domain.sender.create_node("other", "/robot1")
+    domain.tf_static.publish(tf_bytes("world", "wall"))
+    other_tf = other.create_publisher("/tf", TYPE, QOS)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        domain.wait_for_subscriptions(domain.tf)
+        domain.wait_for_subscriptions(other_tf)
+        domain.tf.publish(tf_bytes("world", "robot"))
+        other_tf.publish(tf_bytes("world", "cart"))
+        for frame in ("wall", "robot", "cart"):
+            buffer.lookup_transform("world", frame, 0, LONG_NS)
+
+        def senders():
+            return {link.child_frame: [sender.name for sender in link.senders] for link in inspection.links(buffer)}
+
+        known = {"wall": ["/talker"], "robot": ["/talker"], "cart": ["/robot1/other"]}
+        assert domain.receiver.graph.wait_for(lambda: senders() == known, LONG_NS), senders()
+        assert "broadcaster: '/robot1/other'" in buffer.all_frames_as_yaml()
+
+
+def test_two_publishers_of_one_frame_are_told_apart(domain):
+    other_tf = domain.sender.create_node("other").create_publisher("/tf", TYPE, QOS)
+    buffer = Buffer()
+    with TransformListener(buffer, domain.node, context=domain.receiver):
+        for publisher, stamp in ((domain.tf, 1), (other_tf, 2)):
+            domain.wait_for_subscriptions(publisher)
+            publisher.publish(tf_bytes("world", "robot", stamp_s=stamp))
+            buffer.lookup_transform("world", "robot", stamp * 1_000_000_000, LONG_NS)
+        assert domain.receiver.graph.wait_for(
+            lambda: (
+                [conflict.text for conflict in inspection.conflicts(buffer)]
+                == ["'robot' is sent by '/other' and '/talker'; each frame should have one publisher."]
+            ),
+            LONG_NS,
+        )
 
 
 def test_listeners_may_be_closed_after_their_context(domain):

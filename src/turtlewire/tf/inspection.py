@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["Conflict", "LinkInfo", "Refused", "Sender", "conflicts", "links", "load", "refusals", "save"]
+__all__ = ["Conflict", "LinkInfo", "Malformed", "Refused", "Sender", "conflicts", "links", "load", "malformed", "refusals", "save"]
 
 _FORMAT = "turtlewire buffer 1"
 
@@ -62,6 +62,16 @@ class Refused(NamedTuple):
     """The reason of the last one in tf2's words."""
 
 
+class Malformed(NamedTuple):
+    """Messages of which nothing could be taken, because the bytes are no ``TFMessage``."""
+
+    messages: int
+    last: str
+    """What was wrong with the last one; empty if there was none."""
+    sender: str
+    """Who sent that one."""
+
+
 class Conflict(NamedTuple):
     """Senders of one frame who contradict each other."""
 
@@ -73,12 +83,26 @@ class Conflict(NamedTuple):
 
 def links(buffer: Buffer) -> list[LinkInfo]:
     """All links, in the order in which their frames were first heard of."""
-    return [LinkInfo(*row[:8], tuple(Sender(*sender) for sender in row[8])) for row in buffer._describe_links()]
+    return [LinkInfo(*row[:8], _senders(row[8])) for row in buffer._describe_links()]
+
+
+def _senders(rows: list[tuple[str, str, int, int]]) -> tuple[Sender, ...]:
+    """One for each name and parent: a sender that got its name late has several rows."""
+    merged: dict[tuple[str, str], Sender] = {}
+    for name, parent, samples, newest in rows:
+        known = merged.pop((name, parent), Sender(name, parent, 0, newest))
+        merged[name, parent] = Sender(name, parent, known.samples + samples, max(known.newest_ns, newest))
+    return tuple(merged.values())
 
 
 def refusals(buffer: Buffer) -> dict[str, Refused]:
     """What was refused, by child frame; beyond 1000 frames, the rest under ``(others)``."""
     return {child: Refused(counts, last) for child, (counts, last) in buffer._describe_refusals().items()}
+
+
+def malformed(buffer: Buffer) -> Malformed:
+    """How many messages could not be decoded, and what was wrong with the last one."""
+    return Malformed(*buffer._describe_malformed())
 
 
 def conflicts(buffer: Buffer) -> list[Conflict]:

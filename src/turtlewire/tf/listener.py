@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
 from turtlewire import msg, wire
-from turtlewire.errors import WireError
+from turtlewire.errors import CdrError, WireError
+from turtlewire.tf.publisher_names import PublisherNames
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
+from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,8 +28,12 @@ if TYPE_CHECKING:
     class Store(Protocol):
         """The part of :class:`turtlewire.Buffer` that a listener feeds."""
 
-        def ingest(self, cdr: bytes, *, static: bool = False) -> int:
+        def ingest(self, cdr: bytes, *, static: bool = False, authority: str = "default_authority") -> int:
             """Store the transforms of a serialized ``TFMessage``."""
+            ...
+
+        def _rename_sender(self, name: str, shown: str) -> None:
+            """Show another name for an authority."""
             ...
 
 
@@ -44,19 +50,37 @@ STATIC_QOS = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
 
 class _Member(NamedTuple):
     node: base.Node
+    graph: base.Graph
     store: Store
 
 
 class _Feed:
-    """What a subscription calls, on the reader thread: hands the bytes to all members."""
+    """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name."""
 
-    def __init__(self, members: tuple[_Member, ...], *, static: bool) -> None:
+    def __init__(self, members: tuple[_Member, ...], topic: str, *, static: bool) -> None:
         self.members = members
+        self._topic = topic
         self._static = static
+        self._publishers = PublisherNames(members[0].graph, self._rename)
 
-    def __call__(self, cdr: bytes, _info: base.MessageInfo) -> None:
+    def __call__(self, cdr: bytes, info: base.MessageInfo) -> None:
+        publisher = self._publishers[info.publisher_gid]
         for member in self.members:
-            member.store.ingest(cdr, static=self._static)
+            self._store(member.store, cdr, publisher)
+
+    def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
+        try:
+            store.ingest(cdr, static=self._static, authority=publisher)
+        except CdrError as error:  # the store has counted it
+            warn_once(f"malformed {self._topic}", f"a message on {self._topic} was lost: {error} (publisher: {publisher})")
+
+    def _rename(self, gid: str, name: str) -> None:
+        for member in self.members:
+            member.store._rename_sender(gid, name)
+
+    def close(self) -> None:
+        """Let go of the graph."""
+        self._publishers.close()
 
 
 class _Channel:
@@ -68,15 +92,15 @@ class _Channel:
         self._static = static
         self._latched = qos.durability == Durability.TRANSIENT_LOCAL
         self._lock = threading.Lock()
-        self._feed = _Feed((), static=static)
+        self._feed: _Feed | None = None
         self._subscription: base.Subscription | None = None
 
     def join(self, member: _Member) -> None:
         """Feed one more buffer from now on."""
         with self._lock:
-            members = (*self._feed.members, member)
+            members = (*(self._feed.members if self._feed else ()), member)
             # What publishers keep for late joiners comes once, at the start of a subscription: a newcomer needs a new one.
-            if self._subscription is None or self._latched:
+            if self._feed is None or self._latched:
                 self._subscribe(members)
             else:
                 self._feed.members = members
@@ -84,12 +108,14 @@ class _Channel:
     def leave(self, member: _Member) -> None:
         """Feed one buffer less; the last one ends the subscription."""
         with self._lock:
+            assert self._feed is not None
+            assert self._subscription is not None
             former = self._feed.members
             self._feed.members = tuple(other for other in former if other is not member)
             if not self._feed.members:
-                assert self._subscription is not None
                 self._subscription.close()
-                self._subscription = None
+                self._feed.close()
+                self._subscription = self._feed = None
             elif member is former[0]:
                 with suppress(WireError):  # the whole context is closed, and nothing more will come for the others either
                     self._subscribe(self._feed.members)
@@ -100,14 +126,16 @@ class _Channel:
         A former latched one ends first: what it still had on the way is older than what the new one brings again, and must not come
         after it. Otherwise it ends last, for what came in between would be lost; a transform that comes twice is stored once.
         """
-        former = self._subscription
+        former, former_feed = self._subscription, self._feed
         if former is not None and self._latched:
             former.close()
-        self._feed = _Feed(members, static=self._static)
+        self._feed = _Feed(members, self._topic, static=self._static)
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
         self._subscription = members[0].node.create_subscription(self._topic, type_id, self._qos, self._feed)
         if former is not None and not self._latched:
             former.close()
+        if former_feed is not None:
+            former_feed.close()
 
 
 class _Channels:
@@ -138,6 +166,9 @@ class TransformListener:
         static_topic: Fully qualified name of the topic of static transforms; None leaves them out.
         qos: Of the first subscription.
         static_qos: Of the second one.
+
+    The buffer is told the node that published (``/namespace/name``) as authority, or the publisher's gid in hex while the graph knows none.
+    Messages that are no ``TFMessage`` are counted in the buffer (:func:`turtlewire.tf.inspection.malformed`); the first is warned of.
     """
 
     def __init__(
@@ -157,7 +188,7 @@ class TransformListener:
         self._own_node = context.create_node("transform_listener") if node is None else None
         node = node or self._own_node
         assert node is not None
-        self._member = _Member(node, buffer)
+        self._member = _Member(node, context.graph, buffer)
         self._lock = threading.Lock()
         self._joined: list[_Channel] = []
         for channel in self._wanted(context, topic, static_topic, qos, static_qos):

@@ -9,7 +9,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
-from turtlewire.errors import TransformException
+from turtlewire.errors import CdrError, TransformException
 from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.cdr import decode_tf_message
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
@@ -59,6 +59,8 @@ class Buffer:
     set_transforms = inspection.set_transforms
     _describe_links = inspection.describe_links
     _describe_refusals = inspection.describe_refusals
+    _describe_malformed = inspection.describe_malformed
+    _rename_sender = inspection.rename_sender
     _fault = inspection.fault
 
     # -- data in
@@ -99,13 +101,20 @@ class Buffer:
         Raises:
             CdrError: The bytes are malformed; nothing of them was added.
         """
-        transforms = decode_tf_message(bytes(cdr))
+        try:
+            transforms = decode_tf_message(bytes(cdr))
+        except CdrError as error:
+            with self._changed:
+                fault = str(error).removeprefix("not a TFMessage: ")
+                self._tree.malformed = (self._tree.malformed[0] + 1, fault, self._tree.shown_senders.get(authority, authority))
+            raise
         accepted = 0
         with self._changed:
             for stamp, parent, child, pose in transforms:
                 try:
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
+                    self._tree.refuse("name", child.decode(errors="replace"), stamp, pose, authority)
                     continue
                 accepted += not self._tree.set(*names, stamp, pose, authority, static=static)
             if accepted:

@@ -110,6 +110,18 @@ def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
         return {child: (dict(record.counts), refusal(*record.last)) for child, record in self._tree.refusals.items()}
 
 
+def describe_malformed(self: Buffer) -> tuple[int, str, str]:
+    """For turtlewire.tf.inspection."""
+    with self._changed:
+        return self._tree.malformed
+
+
+def rename_sender(self: Buffer, name: str, shown: str) -> None:
+    """Show another name for a sender, in what it has sent already as well."""
+    with self._changed:
+        self._tree.rename_sender(name, shown)
+
+
 def fault(self: Buffer) -> str:
     """What is wrong with the buffer's own state; for tests."""
     with self._changed:

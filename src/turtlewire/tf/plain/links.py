@@ -78,6 +78,14 @@ class Link:
         if len(self.senders) > MOST_SENDERS:
             del self.senders[min(self.senders, key=lambda sender: self.senders[sender][1])]
 
+    def rename_sender(self, name: str, shown: str) -> None:
+        """Count what one sender has sent for another name."""
+        former, self.senders = self.senders, {}
+        for (known, parent), (samples, newest) in former.items():
+            sender = (shown if known == name else known, parent)
+            others, last = self.senders.pop(sender, [0, newest])
+            self.senders[sender] = [others + samples, max(last, newest)]
+
     def sender_rows(self) -> list[tuple[str, str, int, int]]:
         """(name, parent, samples, newest stamp) of all senders."""
         return [(name, parent, samples, newest) for (name, parent), (samples, newest) in self.senders.items()]

@@ -58,19 +58,26 @@ class Tree:
         self.frames: dict[str, None] = {}  # a set in order of arrival
         self.links: dict[str, Link] = {}
         self.refusals: dict[str, Refusals] = {}  # by child frame
+        self.malformed = (0, "", "")  # messages; what was wrong with the last one, and who sent it
+        self.shown_senders: dict[str, str] = {}
 
     def set(self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool) -> str:
         """Add a sample. Returns the key of a refusal's text (see texts.refusal), or an empty string."""
         parent, child = parent.removeprefix("/"), child.removeprefix("/")
+        authority = self.shown_senders.get(authority, authority)
         verdict = self._insert(parent, child, stamp, pose, static=static)
         if verdict:
-            known = child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
-            record = self.refusals.setdefault(known, Refusals())
-            record.counts[VERDICT_NAMES[verdict]] += 1
-            record.last = (verdict, child, stamp, pose, authority)
+            self.refuse(verdict, child, stamp, pose, authority)
         else:
             self.links[child].count_sender(authority, parent, stamp)
         return verdict
+
+    def refuse(self, verdict: str, child: str, stamp: int, pose: Pose, authority: str) -> None:
+        """Count a sample that is not taken, by the key of the refusal's text."""
+        known = child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
+        record = self.refusals.setdefault(known, Refusals())
+        record.counts[VERDICT_NAMES[verdict]] += 1
+        record.last = (verdict, child, stamp, pose, authority)
 
     def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> str:
         fault = _name_fault(parent, child)
@@ -91,6 +98,14 @@ class Tree:
             if known is None:
                 self._sort_links()
         return "" if link.insert(stamp, Sample(parent, stored), self.keep) else "old"
+
+    def rename_sender(self, name: str, shown: str) -> None:
+        """Show another name for a sender, now and later."""
+        self.shown_senders[name] = shown
+        count, fault, sender = self.malformed
+        self.malformed = (count, fault, shown if sender == name else sender)
+        for link in self.links.values():
+            link.rename_sender(name, shown)
 
     def remove(self, child: str) -> bool:
         """Forget a link, and the names that then stand for nothing; False if there is none."""
