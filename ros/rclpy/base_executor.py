@@ -1,0 +1,455 @@
+"""What all executors have in common: they wait for what the entities of their nodes have to do, and run it.
+
+One wait serves everything. The middleware's wait set holds the subscriptions, clients and services, and is told once when one comes or
+goes; the earliest timer gives the wait's limit; a guard condition, a finished future or another thread ends the wait. Nothing is collected
+anew for a pass, and nothing polls: an idle executor does not run at all.
+
+Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of all nodes, then node by node its timers,
+subscriptions, guard conditions, clients and services.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from collections import deque
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
+
+from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .running_callbacks import RunningCallbacks
+from .task import Future, Task
+from .timer_queue import TimerQueue
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from turtlewire.wire import base
+
+    from .context import Context
+    from .entity import Entity, Work
+    from .node import Node
+
+__all__ = ["Executor", "await_or_execute"]
+
+#: A spin within a callback that finds nothing to do for so long is warned of.
+_PATIENCE_NS = 1_000_000_000
+
+
+class Executor:
+    """Base of the executors. All methods are thread-safe; one thread spins at a time.
+
+    Args:
+        context: None takes the default context.
+
+    Raises:
+        NotInitializedException: The context is not initialized.
+    """
+
+    def __init__(self, *, context: Context | None = None) -> None:
+        from .utilities import get_default_context
+
+        self._context = get_default_context() if context is None else context
+        self._wait_set = self._context.wire.create_wait_set()
+        self._by_wire: dict[base.Entity, Entity] = {}
+        self._nodes: dict[Node, int] = {}
+        self._nodes_made = 0
+        self._entities_made = 0
+        self._lock = threading.RLock()
+        self._timers = TimerQueue(self.wake)
+        self._notified: deque[Entity] = deque()
+        self._tasks: list[Task] = []
+        self._ready: deque[Entity | Task] = deque()
+        self._paused: set[Entity] = set()
+        self._holders: dict[Task, Entity] = {}
+        self._running = RunningCallbacks()
+        self._waiting = False
+        self._spinning_thread: int | None = None
+        self._response_awaited: Future | None = None
+        self._blocked_waits: set[threading.Event] = set()
+        self._is_shutdown = False
+        self._context.on_shutdown(self.wake)
+
+    @property
+    def context(self) -> Context:
+        """Its context."""
+        return self._context
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+        self.shutdown()
+
+    # Nodes
+
+    def add_node(self, node: Node) -> bool:
+        """Serve ``node`` from now on; it leaves the executor that served it before.
+
+        Returns:
+            False when this executor serves it already.
+        """
+        with self._lock:
+            if node in self._nodes:
+                return False
+            self._nodes[node] = self._nodes_made
+            self._nodes_made += 1
+        node.executor = self
+        for entity in node._entities():
+            self._attach(entity, node)
+        return True
+
+    def remove_node(self, node: Node) -> None:
+        """Serve ``node`` no longer; nothing happens when it does not."""
+        with self._lock:
+            if self._nodes.pop(node, None) is None:
+                return
+        for entity in node._entities():
+            self._detach(entity)
+        node.executor = None
+
+    def get_nodes(self) -> list[Node]:
+        """The nodes that it serves."""
+        with self._lock:
+            return list(self._nodes)
+
+    def _attach(self, entity: Entity, node: Node) -> None:
+        """Serve an entity of ``node``; nothing happens when the node is not here, or the entity is."""
+        index = self._nodes.get(node)
+        if index is not None:
+            self._adopt(entity, index)
+
+    def _adopt(self, entity: Entity, node_index: int = -1) -> None:
+        """Serve an entity of the node with this number; those of no node come before all others."""
+        with self._lock:
+            if entity._executor is not None or entity._destroyed:
+                return
+            self._entities_made += 1
+            entity._rank = (node_index, entity._ORDER, self._entities_made)
+            entity._executor = weakref.ref(self)
+            entity._attach(self)
+
+    def _detach(self, entity: Entity) -> None:
+        """Serve an entity no longer."""
+        with self._lock:
+            entity._executor = None
+            self._paused.discard(entity)
+            entity._detach(self)
+
+    # What entities call
+
+    def _watch(self, wire: Any, entity: Entity) -> None:
+        """Serve ``entity`` when its side on the wire has something."""
+        self._by_wire[wire] = entity
+        self._wait_set.attach(wire)
+
+    def _unwatch(self, wire: Any) -> None:
+        self._wait_set.detach(wire)
+        self._by_wire.pop(wire, None)
+
+    def _notify(self, entity: Entity) -> None:
+        """Serve ``entity`` in the next cycle."""
+        self._notified.append(entity)
+        self.wake()
+
+    # Tasks
+
+    def create_task(self, callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any, **kwargs: Any) -> Task:
+        """Run a function or a coroutine on this executor.
+
+        Returns:
+            The task, a future of its result.
+        """
+        task = Task(callback, args, kwargs, executor=self)
+        self._schedule(task)
+        return task
+
+    def _schedule(self, task: Task) -> None:
+        with self._lock:
+            self._tasks.append(task)
+        self.wake()
+
+    # Spinning
+
+    def spin(self) -> None:
+        """Run callbacks until the executor or its context is shut down.
+
+        Raises:
+            ExternalShutdownException: The context was shut down by a signal, or by another thread while it waited.
+            KeyboardInterrupt: Ctrl-C, in the main thread.
+            Exception: What a callback raised.
+        """
+        while self._context.ok() and not self._is_shutdown:
+            self.spin_once()
+        self._after_spin()
+
+    def _after_spin(self) -> None:
+        """A signal between two waits leaves ``spin`` as one during a wait does."""
+        if self._context.ended_by_signal:
+            raise ExternalShutdownException
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Wait for one callback and run it.
+
+        Args:
+            timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
+
+        Raises:
+            ExternalShutdownException: The context was shut down.
+            Exception: What a callback raised.
+        """
+        self._spin_once(timeout_sec)
+
+    def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Run callbacks until ``future`` is done, the time is over, or the executor or its context is shut down."""
+        future._add_waiter(self.wake)
+        deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+        remaining = timeout_sec
+        while self._context.ok() and not future.done() and not self._is_shutdown:
+            self._spin_once(remaining, future.done)
+            if deadline is not None:
+                remaining = deadline - time.monotonic()
+                if remaining <= 0:
+                    return
+
+    def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Wait for one callback and run it, unless ``future`` is done before."""
+        future._add_waiter(self.wake)
+        self._spin_once(timeout_sec, future.done)
+
+    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None = None) -> None:
+        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        outer, me = self._spinning_thread, threading.get_ident()
+        if outer is not None and outer != me:
+            raise RuntimeError("Executor is already spinning")
+        self._spinning_thread = me
+        try:
+            self._run(*self._next(timeout_ns, condition))
+        except (ShutdownException, TimeoutException, ConditionReachedException):
+            return
+        finally:
+            self._spinning_thread = outer
+
+    def _run(self, source: Entity | Task, work: Work | None) -> None:
+        """Run what :meth:`_next` found; here or in another thread."""
+        raise NotImplementedError
+
+    def _next(self, timeout_ns: int | None, condition: Callable[[], bool] | None) -> tuple[Entity | Task, Work | None]:
+        """The next thing to run, its callback group claimed."""
+        deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
+        expired = False
+        is_patient = bool(self._running.of_this_thread()) and self._response_awaited is None
+        while True:
+            if condition is not None and condition():
+                raise ConditionReachedException
+            self._check_alive()
+            if self._ready:
+                source = self._ready.popleft()
+                work = None if isinstance(source, Task) else self._claim(source)
+                if work is not None or isinstance(source, Task):
+                    return source, work
+                continue
+            if expired:
+                raise TimeoutException
+            remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
+            expired = remaining == 0
+            if is_patient and remaining is None and self._paused:
+                is_patient = False
+                self._collect(_PATIENCE_NS)
+                if not self._ready:
+                    self._warn_of_nested_spin()
+                continue
+            self._collect(remaining)
+
+    def _serve_responses(self, future: Future, deadline: float | None, is_hopeless: Callable[[set[Entity]], bool]) -> None:
+        """In a callback of this executor: hand responses to their futures, and do nothing else, until ``future`` is done.
+
+        Args:
+            future: What the callback waits for.
+            deadline: On ``time.monotonic``; None: no limit.
+            is_hopeless: Asked with the entities that are held back meanwhile, whether one of them is what the callback waits for.
+
+        Raises:
+            RuntimeError: It is hopeless.
+        """
+        future._add_waiter(self.wake)
+        outer, self._response_awaited = self._response_awaited, future
+        try:
+            while not future.done() and (deadline is None or time.monotonic() < deadline):
+                if is_hopeless(self._paused):
+                    raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
+                remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
+                try:
+                    self._execute(*self._next(remaining, lambda: future.done() or is_hopeless(self._paused)))
+                except (TimeoutException, ConditionReachedException):
+                    continue
+        finally:
+            self._response_awaited = outer
+            self._resume_paused()
+
+    def _warn_of_nested_spin(self) -> None:
+        from .logging import get_logger
+
+        kinds = ", ".join(sorted({type(entity).__name__ for entity in self._paused}))
+        get_logger("rclpy").warning(
+            f"A callback spins the executor that runs it, and nothing happens: what is ready ({kinds}) belongs to the callback's "
+            "own group. Use an async callback with await, or put them into different callback groups"
+        )
+
+    def _check_alive(self) -> None:
+        if self._is_shutdown:
+            raise ShutdownException
+        if not self._context.ok():
+            raise ExternalShutdownException
+
+    def _collect(self, timeout_ns: int | None) -> None:
+        """Wait until something is ready, and line it up in ROS 2's order."""
+        tasks: list[Task] = []
+        if self._response_awaited is None:
+            with self._lock:
+                tasks, self._tasks = self._tasks, []
+        if tasks or self._notified:
+            timeout_ns = 0
+        else:
+            until_timer = self._timers.time_until_next()
+            if until_timer is not None and (timeout_ns is None or until_timer < timeout_ns):
+                timeout_ns = until_timer
+        entities = [self._by_wire[wire] for wire in self._wait(timeout_ns) if wire in self._by_wire]
+        entities += self._timers.pop_due()
+        while self._notified:
+            entities.append(self._notified.popleft())
+        if len(entities) > 1:
+            entities.sort(key=_rank)
+        self._ready.extend(reversed(tasks))
+        self._ready.extend(entities)
+
+    def _wait(self, timeout_ns: int | None) -> Iterable[base.Entity]:
+        self._waiting = True
+        try:
+            return [] if self._is_shutdown else self._wait_set.wait(timeout_ns)
+        finally:
+            self._waiting = False
+            if self._is_shutdown:
+                self._wait_set.close()
+
+    def wake(self) -> None:
+        """End the current wait, or the next one at once."""
+        self._wait_set.wake()
+
+    # Callback groups
+
+    def _claim(self, entity: Entity) -> Work | None:
+        """Claim the entity's group and take its work; None when there is none, or the group is busy."""
+        if entity._executor is None:
+            return None  # destroyed, or moved to another executor meanwhile
+        if not entity._GATED:
+            return entity._work()
+        group = entity.callback_group
+        if not self._may_run(entity) or not group.beginning_execution(entity):
+            self._pause(entity)
+            return None
+        work = None
+        try:
+            work = entity._work()
+        finally:
+            if work is None:
+                self._release(entity)
+        return work
+
+    def _pause(self, entity: Entity) -> None:
+        with self._lock:  # a thread that ends its callback may resume it at any moment: not in the middle of this
+            self._paused.add(entity)
+            entity._pause(self)
+        if self._may_run(entity):  # it became free before we were in the list
+            self._resume(entity)
+
+    def _release(self, entity: Entity) -> None:
+        """Give the group back, and let those go on that waited for it."""
+        if not entity._GATED:
+            return
+        entity.callback_group.ending_execution(entity)
+        self._resume_paused()
+
+    def _resume_paused(self) -> None:
+        if not self._paused:
+            return
+        with self._lock:
+            free = [entity for entity in self._paused if self._may_run(entity)]
+        for entity in free:
+            self._resume(entity)
+
+    def _may_run(self, entity: Entity) -> bool:
+        return self._response_awaited is None and entity.callback_group.can_execute(entity)
+
+    def _resume(self, entity: Entity) -> None:
+        with self._lock:
+            if entity not in self._paused:
+                return
+            self._paused.discard(entity)
+            entity._resume(self)
+        self.wake()
+
+    # Running
+
+    def _execute(self, source: Entity | Task, work: Work | None) -> None:
+        """Run a callback to its end or to its first ``await``, or a task to its next one."""
+        with self._running:
+            if work is None:
+                self._advance(source)  # type: ignore[arg-type]
+                return
+            callback, arguments = work
+            coroutine = None
+            try:
+                coroutine = callback(*arguments)
+            finally:
+                if not isinstance(coroutine, CoroutineType):
+                    self._release(source)  # type: ignore[arg-type]
+            if isinstance(coroutine, CoroutineType):
+                task = Task(coroutine, executor=self)
+                self._holders[task] = source  # type: ignore[assignment]
+                self._advance(task)
+
+    def _advance(self, task: Task) -> None:
+        """Run one step of a task; have it run again when what it awaits is done."""
+        task()
+        if not task.done():
+            task._when_runnable(lambda: self._schedule(task))
+            return
+        holder = self._holders.pop(task, None)
+        if holder is not None:
+            self._release(holder)
+        error = task.exception()
+        if error is not None:
+            raise error
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Run no further callbacks, and wait for those that run in other threads.
+
+        Returns:
+            False when they did not end within ``timeout_sec`` (None or negative: no limit).
+        """
+        self._is_shutdown = True
+        self.wake()
+        for blocked in list(self._blocked_waits):
+            blocked.set()
+        if not self._running.wait_for_others(None if timeout_sec is None or timeout_sec < 0 else timeout_sec):
+            return False
+        for node in self.get_nodes():
+            self.remove_node(node)
+        if not self._waiting:
+            self._wait_set.close()
+        return True
+
+
+async def await_or_execute(callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any) -> Any:
+    """The result of a function or of a coroutine (function)."""
+    outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
+    return await outcome if isinstance(outcome, CoroutineType) else outcome
+
+
+def _rank(entity: Entity) -> tuple[int, int, int]:
+    return entity._rank
