@@ -20,6 +20,8 @@ from colcon_core.shell import create_environment_hook, get_command_environment
 from colcon_core.task import TaskExtensionPoint, run
 from colcon_ros.package_identification.ros import RosPackageIdentification
 
+from turtlewire_ros.manifest import manifest_fault
+
 if TYPE_CHECKING:
     from colcon_core.package_descriptor import PackageDescriptor
 
@@ -42,8 +44,14 @@ class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
 
     def identify(self, desc: PackageDescriptor) -> None:
         """Set name and type of a package that is ours; leave the others alone."""
-        cmake = desc.path / "CMakeLists.txt"
-        if not cmake.is_file() or not (desc.path / "package.xml").is_file():
+        cmake, manifest = desc.path / "CMakeLists.txt", desc.path / "package.xml"
+        if not manifest.is_file():
+            return
+        fault = manifest_fault(manifest)
+        if fault is not None:
+            colcon_logger.error(fault)  # colcon-ros goes on without a word, and builds a package that ROS does not find
+            return
+        if not cmake.is_file():
             return
         text = cmake.read_text(encoding="utf-8", errors="replace")
         if not _GENERATES_INTERFACES.search(text) or _BUILDS_CODE.search(text):

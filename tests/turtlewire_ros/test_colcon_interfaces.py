@@ -132,3 +132,10 @@ def test_packages_with_code_stay_with_colcon_ros(workspace):
         "more_interfaces\tsrc/more_interfaces\t(ros.turtlewire_interfaces)",
         "my_interfaces\tsrc/my_interfaces\t(ros.ament_cmake)",
     ]
+
+
+def test_a_broken_manifest_is_named_with_its_line(workspace):
+    manifest = workspace / "src/my_interfaces/package.xml"
+    manifest.write_text(manifest.read_text().replace("</depend>", "</depend><br>"))
+    done = run_in(workspace, "source {prefix}/setup.bash; colcon list")
+    assert "src/my_interfaces/package.xml:10: <br> is never closed; remove it, or add </br>" in done.stderr

@@ -35,6 +35,11 @@ def main(args: argparse.Namespace) -> str | None:
         return None
     from defusedxml import ElementTree
 
+    from turtlewire_ros.manifest import manifest_fault
+
+    fault = manifest_fault(path)
+    if fault is not None:
+        return fault
     elements = ElementTree.fromstring(text, forbid_dtd=True).findall(f".//{args.tag}")
     if not elements:
         return f"No element '{args.tag}' in the package manifest found"
