@@ -24,6 +24,27 @@ __all__ = [
 ]
 
 
+#: Which import makes a type known that can be transformed; of a type without a header nobody knows the frame.
+_REGISTERED_BY = {
+    "tf2_geometry_msgs": {
+        "geometry_msgs/PointStamped",
+        "geometry_msgs/PolygonInstanceStamped",
+        "geometry_msgs/PolygonStamped",
+        "geometry_msgs/PoseArray",
+        "geometry_msgs/PoseStamped",
+        "geometry_msgs/PoseWithCovarianceStamped",
+        "geometry_msgs/QuaternionStamped",
+        "geometry_msgs/TransformStamped",
+        "geometry_msgs/TwistStamped",
+        "geometry_msgs/TwistWithCovarianceStamped",
+        "geometry_msgs/Vector3Stamped",
+        "geometry_msgs/VelocityStamped",
+        "geometry_msgs/WrenchStamped",
+        "nav_msgs/Path",
+    },
+    "tf2_sensor_msgs": {"sensor_msgs/PointCloud2"},
+}
+
 #: Answer at once.
 NO_TIMEOUT = Duration()
 
@@ -54,9 +75,10 @@ class NotImplementedException(Exception):
 
 def _unknown_type(key: Any) -> TypeException:
     error = TypeException(f"Type {key} is not loaded or supported")
-    package = str(getattr(key, "__module__", "")).partition(".")[0]
-    if package in {"geometry_msgs", "sensor_msgs"} and hasattr(error, "add_note"):
-        error.add_note(f"`import tf2_{package}` registers the types of {package} that can be transformed.")
+    package, name = str(getattr(key, "__module__", "")).partition(".")[0], getattr(key, "__name__", "")
+    for module, types in _REGISTERED_BY.items():
+        if f"{package}/{name}" in types and hasattr(error, "add_note"):
+            error.add_note(f"`import {module}` registers this type.")
     return error
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 
 from geometry_msgs.msg import PointStamped, Vector3Stamped
@@ -71,6 +74,37 @@ def test_unknown_types_are_named(buffer, capsys):
     assert "import tf2_geometry_msgs" in "".join(getattr(error.value, "__notes__", ["import tf2_geometry_msgs"]))
     TransformRegistration().print_me()
     assert "Note" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="exceptions have notes since Python 3.11")
+@pytest.mark.parametrize("package", ["geometry_msgs", "nav_msgs", "sensor_msgs"])
+def test_the_import_is_named_where_it_helps_and_nowhere_else(package):
+    code = f"""
+import {package}.msg as messages
+from tf2_ros import TransformRegistration, TypeException
+
+def advice(kind):
+    try:
+        TransformRegistration().get(kind)
+    except TypeException as error:
+        return "".join(getattr(error, "__notes__", []))
+
+kinds = [getattr(messages, name) for name in messages.__all__]
+said = {{kind: advice(kind) for kind in kinds}}
+assert "tf2_geometry_msgs" not in __import__("sys").modules
+import tf2_geometry_msgs, tf2_sensor_msgs
+known = TransformRegistration()._transforms
+assert {{kind for kind in kinds if said[kind]}} == {{kind for kind in kinds if kind in known}}
+for kind, text in said.items():
+    if text:
+        module = known[kind].__module__.partition(".")[0]
+        assert text == f"`import {{module}}` registers this type.", text
+print(sum(map(bool, said.values())), "of", len(kinds))
+"""
+    found = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stderr
+    assert not found.stdout.startswith("0 ")
+    assert "of 0" not in found.stdout
 
 
 @pytest.mark.usefixtures("_registered")
