@@ -22,7 +22,7 @@ import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -88,20 +88,50 @@ def run(case: Case, timeout: float = 30.0) -> Result:
     env.pop("PYTHONDONTWRITEBYTECODE", None)
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     process = subprocess.Popen(shlex.split(case.command), cwd=HERE / "inputs", env=env, start_new_session=True, **pipes)
+    stdout, stderr = _Reader(process.stdout), _Reader(process.stderr)
+    suffix = b""
     try:
-        if case.interrupt_after is None:
-            stdout, stderr = process.communicate(timeout=timeout)
-        else:
-            try:
-                stdout, stderr = process.communicate(timeout=case.interrupt_after)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGINT)
-                stdout, stderr = process.communicate(timeout=timeout)
+        if case.interrupt_after is None or not _ends_before_interrupt(process, case, stdout if case.stdout else stderr):
+            process.wait(timeout)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
-        stdout, stderr = process.communicate()
-        stderr += b"\nTIMEOUT"
-    return Result(process.returncode, stdout.decode(errors="replace"), stderr.decode(errors="replace"))
+        process.wait()
+        suffix = b"\nTIMEOUT"
+    return Result(process.returncode, stdout.text(), stderr.text(suffix))
+
+
+def _ends_before_interrupt(process: subprocess.Popen[bytes], case: Case, output: _Reader) -> bool:
+    """Interrupt it after the captured time, on a busy machine not before it has said something where the captured one had."""
+    try:
+        process.wait(case.interrupt_after)
+    except subprocess.TimeoutExpired:
+        if case.stdout or case.stderr:
+            output.begun.wait(20.0)
+        os.killpg(process.pid, signal.SIGINT)
+        return False
+    return True
+
+
+class _Reader:
+    """Collects what comes out of a pipe, in a thread of its own."""
+
+    def __init__(self, pipe: IO[bytes]) -> None:
+        self.begun = threading.Event()
+        self._parts: list[bytes] = []
+        self._thread = threading.Thread(target=self._read, args=(pipe,), daemon=True)
+        self._thread.start()
+
+    def _read(self, pipe: IO[bytes]) -> None:
+        for line in pipe:
+            self._parts.append(line)
+            self.begun.set()
+        self.begun.set()
+        pipe.close()
+
+    def text(self, suffix: bytes = b"") -> str:
+        """All of it, once the pipe is closed."""
+        self._thread.join(10.0)  # a process left behind may hold the pipe
+        return (b"".join(self._parts) + suffix).decode(errors="replace")
 
 
 def replay(case: Case) -> Result:
