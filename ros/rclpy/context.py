@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Context"]
 
-_ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context, at ./src/rcl/init.c:333"
+_ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context"
 
 
 class Context:

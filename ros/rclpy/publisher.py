@@ -71,7 +71,7 @@ class Publisher:
         except WireError as error:
             if self._context.ok():
                 raise RCLError(f"Failed to publish: {error}") from error
-            raise RCLError("Failed to publish: publisher's context is invalid, at ./src/rcl/publisher.c:423") from None
+            raise RCLError("Failed to publish: publisher's context is invalid") from None
 
     def get_subscription_count(self) -> int:
         """How many matching subscriptions are known at the moment."""

@@ -53,7 +53,7 @@ def test_a_context_is_shut_down_once():
     context.try_shutdown()
     context.init(args=[])
     context.shutdown()
-    text = r"^failed to shutdown: rcl_shutdown already called on the given context, at ./src/rcl/init.c:333$"
+    text = r"^failed to shutdown: rcl_shutdown already called on the given context$"
     with pytest.raises(RCLError, match=text):
         context.shutdown()
     context.try_shutdown()

@@ -7,6 +7,7 @@ import pytest
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.context import Context
 from rclpy.lifecycle import LifecycleNode, SimpleManagedEntity, State, TransitionCallbackReturn
 from std_msgs.msg import Int32
 
@@ -39,6 +40,14 @@ class Managed(LifecycleNode):
 
     def on_error(self, state):
         return self._called("error", state)
+
+
+@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
+def context(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        yield context
 
 
 @pytest.fixture

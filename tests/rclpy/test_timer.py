@@ -7,9 +7,10 @@ import time
 
 import pytest
 
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.time import Time
 from rclpy.timer import Timer
 from rclpy.timer_queue import TimerQueue
@@ -189,6 +190,32 @@ def test_a_destroyed_rate_does_not_sleep(node):
     ending.join()
     with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
         rate.sleep()
+
+
+def test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever(node, executor):
+    rate = node.create_rate(100)
+    node.create_timer(0.001, rate.sleep)
+    with pytest.raises(RuntimeError, match="Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"):
+        executor.spin_once(timeout_sec=10)
+
+
+def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(context, node):
+    rate, slept = node.create_rate(100), threading.Event()
+
+    def sleep_once():
+        timer.cancel()
+        rate.sleep()
+        slept.set()
+
+    timer = node.create_timer(0.001, sleep_once, callback_group=ReentrantCallbackGroup())
+    executor = MultiThreadedExecutor(2, context=context)
+    executor.add_node(node)
+    spinning = threading.Thread(target=executor.spin)
+    spinning.start()
+    assert slept.wait(10)
+    assert executor.shutdown(10)
+    spinning.join(10)
+    assert not spinning.is_alive()
 
 
 def test_a_frequency_must_be_positive(node):

@@ -52,7 +52,6 @@ def next_state(state: int, event: GoalEvent) -> int:
     following = _TRANSITIONS.get((state, event))
     if following is None:
         raise RCLError(
-            f"Failed to update goal state: goal_handle attempted invalid transition from state {state_name(state)} "
-            f"with event {event.name}, at ./src/rcl_action/goal_handle.c:95"
+            f"Failed to update goal state: goal_handle attempted invalid transition from state {state_name(state)} with event {event.name}"
         )
     return following
