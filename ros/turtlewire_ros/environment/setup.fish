@@ -1,0 +1,9 @@
+# source <venv>/setup.fish: what `source /opt/ros/jazzy/setup.bash` is in bash on a machine with ROS.
+set -l root (builtin realpath (dirname (status filename)))
+if test "$VIRTUAL_ENV" != $root; and test -f $root/bin/activate.fish
+    source $root/bin/activate.fish
+end
+source $root/local_setup.fish
+if status is-interactive; and command -sq register-python-argcomplete
+    register-python-argcomplete --shell fish ros2 | source # completion by TAB
+end
