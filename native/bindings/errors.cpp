@@ -2,45 +2,70 @@
 
 #include <nanobind/nanobind.h>
 
+#include <array>
+
 namespace turtlewire::python {
 namespace nb = nanobind;
 namespace {
 
-// The class of turtlewire.errors, looked up once; null with an error set.
-PyObject* error_class(const char* name) {
-  static PyObject* const module = PyImport_ImportModule("turtlewire.errors");
-  return module != nullptr ? PyObject_GetAttrString(module, name) : nullptr;
-}
+enum Class : std::size_t {
+  cdr,
+  invalid_argument,
+  lookup,
+  connectivity,
+  transform,
+  forward,
+  backward,
+  no_data,
+  kClasses
+};
+constexpr std::array<const char*, kClasses> kNames{"CdrError",
+                                                   "InvalidArgumentException",
+                                                   "LookupException",
+                                                   "ConnectivityException",
+                                                   "TransformException",
+                                                   "ForwardExtrapolationException",
+                                                   "BackwardExtrapolationException",
+                                                   "NoDataForExtrapolationException"};
+std::array<PyObject*, kClasses> classes;  // those of turtlewire.errors
+PyObject* details_name;
 
 PyObject* text_of(const std::string& text) {
   return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
 }
 
-const char* class_of(Status status, Question question) {
+Class class_of(Status status, Question question) {
   switch (status) {
     case Status::empty_name:
     case Status::slash_name:
-      return "InvalidArgumentException";
+      return invalid_argument;
     case Status::unknown_frame:
-      return "LookupException";
+      return lookup;
     case Status::loop:
-      return question == Question::latest_common_time ? "TransformException" : "LookupException";
+      return question == Question::latest_common_time ? transform : lookup;
     case Status::not_connected:
-      return question == Question::latest_common_time ? "TransformException" : "ConnectivityException";
+      return question == Question::latest_common_time ? transform : connectivity;
     case Status::future:
-      return "ForwardExtrapolationException";
+      return forward;
     case Status::past:
-      return "BackwardExtrapolationException";
+      return backward;
     default:
-      return "NoDataForExtrapolationException";
+      return no_data;
   }
+}
+
+PyObject* unknown_frame_details(const Failure& f, PyObject* buffer) {
+  PyObject* frame = text_of(f.name);
+  PyObject* details = frame != nullptr ? PyTuple_Pack(2, frame, buffer) : nullptr;
+  Py_XDECREF(frame);
+  return details;
 }
 
 // What the properties of the exception show; the order is documented there. Null without an error: nothing to tell.
 PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
   switch (f.status) {
     case Status::unknown_frame:
-      return Py_BuildValue("(NO)", text_of(f.name), buffer);
+      return unknown_frame_details(f, buffer);
     case Status::not_connected:
       if (question == Question::latest_common_time) return nullptr;
       return Py_BuildValue("(NNNN)", text_of(f.target), text_of(f.source), text_of(f.target_root),
@@ -56,31 +81,32 @@ PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
   }
 }
 
-PyObject* raise_named(const char* class_name, const std::string& text, PyObject* details) {
-  static PyObject* const details_name = PyUnicode_InternFromString("_details");
-  PyObject* type = error_class(class_name);
-  PyObject* message = type != nullptr ? text_of(text) : nullptr;
-  PyObject* error = message != nullptr ? PyObject_CallOneArg(type, message) : nullptr;
+PyObject* raise_class(Class which, const std::string& text, PyObject* details) {
+  PyObject* message = text_of(text);
+  PyObject* error = message != nullptr ? PyObject_CallOneArg(classes[which], message) : nullptr;
   if (error != nullptr && (details == nullptr || PyObject_SetAttr(error, details_name, details) == 0)) {
-    PyErr_SetObject(type, error);
+    PyErr_SetObject(classes[which], error);
   }
   Py_XDECREF(error);
   Py_XDECREF(message);
-  Py_XDECREF(type);
   Py_XDECREF(details);
   return nullptr;
 }
 
 }  // namespace
 
+void load_error_classes() {
+  const nb::module_ errors = nb::module_::import_("turtlewire.errors");
+  for (std::size_t i = 0; i < kClasses; ++i) classes[i] = nb::object(errors.attr(kNames[i])).release().ptr();
+  details_name = PyUnicode_InternFromString("_details");
+}
+
 PyObject* raise(const Failure& failure, Question question, PyObject* buffer) {
   PyObject* details = details_of(failure, question, buffer);
   if (details == nullptr && PyErr_Occurred() != nullptr) return nullptr;
-  return raise_named(class_of(failure.status, question), explain(failure, question), details);
+  return raise_class(class_of(failure.status, question), explain(failure, question), details);
 }
 
-PyObject* raise_cdr_error(const std::string& what) {
-  return raise_named("CdrError", "not a TFMessage: " + what, nullptr);
-}
+PyObject* raise_cdr_error(const std::string& what) { return raise_class(cdr, "not a TFMessage: " + what, nullptr); }
 
 }  // namespace turtlewire::python

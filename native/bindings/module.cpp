@@ -1,10 +1,12 @@
 #include "buffer.hpp"
+#include "errors.hpp"
 #include "message.hpp"
 #include "transform.hpp"
 
 NB_MODULE(_native, module) {
   using namespace turtlewire::python;
   module.attr("__doc__") = "The compiled core of turtlewire. Use it through turtlewire.Buffer.";
+  load_error_classes();
   if (!add_transform_type(module)) throw nb::python_error();
   add_buffer_type(module);
   add_message_lookup_type(module);

@@ -256,9 +256,8 @@ class Link {
   void prune(Stamp limit) {
     if (samples_.oldest() >= limit) return;
     while (samples_.oldest() < limit) {
-      const FrameId parent = samples_.front().parent;
+      if (parent_changes_ > 0 && samples_[0].parent != samples_[1].parent) --parent_changes_;
       samples_.pop_front();
-      if (parent_changes_ > 0 && samples_.front().parent != parent) --parent_changes_;
     }
     std::erase_if(floods_, [&](const Flood& flood) { return flood.stamp < limit; });
   }
