@@ -1,0 +1,36 @@
+# PYTHON_ARGCOMPLETE_OK
+"""Starts ``ros2``, unless packages of a real ROS 2 are mixed in.
+
+A shell that sourced a real ROS 2 puts that one's packages before ours. Half of each does not work, and breaks with errors that nobody
+can read. This module is the entry point because no other ROS 2 has a package of its name.
+"""
+
+from __future__ import annotations
+
+import os
+
+__all__ = ["foreign_package", "main"]
+
+
+def main() -> int | str:
+    """Run the ``ros2`` command line of this process; returns what ``sys.exit`` takes: the status, or what is wrong."""
+    foreign = foreign_package()
+    if foreign is not None:
+        remedy = "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH."
+        return f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire. {remedy}"
+    from ros2cli.main import main as run
+
+    return run()
+
+
+def foreign_package() -> str | None:
+    """The folder of the first package that Python would take from another ROS 2; None when there is no mixture."""
+    from importlib.util import find_spec
+
+    home = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+    for name in ("rclpy", "ros2cli"):
+        spec = find_spec(name)
+        for folder in (spec and spec.submodule_search_locations) or ():
+            if os.path.dirname(os.path.realpath(folder)) != home:
+                return folder
+    return None

@@ -1,0 +1,35 @@
+"""`ros2` where another ROS 2 was sourced."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from turtlewire_ros.guard import foreign_package
+
+
+def ros2(*words, path=""):
+    program = "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"
+    environment = {**os.environ, "PYTHONPATH": path}
+    done = subprocess.run([sys.executable, "-c", program, *words], env=environment, capture_output=True, text=True, check=False, timeout=60)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_without_a_mixture_the_command_runs():
+    assert foreign_package() is None
+    status, shown, errors = ros2("pkg", "list")
+    assert (status, errors) == (0, "")
+    assert "turtlesim\n" in shown
+
+
+@pytest.mark.parametrize("package", ["rclpy", "ros2cli"])
+def test_packages_of_another_ros_are_named_in_one_line(tmp_path, package):
+    folder = tmp_path / package
+    folder.mkdir()
+    (folder / "__init__.py").write_text("raise ImportError('half of a real ROS 2')\n")
+    told = f"ros2: {folder} belongs to another ROS 2 and hides the one of turtlewire. "
+    told += "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH.\n"
+    assert ros2("topic", "list", path=str(tmp_path)) == (1, "", told)
