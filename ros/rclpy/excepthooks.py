@@ -1,7 +1,7 @@
 """Ctrl-C ends a program without a traceback when the program does not catch ``KeyboardInterrupt``.
 
-Nobody asked where the program was when it was told to end. The exit status stays that of an interrupted program. The same goes for
-threads that spin: ``ExternalShutdownException`` is how they learn of the signal, not a fault.
+Nobody asked where the program was when it was told to end, also when that was while it still imported. The exit status stays that of an
+interrupted program. The same goes for threads that spin: ``ExternalShutdownException`` is how they learn of the signal, not a fault.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def note_signal() -> None:
 
 
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
-    if not (_signal_came and issubclass(kind, KeyboardInterrupt)):
+    if not issubclass(kind, KeyboardInterrupt) or hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
         _previous_hook(kind, value, traceback)
 
 
@@ -45,3 +45,6 @@ def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
 
     if not (_signal_came and issubclass(arguments.exc_type, ExternalShutdownException)):
         _previous_thread_hook(arguments)
+
+
+install()  # at once: most of what a node does in its first moments is importing

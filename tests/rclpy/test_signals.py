@@ -189,6 +189,12 @@ def test_ctrl_c_that_is_not_caught_ends_without_a_traceback(start):
     assert program.finish() == (-signal.SIGINT, "", "")
 
 
+def test_ctrl_c_while_a_program_still_imports_ends_without_a_traceback(start):
+    program = start("import threading, rclpy\nprint('up')\nthreading.Event().wait()")
+    program.send_signal(signal.SIGINT)
+    assert program.finish() == (-signal.SIGINT, "", "")
+
+
 def test_other_errors_keep_their_traceback(program):
     status, _, errors = program("import rclpy\nrclpy.init()\nraise LookupError('wrong')").finish()
     assert status == 1
