@@ -1,0 +1,76 @@
+"""What a `ros2` command line costs: from the shell's start of the process to its end."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from benchmarks.figures import Figure, Row
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "ros2: wall time of a command"
+ROUNDS = 15
+
+ROS2 = ["-c", "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"]
+
+#: A node that others can see, until its input ends.
+NODE = """
+import sys
+import rclpy
+from std_msgs.msg import String
+rclpy.init(args=[])
+node = rclpy.create_node("seen")
+node.create_publisher(String, "chatter", 10)
+print("ready", flush=True)
+sys.stdin.read()
+rclpy.shutdown()
+"""
+
+
+def rows() -> Iterator[Row]:
+    with tempfile.TemporaryDirectory() as cache:
+        environment = {
+            **os.environ,
+            "ROS_DOMAIN_ID": "104",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "PYTHONPYCACHEPREFIX": cache,
+        }
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # else every command compiles its modules anew
+        yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
+        yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
+        yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))
+        with node(environment):
+            yield Row("ros2 topic list, beside a node", measured(environment, [*ROS2, "topic", "list"], "/chatter"))
+
+
+def measured(environment: dict[str, str], words: list[str], expected: str) -> Figure:
+    """Wall time of a command whose output has to hold a text; the first run fills the cache of compiled modules."""
+    spent = [run(environment, words, expected) for _ in range(ROUNDS + 1)][1:]
+    return Figure(min(spent), statistics.median(spent))
+
+
+def run(environment: dict[str, str], words: list[str], expected: str) -> int:
+    begin = time.perf_counter_ns()
+    done = subprocess.run([sys.executable, *words], env=environment, stdout=subprocess.PIPE, text=True, check=True)
+    spent = time.perf_counter_ns() - begin
+    if expected not in done.stdout:
+        raise RuntimeError(f"'{expected}' is missing in the output of {words[-2:]}: {done.stdout}")
+    return spent
+
+
+@contextmanager
+def node(environment: dict[str, str]) -> Iterator[None]:
+    """A node in a process of its own; it ends with its input, which `Popen` closes."""
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", NODE], env=environment, text=True, **pipes) as process:
+        if process.stdout.readline() != "ready\n":
+            raise RuntimeError("the node did not start")
+        yield
