@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import TYPE_CHECKING
 
@@ -38,8 +39,12 @@ def rows() -> Iterator[Row]:
     ours = run_adapter(sys.executable, "turtlewire_buffer")
     debian = run_adapter("/usr/bin/python3", "debian_tf2_py", needs="tf2_py")
     numpy = run_adapter(sys.executable, "numpy_chain")
+    others = os.environ.get("BENCHMARK_PYTHON", sys.executable)
+    numba = run_adapter(others, "numba_chain", needs="numba")
+    pytransform3d = run_adapter(others, "pytransform3d_chain", needs="pytransform3d")
     for what, case, debian_case, numpy_case, budget in CASES:
         rivals = {DEBIAN: debian.get(debian_case), "NumPy": numpy.get(numpy_case)}
+        rivals |= {"Numba": numba.get(case), "pytransform3d": pytransform3d.get(case)}
         yield Row(what, ours[case], {name: figure for name, figure in rivals.items() if figure}, budget)
     full = ours["memory"]
     yield Row("memory per sample, full 10 s cache at 1 kHz", Figure(full.minimum, full.median, "B"), budget="<= 80 B")
