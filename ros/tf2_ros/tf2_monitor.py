@@ -43,6 +43,12 @@ class Delays:
         self.total += seconds
         self.maximum = seconds if self.count == 1 else max(self.maximum, seconds)
 
+    def merge(self, other: Delays) -> None:
+        """Take all of another."""
+        self.maximum = max((delays.maximum for delays in (self, other) if delays.count), default=0.0)
+        self.count += other.count
+        self.total += other.total
+
     @property
     def mean(self) -> float:
         """The mean; 0 without any."""
@@ -62,36 +68,46 @@ class Statistics:
         self._now = now
         self._lock = threading.Lock()
         self._names: dict[bytes, str] = {}
-        self._frames: dict[str, tuple[str, Delays]] = {}
-        self._publishers: dict[str, tuple[Delays, list[float]]] = {}
+        self._frames: dict[str, tuple[bytes, Delays]] = {}
+        self._publishers: dict[bytes, tuple[Delays, list[float]]] = {}
 
     def take(self, message: Any, info: MessageInfo) -> None:
         """Count a ``TFMessage``."""
         gid, now = info.publisher_gid, self._now()
-        name = self._names.get(gid) or self._name_of(gid)
-        if name != NOBODY:
-            self._names[gid] = name
         with self._lock:
-            delays, span = self._publishers.setdefault(name, (Delays(), [now, now]))
+            self._name(gid)  # while the publisher is there
+            delays, span = self._publishers.setdefault(gid, (Delays(), [now, now]))
             span[1] = now
             for transform in message.transforms:
                 delay = now - (transform.header.stamp.sec + transform.header.stamp.nanosec / 1e9)
                 delays.add(delay)
-                _, of_frame = self._frames.get(transform.child_frame_id, ("", Delays()))
+                _, of_frame = self._frames.get(transform.child_frame_id, (gid, Delays()))
                 of_frame.add(delay)
-                self._frames[transform.child_frame_id] = (name, of_frame)
+                self._frames[transform.child_frame_id] = (gid, of_frame)
+
+    def _name(self, gid: bytes) -> str:
+        """Of a publisher; the first message of one may come before the graph knows whose it is."""
+        name = self._names.get(gid) or self._name_of(gid)
+        if name != NOBODY:
+            self._names[gid] = name
+        return name
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain data, seconds and hertz."""
         with self._lock:
+            of_node: dict[str, tuple[Delays, list[float]]] = {}
+            for gid, (delays, span) in self._publishers.items():
+                all_delays, all_span = of_node.setdefault(self._name(gid), (Delays(), list(span)))
+                all_delays.merge(delays)
+                all_span[:] = min(all_span[0], span[0]), max(all_span[1], span[1])
             return {
                 "frames": [
-                    {"frame": frame, "published_by": name, "average_delay": delays.mean, "max_delay": delays.maximum}
-                    for frame, (name, delays) in self._frames.items()
+                    {"frame": frame, "published_by": self._name(gid), "average_delay": delays.mean, "max_delay": delays.maximum}
+                    for frame, (gid, delays) in self._frames.items()
                 ],
                 "broadcasters": [
                     {"node": name, "rate": _rate(delays, span), "average_delay": delays.mean, "max_delay": delays.maximum}
-                    for name, (delays, span) in self._publishers.items()
+                    for name, (delays, span) in of_node.items()
                 ],
             }
 

@@ -277,6 +277,10 @@ def test_statistics(stamped):
     assert data["frames"] == [{"frame": "robot", "published_by": tf2_monitor.NOBODY, "average_delay": 2.25, "max_delay": 3.0}]
     assert data["broadcasters"][0] == {"node": "/one", "rate": 1.0, "average_delay": 2.0, "max_delay": 3.0}
     assert data["broadcasters"][1]["rate"] == 0.0
+    names[b"two"] = "/one"  # the graph has learnt whose publisher it is
+    data = statistics.as_dict()
+    assert data["frames"][0]["published_by"] == "/one"
+    assert data["broadcasters"] == [{"node": "/one", "rate": 1.5, "average_delay": 2.25, "max_delay": 3.0}]
 
 
 @pytest.mark.usefixtures("talker")
