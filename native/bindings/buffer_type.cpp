@@ -239,6 +239,8 @@ nb::object add_change_listener(nb::handle self, nb::callable listener) {
 }
 
 void remove_change_listener(BufferObject& self, nb::handle listener) {
+  // Without a GIL, others may change the list meanwhile.
+  [[maybe_unused]] const nb::ft_object_guard guard(self.listeners);
   for (std::size_t i = 0; i < self.listeners.size(); ++i) {
     if (self.listeners[i].ptr() == listener.ptr()) {
       nb::del(self.listeners[i]);
