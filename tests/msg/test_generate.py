@@ -164,3 +164,11 @@ def test_mistakes_end_the_command_with_a_line(source, tmp_path):
 def test_a_folder_without_interfaces_is_an_error(tmp_path):
     with pytest.raises(InterfaceError, match=r"no \.msg, \.srv or \.action files"):
         generate_package(tmp_path, tmp_path / "out")
+
+
+def test_a_broken_manifest_is_refused_with_its_line(tmp_path):
+    manifest = tmp_path / "package.xml"
+    manifest.write_text("<package>\n<name>p</name><br>\n</package>\n")
+    with pytest.raises(InterfaceError) as refused:
+        generate_package(tmp_path, tmp_path / "out")
+    assert str(refused.value) == f"{manifest}: mismatched tag: line 3, column 2"

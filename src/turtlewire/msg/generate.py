@@ -92,9 +92,12 @@ def package_name(source: Path) -> str:
     manifest = source / "package.xml"
     if not manifest.is_file():
         return source.resolve().name
-    from defusedxml.ElementTree import parse
+    from defusedxml.ElementTree import ParseError, parse
 
-    name = parse(manifest).findtext("name")
+    try:
+        name = parse(manifest).findtext("name")
+    except ParseError as error:
+        raise InterfaceError(f"{manifest}: {error}") from error
     if not name:
         raise InterfaceError(f"{manifest} has no <name>")
     return str(name).strip()
