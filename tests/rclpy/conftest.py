@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import textwrap
@@ -58,7 +59,10 @@ class Program:
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def read_line(self) -> str:
-        return self.process.stdout.readline().rstrip("\n")
+        line = b""
+        while not line.endswith(b"\n") and (byte := os.read(self.process.stdout.fileno(), 1)):
+            line += byte  # one by one: what a buffered reader took beyond the line would be lost to communicate()
+        return line.decode().rstrip("\n")
 
     def send_signal(self, signum: int) -> None:
         self.process.send_signal(signum)
