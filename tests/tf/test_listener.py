@@ -100,7 +100,14 @@ def test_buffers_of_a_context_share_the_subscription_and_nothing_else(domain):
     buffers = [Buffer() for _ in range(5)]
     listeners = [TransformListener(buffer, domain.node, context=domain.receiver) for buffer in buffers]
     domain.wait_for_subscriptions(domain.tf)
-    assert len(domain.subscriptions("/tf")) == len(domain.subscriptions("/tf_static")) == 1
+    counts = [0, 0]
+
+    def seen():
+        counts[:] = (len(domain.subscriptions(topic)) for topic in ("/tf", "/tf_static"))
+        return all(counts)
+
+    assert domain.receiver.graph.wait_for(seen, LONG_NS)
+    assert counts == [1, 1]
     domain.tf.publish(tf_bytes("world", "robot"))
     for buffer in buffers:
         buffer.lookup_transform("world", "robot", 0, LONG_NS)
