@@ -29,7 +29,7 @@ CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first
 
 def main() -> None:
     """Make both pictures."""
-    domain = str(1 + os.getpid() % 230)
+    domain = str(1 + os.getpid() % 101)
     bin_dir = Path(sys.executable).parent
     environment = dict(os.environ, ROS_DOMAIN_ID=domain, TURTLEWIRE_BROWSER="0", PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}")
     command = ["ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]

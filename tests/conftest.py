@@ -7,9 +7,11 @@ launch files in the test's process.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -21,7 +23,18 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 230)
+
+def free_domain():
+    """A domain in which nobody on this computer listens; up to 101, its ports stay clear of those that systems hand out."""
+    for offset in range(101):
+        domain = 1 + (os.getpid() + offset) % 101
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, contextlib.suppress(OSError):
+            probe.bind(("", 7410 + 250 * domain))
+            return str(domain)
+    raise RuntimeError("all ROS domains from 1 to 101 are in use on this computer")
+
+
+os.environ["ROS_DOMAIN_ID"] = free_domain()
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="turtlewire-test-log-")
 os.environ.pop("RMW_IMPLEMENTATION", None)

@@ -39,7 +39,7 @@ def check_commands(bin_dir: Path) -> None:
     executables = subprocess.run([ros2, "pkg", "executables", "learning_tf2_py"], check=True, capture_output=True, text=True).stdout
     assert "learning_tf2_py turtle_tf2_listener" in executables, executables
 
-    env = dict(os.environ, ROS_DOMAIN_ID=str(1 + os.getpid() % 230), TURTLEWIRE_BROWSER="0", PYTHONUNBUFFERED="1")
+    env = dict(os.environ, ROS_DOMAIN_ID=str(1 + os.getpid() % 101), TURTLEWIRE_BROWSER="0", PYTHONUNBUFFERED="1")
     launch = subprocess.Popen(
         [ros2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"],
         env=env,
