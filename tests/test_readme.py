@@ -1,0 +1,38 @@
+"""What the README says: its Python session is run, its links and its ROS names exist."""
+
+from __future__ import annotations
+
+import doctest
+import re
+from pathlib import Path
+
+import pytest
+
+from turtlewire_ros.executables import executable_paths
+
+ROOT = Path(__file__).parent.parent
+FRONT = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
+PAGES = [*(ROOT / name for name in FRONT), *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+def test_its_python_session():
+    failed, tried = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
+    assert (failed, tried) == (0, 6)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+        assert (page.parent / target).exists(), target
+
+
+def test_what_it_runs_exists():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    runs = re.findall(r"^(?:PATH=\S+ )?ros2 run (\w+) (\w+)", text, re.MULTILINE)
+    launches = re.findall(r"^ros2 launch (\w+) (\S+)", text, re.MULTILINE)
+    assert runs == [("turtlesim", "turtle_teleop_key")]
+    assert launches == [("learning_tf2_py", "turtle_tf2_demo.launch.py")]
+    for package, executable in runs:
+        assert executable in [Path(path).name for path in executable_paths(package)]
+    for package, launch_file in launches:
+        assert list((ROOT / "ros2_ws" / "src" / package).rglob(launch_file))
