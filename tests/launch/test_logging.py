@@ -9,6 +9,7 @@ import pytest
 
 from launch import logging
 from launch.actions import ExecuteProcess, LogInfo
+from launch.logging import directory
 
 
 @pytest.fixture(autouse=True)
@@ -27,6 +28,13 @@ def test_default_folder(monkeypatch):
     assert logging.default_log_dir() == "/home/turtle/log"
     monkeypatch.delenv("ROS_HOME")
     assert logging.default_log_dir() == os.path.expanduser("~/.ros/log")
+
+
+def test_a_folder_that_cannot_be_made_is_named_with_the_remedy(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.touch()
+    with pytest.raises(RuntimeError, match=r"cannot make the log folder .*Not a directory.*ROS_LOG_DIR"):
+        directory.make_launch_log_dir(str(blocked / "log"))
 
 
 def test_each_launch_has_a_folder_and_the_last_one_a_link(launch, tmp_path):

@@ -6,7 +6,7 @@ import logging
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 from launch.logging.directory import default_log_dir, make_launch_log_dir
 
@@ -54,7 +54,7 @@ class _Formatter(logging.Formatter):
         return self._fmt is not None and "created" in self._fmt
 
 
-class _ScreenHandler(logging.StreamHandler[TextIO]):
+class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg] -- takes no argument in Python 3.10
     """Writes to stdout. When nobody reads there any more, the process ends as it would by SIGTERM: a launch stops what it runs."""
 
     def __init__(self) -> None:

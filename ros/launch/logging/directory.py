@@ -23,11 +23,14 @@ def make_launch_log_dir(parent: str) -> str:
     """Make a folder that is named after time, host and process; the link ``latest`` beside it points there.
 
     Raises:
-        OSError: It cannot be made.
+        RuntimeError: It cannot be made.
     """
     moment = dt.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
     base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"
-    base.mkdir(parents=True, exist_ok=True)
+    try:
+        base.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RuntimeError(f"cannot make the log folder {base} ({error.strerror}); ROS_LOG_DIR can name another place") from error
     # Not every file system has links, and another launch may make it at the same time: logging works without.
     with contextlib.suppress(OSError):
         link = Path(parent) / f".latest-{os.getpid()}"
