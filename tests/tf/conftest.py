@@ -96,7 +96,8 @@ class World:
         r = self.random
         axis = [r.gauss(0, 1) for _ in range(3)]
         length = math.sqrt(sum(a * a for a in axis)) or 1.0
-        half = r.choice([0.0, 1e-12, 1e-4, 0.1, 1.0, 3.1]) * r.uniform(-1, 1)
+        # No two of them lie between 1e-11 and 3e-8 apart, where tf2 holds the older one and we interpolate (docs/compatibility.md).
+        half = r.choice([0.0, 1e-12, 1e-4, 0.1, 1.0, 3.1]) * r.uniform(0.01, 1) * r.choice([-1, 1])
         return [r.uniform(-5, 5) for _ in range(3)] + [math.sin(half) * a / length for a in axis] + [math.cos(half)]
 
     def _stamp(self) -> int:
