@@ -18,17 +18,15 @@ from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
 from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .executor_wait import ExecutorWait
 from .running_callbacks import RunningCallbacks
 from .task import Future, Task
-from .timer_queue import TimerQueue
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
     from types import TracebackType
 
     from typing_extensions import Self
-
-    from turtlewire.wire import base
 
     from .context import Context
     from .entity import Entity, Work
@@ -54,20 +52,16 @@ class Executor:
         from .utilities import get_default_context
 
         self._context = get_default_context() if context is None else context
-        self._wait_set = self._context.wire.create_wait_set()
-        self._by_wire: dict[base.Entity, Entity] = {}
+        self._wait = ExecutorWait(self._context.wire.create_wait_set())
         self._nodes: dict[Node, int] = {}
         self._nodes_made = 0
         self._entities_made = 0
         self._lock = threading.RLock()
-        self._timers = TimerQueue(self.wake)
-        self._notified: deque[Entity] = deque()
         self._tasks: list[Task] = []
         self._ready: deque[Entity | Task] = deque()
         self._paused: set[Entity] = set()
         self._holders: dict[Task, Entity] = {}
         self._running = RunningCallbacks()
-        self._waiting = False
         self._spinning_thread: int | None = None
         self._response_awaited: Future | None = None
         self._blocked_waits: set[threading.Event] = set()
@@ -139,22 +133,6 @@ class Executor:
             entity._executor = None
             self._paused.discard(entity)
             entity._detach(self)
-
-    # What entities call
-
-    def _watch(self, wire: Any, entity: Entity) -> None:
-        """Serve ``entity`` when its side on the wire has something."""
-        self._by_wire[wire] = entity
-        self._wait_set.attach(wire)
-
-    def _unwatch(self, wire: Any) -> None:
-        self._wait_set.detach(wire)
-        self._by_wire.pop(wire, None)
-
-    def _notify(self, entity: Entity) -> None:
-        """Serve ``entity`` in the next cycle."""
-        self._notified.append(entity)
-        self.wake()
 
     # Tasks
 
@@ -234,6 +212,23 @@ class Executor:
         finally:
             self._spinning_thread = outer
 
+    def wait_for_ready_callbacks(self, timeout_sec: float | None = None) -> tuple[Task, Entity | None, Node | None]:
+        """For executors of your own, whose ``spin_once`` decides where callbacks run: wait for the next one, its group claimed.
+
+        Returns:
+            What to call exactly once, in any thread (a task: it keeps what the callback raises); whose callback it is, and the
+            node of that (both None for what :meth:`create_task` was given).
+
+        Raises:
+            TimeoutException: Nothing was ready in time.
+            ShutdownException, ExternalShutdownException: The executor or the context was shut down.
+        """
+        source, work = self._next(None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000), None)
+        handler = Task(self._execute, (source, work))
+        if isinstance(source, Task):
+            return handler, None, None
+        return handler, source, next((node for node, index in self._nodes.items() if index == source._rank[0]), None)
+
     def _run(self, source: Entity | Task, work: Work | None) -> None:
         """Run what :meth:`_next` found; here or in another thread."""
         raise NotImplementedError
@@ -312,35 +307,19 @@ class Executor:
         if self._response_awaited is None:
             with self._lock:
                 tasks, self._tasks = self._tasks, []
-        if tasks or self._notified:
-            timeout_ns = 0
-        else:
-            until_timer = self._timers.time_until_next()
-            if until_timer is not None and (timeout_ns is None or until_timer < timeout_ns):
-                timeout_ns = until_timer
-        entities = [self._by_wire[wire] for wire in self._wait(timeout_ns) if wire in self._by_wire]
-        entities += self._timers.pop_due()
-        while self._notified:
-            entities.append(self._notified.popleft())
-        if len(entities) > 1:
-            entities.sort(key=_rank)
+        entities = self._wait.wait(0 if tasks else timeout_ns)
         self._ready.extend(reversed(tasks))
         self._ready.extend(entities)
 
-    def _wait(self, timeout_ns: int | None) -> Iterable[base.Entity]:
-        self._waiting = True
-        try:
-            return [] if self._is_shutdown else self._wait_set.wait(timeout_ns)
-        finally:
-            self._waiting = False
-            if self._is_shutdown:
-                self._wait_set.close()
-
     def wake(self) -> None:
         """End the current wait, or the next one at once."""
-        self._wait_set.wake()
+        self._wait.wake()
 
     # Callback groups
+
+    def can_execute(self, entity: Entity) -> bool:
+        """Whether the callback group of an entity lets it run at this moment."""
+        return entity.callback_group.can_execute(entity)
 
     def _claim(self, entity: Entity) -> Work | None:
         """Claim the entity's group and take its work; None when there is none, or the group is busy."""
@@ -433,15 +412,14 @@ class Executor:
             False when they did not end within ``timeout_sec`` (None or negative: no limit).
         """
         self._is_shutdown = True
-        self.wake()
+        self._wait.end()
         for blocked in list(self._blocked_waits):
             blocked.set()
         if not self._running.wait_for_others(None if timeout_sec is None or timeout_sec < 0 else timeout_sec):
             return False
         for node in self.get_nodes():
             self.remove_node(node)
-        if not self._waiting:
-            self._wait_set.close()
+        self._wait.close()
         return True
 
 
@@ -449,7 +427,3 @@ async def await_or_execute(callback: Callable[..., Any] | CoroutineType[Any, Any
     """The result of a function or of a coroutine (function)."""
     outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
     return await outcome if isinstance(outcome, CoroutineType) else outcome
-
-
-def _rank(entity: Entity) -> tuple[int, int, int]:
-    return entity._rank

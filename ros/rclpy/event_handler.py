@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "EventHandler",
+    "IncompatibleTypeInfo",
     "PublisherEventCallbacks",
     "QoSDeadlineOfferedInfo",
     "QoSDeadlineRequestedInfo",
@@ -63,6 +64,13 @@ class QoSSubscriptionEventType(IntEnum):
 
 class QoSDeadlineRequestedInfo(NamedTuple):
     """Messages did not come in time, or were not sent in time; counted in all and since the last event, as in the other infos."""
+
+    total_count: int
+    total_count_change: int
+
+
+class IncompatibleTypeInfo(NamedTuple):
+    """Endpoints of the topic have another type."""
 
     total_count: int
     total_count_change: int
@@ -150,10 +158,10 @@ class EventHandler(Entity):
             raise UnsupportedEventTypeError(str(error)) from error
 
     def _attach(self, executor: Executor) -> None:
-        executor._watch(self._wire, self)
+        executor._wait.watch(self._wire, self)
 
     def _detach(self, executor: Executor) -> None:
-        executor._unwatch(self._wire)
+        executor._wait.unwatch(self._wire)
 
     def _take(self) -> Work | None:
         status = self._wire.take()
@@ -170,7 +178,7 @@ class _EventCallbacks:
     _WARNING = ""
 
     incompatible_qos: Callable[[Any], None] | None
-    incompatible_type: Callable[[Any], None] | None
+    incompatible_type: Callable[[IncompatibleTypeInfo], None] | None
     use_default_callbacks: bool
 
     def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
@@ -229,7 +237,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
         incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], None] | None = None,
         liveliness: Callable[[QoSLivelinessChangedInfo], None] | None = None,
         message_lost: Callable[[QoSMessageLostInfo], None] | None = None,
-        incompatible_type: Callable[[Any], None] | None = None,
+        incompatible_type: Callable[[IncompatibleTypeInfo], None] | None = None,
         matched: Callable[[QoSSubscriptionMatchedInfo], None] | None = None,
         use_default_callbacks: bool = True,
     ) -> None:
@@ -274,7 +282,7 @@ class PublisherEventCallbacks(_EventCallbacks):
         deadline: Callable[[QoSDeadlineOfferedInfo], None] | None = None,
         incompatible_qos: Callable[[QoSOfferedIncompatibleQoSInfo], None] | None = None,
         liveliness: Callable[[QoSLivelinessLostInfo], None] | None = None,
-        incompatible_type: Callable[[Any], None] | None = None,
+        incompatible_type: Callable[[IncompatibleTypeInfo], None] | None = None,
         matched: Callable[[QoSPublisherMatchedInfo], None] | None = None,
         use_default_callbacks: bool = True,
     ) -> None:

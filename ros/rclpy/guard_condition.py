@@ -40,11 +40,11 @@ class GuardCondition(Entity):
         self._triggered = True
         executor = None if self._executor is None else self._executor()
         if executor is not None:
-            executor._notify(self)
+            executor._wait.notify(self)
 
     def _attach(self, executor: Executor) -> None:
         if self._triggered:
-            executor._notify(self)
+            executor._wait.notify(self)
 
     def _detach(self, executor: Executor) -> None:
         """A trigger stays stored until an executor comes."""

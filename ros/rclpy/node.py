@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
 
+from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client
 from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
@@ -47,10 +48,11 @@ if TYPE_CHECKING:
     from .parameter import Parameter
     from .qos import QoSProfile
     from .qos_overriding_options import QoSOverridingOptions
+    from .subscription_content_filter_options import ContentFilterOptions
     from .topic_endpoint_info import TopicEndpointInfo
     from .waitable import Waitable
 
-__all__ = ["HIDDEN_NODE_PREFIX", "Node", "component_arguments"]
+__all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError", "component_arguments"]
 
 #: Command line for the next node of this thread, whose class need not know that it is loaded as a component.
 component_arguments: ContextVar[list[str] | None] = ContextVar("component_arguments", default=None)
@@ -298,6 +300,7 @@ class Node:
         event_callbacks: Any = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
+        content_filter_options: ContentFilterOptions | None = None,  # noqa: ARG002 - see below
     ) -> Subscription:
         """Announce a subscription.
 
@@ -311,6 +314,7 @@ class Node:
                 (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             raw: Whether the callback gets the serialized bytes.
+            content_filter_options: Without effect, as with any middleware that cannot filter; ``is_cft_enabled`` says so.
 
         Raises:
             InvalidTopicNameException: The name breaks the rules.

@@ -14,6 +14,7 @@ from .exceptions import (
     ParameterUninitializedException,
 )
 from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from .parameter_declarations import new_descriptor, override, read_declaration, yaml_hint
 from .validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ class NodeParameters:
         Returns:
             The parameter with the value that it got.
         """
-        declaration = (name,) if value is None and descriptor is None else (name, value, descriptor or _new_descriptor())
+        declaration = (name,) if value is None and descriptor is None else (name, value, descriptor or new_descriptor())
         return self.declare_parameters("", [declaration], ignore_override)[0]
 
     def declare_parameters(self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False) -> list[Parameter]:
@@ -105,11 +106,11 @@ class NodeParameters:
         """
         declared: dict[str, tuple[Parameter, ParameterDescriptor]] = {}
         for index, declaration in enumerate(parameters):
-            name, value, descriptor = _read_declaration(index, declaration)
+            name, value, descriptor = read_declaration(index, declaration)
             name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
             validate_parameter_name(name)
             if not ignore_override and name in self._overrides:
-                parameter = _override(name, self._overrides[name], descriptor)
+                parameter = override(name, self._overrides[name], descriptor)
             else:
                 parameter = Parameter(name, value=value)
             declared[name] = (parameter, descriptor)
@@ -120,7 +121,7 @@ class NodeParameters:
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
             if reason.startswith(parameter_descriptors.WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
-                raise InvalidParameterTypeException(parameter, expected.name).with_hint(_yaml_hint(parameter, expected))
+                raise InvalidParameterTypeException(parameter, expected.name).with_hint(yaml_hint(parameter, expected))
             if reason:
                 raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._parameters[name] for name in declared]
@@ -128,7 +129,7 @@ class NodeParameters:
     def declare_overrides(self) -> None:
         """Declare every parameter that the command line or the constructor names, each with a type that may change."""
         for name, value in self._overrides.items():
-            descriptor = _new_descriptor()
+            descriptor = new_descriptor()
             descriptor.dynamic_typing = True
             self.declare_parameter(name, value, descriptor, ignore_override=True)
 
@@ -309,7 +310,7 @@ class NodeParameters:
         if descriptor is None:
             if not self._allow_undeclared:
                 raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
-            descriptor = _new_descriptor()
+            descriptor = new_descriptor()
         elif descriptor.dynamic_typing:
             descriptor.type = self._parameters[name].type_.value
         descriptor.name = name
@@ -386,7 +387,7 @@ class NodeParameters:
     def _descriptor(self, name: str) -> ParameterDescriptor:
         descriptor = self._descriptors.get(name)
         if descriptor is None:
-            descriptor = _new_descriptor()
+            descriptor = new_descriptor()
             descriptor.dynamic_typing = True
         return descriptor
 
@@ -397,73 +398,6 @@ class NodeParameters:
         near = difflib.get_close_matches(name, self._parameters, n=3)
         known = f"did you mean {' or '.join(map(repr, near))}?" if near else f"declared are {sorted(self._parameters)}."
         return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
-
-
-def _new_descriptor() -> ParameterDescriptor:
-    from rcl_interfaces.msg import ParameterDescriptor
-
-    return ParameterDescriptor()
-
-
-def _read_declaration(index: int, declaration: tuple[Any, ...]) -> tuple[str, Any, ParameterDescriptor]:
-    """Name, default value (None when there is none) and descriptor with the type filled in."""
-    from rcl_interfaces.msg import ParameterDescriptor
-
-    if not 1 <= len(declaration) <= 3:
-        raise TypeError(
-            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; expecting length between 1 and 3"
-        )
-    name, value, descriptor = (*declaration, None, None)[:3]
-    if not isinstance(name, str):
-        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
-    if descriptor is None and len(declaration) < 3:
-        descriptor = ParameterDescriptor()
-    if not isinstance(descriptor, ParameterDescriptor):
-        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
-    if len(declaration) == 1:
-        _warn_of_name_alone(name)
-        descriptor.dynamic_typing = True
-    if not isinstance(value, Parameter.Type):
-        if value is not None and not descriptor.dynamic_typing:
-            descriptor.type = Parameter.Type.from_parameter_value(value).value
-        return name, value, descriptor
-    if value is Parameter.Type.NOT_SET:
-        raise ValueError(f"Cannot declare parameter {name} statically to be of type NOT_SET")
-    if descriptor.dynamic_typing:
-        raise ValueError(
-            f"When declaring parameter {name} passing a descriptor with`dynamic_typing=True` "
-            "is not allowed when the parameter type is specified"
-        )
-    descriptor.type = value.value
-    return name, None, descriptor
-
-
-def _warn_of_name_alone(name: str) -> None:
-    import warnings
-
-    warnings.warn(
-        f"when declaring parameter named '{name}', declaring a parameter only providing its name is deprecated. You have to either:\n"
-        '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
-        "\t- Pass a name and a parameter type.\n"
-        "\t- Pass a name and a descriptor with `dynamic_typing=True",
-        stacklevel=6,
-    )
-
-
-def _override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
-    """The parameter that the command line gives; its empty list is one of the declared type, which YAML cannot tell."""
-    if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
-        return Parameter(name, Parameter.Type(descriptor.type), value)
-    return Parameter(name, value=value)
-
-
-def _yaml_hint(parameter: Parameter, expected: Parameter.Type) -> str:
-    """How the command line says a value of the expected type."""
-    if expected is Parameter.Type.STRING:
-        return f"YAML reads a string in quotes: -p {parameter.name}:='\"{parameter.value}\"'"
-    if expected is Parameter.Type.DOUBLE and parameter.type_ is Parameter.Type.INTEGER:
-        return f"YAML reads a double with a point in it: -p {parameter.name}:={parameter.value}.0"
-    return ""
 
 
 def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:

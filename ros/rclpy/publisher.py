@@ -10,6 +10,7 @@ from turtlewire.msg import serialize
 from turtlewire.wire.qos import Durability
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
+from .duration import Duration
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,12 +20,12 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from .context import Context
-    from .duration import Duration
     from .qos import QoSProfile
 
 __all__ = ["Publisher"]
 
 _SLICE_NS = 100_000_000
+_NO_LIMIT = Duration(seconds=-1)
 
 
 class Publisher:
@@ -100,17 +101,17 @@ class Publisher:
         self._check_usable()
         self._wire.assert_liveliness()
 
-    def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
+    def wait_for_all_acked(self, timeout: Duration = _NO_LIMIT) -> bool:
         """Block until all reliable subscriptions have received all messages.
 
         Args:
-            timeout: None or negative waits until the context is shut down.
+            timeout: Negative waits until the context is shut down.
 
         Returns:
             False when the time was over, or the context was shut down, before.
         """
         self._check_usable()
-        deadline_ns = None if timeout is None or timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
+        deadline_ns = None if timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
         while True:  # in slices: the middleware's wait hears neither of signals nor of a shutdown
             remaining_ns = _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
             if self._wire.wait_for_acknowledgments(min(remaining_ns, _SLICE_NS)):

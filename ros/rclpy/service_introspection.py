@@ -86,10 +86,10 @@ class IntrospectedEndpoint(Entity):
             self._events = _EventPublisher(wire, self.srv_type, clock, introspection_state == ServiceIntrospectionState.CONTENTS)
 
     def _attach(self, executor: Executor) -> None:
-        executor._watch(self._wire, self)
+        executor._wait.watch(self._wire, self)
 
     def _detach(self, executor: Executor) -> None:
-        executor._unwatch(self._wire)
+        executor._wait.unwatch(self._wire)
 
     def _close(self) -> None:
         if self._events is not None:

@@ -86,11 +86,16 @@ class Subscription(Entity):
         self._check_usable()
         return self._wire.publisher_count()
 
+    @property
+    def is_cft_enabled(self) -> bool:
+        """Whether the middleware filters by content: it does not."""
+        return False
+
     def _attach(self, executor: Executor) -> None:
-        executor._watch(self._wire, self)
+        executor._wait.watch(self._wire, self)
 
     def _detach(self, executor: Executor) -> None:
-        executor._unwatch(self._wire)
+        executor._wait.unwatch(self._wire)
 
     def take_message(self) -> tuple[Any, MessageInfo] | None:
         """For waitables: the next message and its info, or None; CdrError when it is malformed."""

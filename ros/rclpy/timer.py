@@ -122,13 +122,13 @@ class Timer(Entity):
     def _reschedule(self) -> None:
         executor = None if self._executor is None else self._executor()
         if executor is not None:
-            executor._timers.schedule(self, self._delay_ns())
+            executor._wait.timers.schedule(self, self._delay_ns())
 
     def _attach(self, executor: Executor) -> None:
-        executor._timers.schedule(self, self._delay_ns())
+        executor._wait.timers.schedule(self, self._delay_ns())
 
     def _detach(self, executor: Executor) -> None:
-        executor._timers.discard(self)
+        executor._wait.timers.discard(self)
 
     def _take(self) -> Work | None:
         now_ns = self._now_ns()

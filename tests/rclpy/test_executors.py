@@ -255,8 +255,8 @@ def test_a_blocked_subscription_costs_no_cpu(node, executor):
     publisher.publish(Int32())
     executor.spin_once(timeout_sec=10)
     waits = []
-    wait_once = executor._wait_set.wait
-    executor._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    wait_once = executor._wait._wait_set.wait
+    executor._wait._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
     executor.spin_once(timeout_sec=0.2)
     assert len(waits) <= 3
 
@@ -528,8 +528,8 @@ def test_the_default_size_of_a_pool(context):
 
 def test_an_idle_executor_does_not_run(node, executor, spinning):
     waits = []
-    wait_once = executor._wait_set.wait
-    executor._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    wait_once = executor._wait._wait_set.wait
+    executor._wait._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
     spinning(executor)
     deadline = time.monotonic() + 10
     while not waits and time.monotonic() < deadline:

@@ -1,0 +1,94 @@
+"""What an executor waits for: endpoints with something to take, timers that are due, entities that report themselves."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING
+
+from .timer_queue import TimerQueue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from turtlewire.wire import base
+
+    from .entity import Entity
+
+__all__ = ["ExecutorWait"]
+
+
+class ExecutorWait:
+    """One wait for everything; one thread waits at a time, all other methods are thread-safe.
+
+    Args:
+        wait_set: The middleware's wait set, which this owns.
+
+    Attributes:
+        timers: When each timer is due.
+    """
+
+    def __init__(self, wait_set: base.WaitSet) -> None:
+        self.timers = TimerQueue(wait_set.wake)
+        self._wait_set = wait_set
+        self._by_wire: dict[base.Entity, Entity] = {}
+        self._notified: deque[Entity] = deque()
+        self._waiting = False
+        self._ended = False
+
+    def watch(self, wire: base.Entity, entity: Entity) -> None:
+        """Report ``entity`` when its side on the wire has something."""
+        self._by_wire[wire] = entity
+        self._wait_set.attach(wire)
+
+    def unwatch(self, wire: base.Entity) -> None:
+        """Undo :meth:`watch`."""
+        self._wait_set.detach(wire)
+        self._by_wire.pop(wire, None)
+
+    def notify(self, entity: Entity) -> None:
+        """Report ``entity`` at once."""
+        self._notified.append(entity)
+        self.wake()
+
+    def wake(self) -> None:
+        """End the current wait, or the next one at once."""
+        self._wait_set.wake()
+
+    def wait(self, timeout_ns: int | None) -> list[Entity]:
+        """Block until something is ready, at most ``timeout_ns`` (None: no limit); what is ready, in ROS 2's order."""
+        if self._notified:
+            timeout_ns = 0
+        else:
+            until_timer = self.timers.time_until_next()
+            if until_timer is not None and (timeout_ns is None or until_timer < timeout_ns):
+                timeout_ns = until_timer
+        entities = [self._by_wire[wire] for wire in self._wait_for_wire(timeout_ns) if wire in self._by_wire]
+        entities += self.timers.pop_due()
+        while self._notified:
+            entities.append(self._notified.popleft())
+        if len(entities) > 1:
+            entities.sort(key=_rank)
+        return entities
+
+    def _wait_for_wire(self, timeout_ns: int | None) -> Iterable[base.Entity]:
+        self._waiting = True
+        try:
+            return [] if self._ended else self._wait_set.wait(timeout_ns)
+        finally:
+            self._waiting = False
+            if self._ended:
+                self._wait_set.close()
+
+    def end(self) -> None:
+        """Wait no more: the current wait ends, and later ones return at once."""
+        self._ended = True
+        self.wake()
+
+    def close(self) -> None:
+        """Release the wait set after :meth:`end`; a thread that still waits does it instead."""
+        if not self._waiting:
+            self._wait_set.close()
+
+
+def _rank(entity: Entity) -> tuple[int, int, int]:
+    return entity._rank

@@ -1,0 +1,84 @@
+"""Declarations of parameters: what ``(name, value or type, descriptor)`` means, and what the command line makes of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .parameter import Parameter
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import ParameterDescriptor
+
+__all__ = ["new_descriptor", "override", "read_declaration", "yaml_hint"]
+
+
+def new_descriptor() -> ParameterDescriptor:
+    """An empty one."""
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    return ParameterDescriptor()
+
+
+def read_declaration(index: int, declaration: tuple[Any, ...]) -> tuple[str, Any, ParameterDescriptor]:
+    """Name, default value (None when there is none) and descriptor with the type filled in.
+
+    Raises:
+        TypeError, ValueError: The declaration, the ``index``-th of a call, is malformed.
+    """
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    if not 1 <= len(declaration) <= 3:
+        raise TypeError(
+            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; expecting length between 1 and 3"
+        )
+    name, value, descriptor = (*declaration, None, None)[:3]
+    if not isinstance(name, str):
+        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
+    if descriptor is None and len(declaration) < 3:
+        descriptor = ParameterDescriptor()
+    if not isinstance(descriptor, ParameterDescriptor):
+        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+    if len(declaration) == 1:
+        _warn_of_name_alone(name)
+        descriptor.dynamic_typing = True
+    if not isinstance(value, Parameter.Type):
+        if value is not None and not descriptor.dynamic_typing:
+            descriptor.type = Parameter.Type.from_parameter_value(value).value
+        return name, value, descriptor
+    if value is Parameter.Type.NOT_SET:
+        raise ValueError(f"Cannot declare parameter {name} statically to be of type NOT_SET")
+    if descriptor.dynamic_typing:
+        raise ValueError(
+            f"When declaring parameter {name} passing a descriptor with`dynamic_typing=True` "
+            "is not allowed when the parameter type is specified"
+        )
+    descriptor.type = value.value
+    return name, None, descriptor
+
+
+def _warn_of_name_alone(name: str) -> None:
+    import warnings
+
+    warnings.warn(
+        f"when declaring parameter named '{name}', declaring a parameter only providing its name is deprecated. You have to either:\n"
+        '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
+        "\t- Pass a name and a parameter type.\n"
+        "\t- Pass a name and a descriptor with `dynamic_typing=True",
+        stacklevel=6,
+    )
+
+
+def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
+    """The parameter that the command line gives; its empty list is one of the declared type, which YAML cannot tell."""
+    if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
+        return Parameter(name, Parameter.Type(descriptor.type), value)
+    return Parameter(name, value=value)
+
+
+def yaml_hint(parameter: Parameter, expected: Parameter.Type) -> str:
+    """How the command line says a value of the expected type."""
+    if expected is Parameter.Type.STRING:
+        return f"YAML reads a string in quotes: -p {parameter.name}:='\"{parameter.value}\"'"
+    if expected is Parameter.Type.DOUBLE and parameter.type_ is Parameter.Type.INTEGER:
+        return f"YAML reads a double with a point in it: -p {parameter.name}:={parameter.value}.0"
+    return ""
