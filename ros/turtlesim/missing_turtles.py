@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from turtlesim.msg import Color, Pose
+from turtlewire.msg import type_name
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
@@ -16,7 +19,7 @@ __all__ = ["MissingTurtles", "find_missing"]
 #: How long a turtle must be missing before anybody is told: most programs spawn theirs right after they start [s].
 _PATIENCE_S = 2.0
 #: Only the simulator serves these, so that who subscribes to one waits for a turtle.
-_TURTLE_TOPICS = {"pose": "turtlesim/msg/Pose", "color_sensor": "turtlesim/msg/Color"}
+_TURTLE_TOPICS = {"pose": type_name(Pose), "color_sensor": type_name(Color)}
 
 
 class MissingTurtles:

@@ -26,6 +26,7 @@ from turtlesim.model import FIELD_SIZE, TICK_NS, World
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import QUEUE_DEPTH, TurtleEndpoints, are_finite
+from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -229,13 +230,17 @@ class TurtlesimNode(CppNode):
     def _on_missing(self) -> None:
         for name in set(self._missing.names) - self._hinted:
             self._hinted.add(name)
-            service = self.resolve_service_name("spawn")
-            request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
-            self.get_logger().info(
-                f"Somebody waits for {name}, and there is no turtle of that name. "
-                f'To add it, type: ros2 service call {service} turtlesim/srv/Spawn "{request}"'
-            )
+            self.get_logger().info(self.missing_hint(name))
         self._show_scene()
+
+    def missing_hint(self, name: str) -> str:
+        """What to type when a turtle is missing."""
+        service = self.resolve_service_name("spawn")
+        request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
+        return (
+            f"Somebody waits for {name}, and there is no turtle of that name. "
+            f'To add it, type: ros2 service call {service} {type_name(Spawn)} "{request}"'
+        )
 
     def _drive_from_page(self, command: page_commands.Drive) -> None:
         """Publish the command, so that it arrives like any other and everybody can listen to it."""

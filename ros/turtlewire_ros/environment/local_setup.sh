@@ -8,7 +8,7 @@ else
     *":$_turtlewire_prefix:"*) ;;
     *) export AMENT_PREFIX_PATH="$_turtlewire_prefix${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}" ;;
     esac
-    export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+    export ROS_DISTRO="${ROS_DISTRO:-jazzy}" ROS_VERSION=2 ROS_PYTHON_VERSION=3
     # rosdep needs a cache of rules; a user's own one is left alone
     if [ ! -f "${ROS_HOME:-$HOME/.ros}/rosdep/sources.cache/index" ]; then
         : "${ROS_LOG_DIR:=${ROS_HOME:-$HOME/.ros}/log}"

@@ -78,7 +78,7 @@ def setup_findings(environment: dict[str, str] | os._Environ[str], path: Iterabl
         found.append(Finding(False, "The plain-Python core is in use; lookups take many times as long.", remedy))
     distro = environment.get("ROS_DISTRO", "jazzy")
     if distro != "jazzy":
-        remedy = "Use a shell in which no other ROS is sourced."
+        remedy = "Use a shell in which no other ROS is sourced. From kilted on, turtlesim speaks the interfaces of turtlesim_msgs."
         found.append(Finding(False, f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy.", remedy))
     homes = {os.path.realpath(folder) for folder in path if os.path.isfile(os.path.join(folder, "rclpy", "__init__.py"))}
     if len(homes) > 1:

@@ -1,0 +1,1 @@
+"""Interfaces of turtlesim in Kilted and later."""

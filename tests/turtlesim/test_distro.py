@@ -1,0 +1,55 @@
+"""From Kilted on, turtlesim's interfaces are those of `turtlesim_msgs`, with their own names on the wire."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from turtlewire import msg
+
+LOOK = """
+import rclpy, turtlesim.msg, turtlesim.srv, turtlesim.action
+from turtlewire.msg import type_name
+from turtlesim.msg import Pose
+from turtlesim.turtlesim_node import TurtlesimNode
+from turtlesim.missing_turtles import find_missing
+
+rclpy.init(args=[])
+node = TurtlesimNode(headless=True)
+user = rclpy.create_node("user")
+user.create_subscription(Pose, "/turtle7/pose", print, 1)
+names = dict(user.get_topic_names_and_types()) | dict(user.get_service_names_and_types())
+print(names["/turtle1/pose"], names["/turtle1/color_sensor"], names["/spawn"], names["/turtle1/rotate_absolute/_action/feedback"])
+print(type_name(Pose), type_name(turtlesim.srv.Spawn), type_name(turtlesim.action.RotateAbsolute))
+print(find_missing(node.context.wire.graph.endpoints(), "/", ["turtle1"]), node.missing_hint("turtle7").partition("/spawn ")[2].split()[0])
+"""
+
+
+@pytest.mark.parametrize(
+    ("distro", "package"), [(None, "turtlesim"), ("humble", "turtlesim"), ("kilted", "turtlesim_msgs"), ("rolling", "turtlesim_msgs")]
+)
+def test_types_are_those_of_the_distribution(distro, package):
+    environment = {name: value for name, value in os.environ.items() if name != "ROS_DISTRO"}
+    environment |= {"RMW_IMPLEMENTATION": "local"} | ({"ROS_DISTRO": distro} if distro else {})
+    done = subprocess.run([sys.executable, "-c", LOOK], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines() == [
+        f"['{package}/msg/Pose'] ['{package}/msg/Color'] ['{package}/srv/Spawn'] ['{package}/action/RotateAbsolute_FeedbackMessage']",
+        f"{package}/msg/Pose {package}/srv/Spawn {package}/action/RotateAbsolute",
+        f"('turtle7',) {package}/srv/Spawn",
+    ]
+
+
+def test_both_packages_hold_the_same_but_for_the_name():
+    """The hash of a type covers its name, so that a peer of the other distribution is never taken for one of ours."""
+    names = msg.interface_names()
+    assert names["turtlesim_msgs"] == names["turtlesim"]
+    for kind, found in names["turtlesim"].items():
+        for name in found:
+            old, new = (msg.interface_path(f"{package}/{kind}/{name}") for package in ("turtlesim", "turtlesim_msgs"))
+            with open(old, encoding="utf-8") as one, open(new, encoding="utf-8") as other:
+                assert one.read() == other.read()
+            assert msg.type_hash(f"turtlesim/{kind}/{name}") != msg.type_hash(f"turtlesim_msgs/{kind}/{name}")
