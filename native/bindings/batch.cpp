@@ -7,6 +7,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -176,6 +177,14 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
   return nb::make_tuple(frames, poses, stamps);
 }
 
+// The time, if it is one and no array: an int or one of NumPy's integers.
+std::optional<Stamp> single_stamp(nb::handle object) {
+  if (!PyIndex_Check(object.ptr()) || PySequence_Check(object.ptr())) return std::nullopt;
+  const Stamp value = PyLong_AsLongLong(object.ptr());
+  if (value == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
+  return value;
+}
+
 // ---------------------------------------------------------------- points
 
 template <typename T>
@@ -203,6 +212,23 @@ void move_each(const Lanes& poses, const T* in, T* out, std::size_t n) {
   kernels().apply(poses, points);
   std::transform(points, points + 3 * n, out, [](double value) { return static_cast<T>(value); });
 }
+
+// Numbers to read where others may be written: the same ones, or a copy if an input would be lost before it is read.
+template <typename T>
+class Input {
+ public:
+  Input(const T* begin, const T* written, std::size_t n) : begin_(begin) {
+    const std::less<const T*> before;
+    if (begin == written || !before(begin, written + n) || !before(written, begin + n)) return;
+    copy_.assign(begin, begin + n);
+    begin_ = copy_.data();
+  }
+  const T* begin() const { return begin_; }
+
+ private:
+  const T* begin_;
+  std::vector<T> copy_;
+};
 
 // What the points go through after their own lookup: into the target at its own time.
 Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_view fixed, Stamp t) {
@@ -239,13 +265,14 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
     check_shape(array, {n, 3}, "out");
     begin = array.data();
   }
+  const Input<T> input(points.data(), begin, 3 * n);
   const std::string_view own_target = way.fixed.value_or(way.target);
   const Pose last = way.fixed ? target_from_fixed(self, way.target, *way.fixed, way.target_stamp) : Pose{};
-  if (PyLong_Check(when.ptr())) {
+  if (const auto one = single_stamp(when)) {
     if (!status_object.is_none()) throw nb::value_error("status is for a stamp for each point");
-    const Pose own = target_from_fixed(self, own_target, way.source, nb::cast<Stamp>(when));
+    const Pose own = target_from_fixed(self, own_target, way.source, *one);
     const nb::gil_scoped_release unlocked;
-    move_all(last * own, points.data(), begin, n);
+    move_all(last * own, input.begin(), begin, n);
     return result;
   }
   const Stamps stamps = stamps_of(when);
@@ -256,7 +283,7 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
   outer.fill(last);
   const auto fault = for_blocks(lookup, stamps, status, [&](std::size_t first, std::size_t count, Lanes& poses) {
     if (way.fixed) kernels().compose(outer, poses);
-    move_each(poses, points.data() + 3 * first, begin + 3 * first, count);
+    move_each(poses, input.begin() + 3 * first, begin + 3 * first, count);
   });
   if (fault) raise_first(self, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
   check_signals();
@@ -266,6 +293,9 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
 nb::object transform_points(BufferObject& self, std::string_view target, std::string_view source, nb::handle points,
                             nb::handle stamps, std::optional<std::string_view> fixed_frame, Stamp target_stamp,
                             nb::object out, nb::object status) {
+  if (!fixed_frame && target_stamp != 0) {
+    throw nb::value_error("target_stamp_ns needs fixed_frame, the frame by way of which points get to another time");
+  }
   const Deskew way{target, source, fixed_frame, target_stamp};
   Points<float> single;
   if (nb::try_cast(points, single, false)) return move_points<float>(self, way, single, stamps, out, status);
@@ -285,10 +315,9 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
   const auto [x, y, z] = point;
   const VelocityRequest request{tracking,  observer, axes.value_or(observer), point_frame.value_or(tracking),
                                 {x, y, z}, interval};
-  const bool single = PyLong_Check(when.ptr());
-  const Stamp one = single ? nb::cast<Stamp>(when) : 0;
+  const std::optional<Stamp> single = single_stamp(when);
   const Stamps many = single ? Stamps() : stamps_of(when);
-  const std::span<const Stamp> stamps = single ? std::span(&one, 1) : std::span(many.data(), many.shape(0));
+  const std::span<const Stamp> stamps = single ? std::span(&*single, 1) : std::span(many.data(), many.shape(0));
   double* begin = nullptr;
   nb::object result = single ? output(out, {6}, begin) : output(out, {stamps.size(), 6}, begin);
   StatusOutput status(status_object, stamps.size());
@@ -342,7 +371,7 @@ void add_batch_methods(nb::class_<BufferObject>& cls) {
            "times\n"
            "        into it, and from it into the target at `target_stamp_ns` (the deskewing of a lidar's sweep).\n"
            "    target_stamp_ns: The time of the target with a fixed frame; 0 is the latest.\n"
-           "    out: An array like `points` to write to; it may be `points` itself.\n"
+           "    out: An array like `points` to write to; it may be `points` itself or overlap it.\n"
            "    status: As in lookup_batch, with a stamp for each point; points without an answer become NaN.\n\n"
            "Returns:\n"
            "    (N, 3) points in the target frame.\n\n"

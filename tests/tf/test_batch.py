@@ -90,7 +90,10 @@ def test_raises_for_the_first(chain: turtlewire.Buffer) -> None:
         ({"stamps": [1], "out": np.empty((2, 7))}, ValueError),
         ({"stamps": [1], "out": np.empty((1, 7), dtype=np.float32)}, TypeError),
         ({"stamps": [1, 2], "out": np.empty((7, 2)).T}, TypeError),
+        ({"stamps": [1], "out": [[0.0] * 7]}, TypeError),
         ({"stamps": [1], "status": np.empty(2, dtype=np.uint8)}, ValueError),
+        ({"stamps": [1], "status": np.empty(1, dtype=int)}, TypeError),
+        ({"stamps": [math.nan]}, TypeError),
     ],
 )
 def test_wrong_arrays(chain: turtlewire.Buffer, arguments: Any, error: type[Exception]) -> None:
@@ -140,6 +143,30 @@ def test_points(chain: turtlewire.Buffer, dtype: Any) -> None:
     same = points.copy()
     assert chain.transform_points("map", "camera", same, t, out=same) is same
     assert np.array_equal(same, moved)
+
+
+def test_points_that_overlap_their_output(chain: turtlewire.Buffer) -> None:
+    points, times = np.random.default_rng(2).normal(size=(130, 3)), stamps(129)
+    for when in (START + 333 * MS, times):
+        for read, written in ((slice(None, -1), slice(1, None)), (slice(1, None), slice(None, -1))):
+            expected = chain.transform_points("map", "camera", points[read].copy(), when)
+            shared = points.copy()
+            chain.transform_points("map", "camera", shared[read], when, out=shared[written])
+            assert np.array_equal(shared[written], expected)
+
+
+def test_one_time_of_an_array(chain: turtlewire.Buffer) -> None:
+    times, points = stamps(3), np.ones((2, 3))
+    assert np.array_equal(
+        chain.transform_points("map", "camera", points, times[1]), chain.transform_points("map", "camera", points, int(times[1]))
+    )
+    assert chain.lookup_velocity("base", "map", times[1]).shape == (6,)
+    assert chain.lookup_transform("map", "camera", times[1]) == chain.lookup_transform("map", "camera", int(times[1]))
+
+
+def test_a_target_time_needs_a_fixed_frame(chain: turtlewire.Buffer) -> None:
+    with pytest.raises(ValueError, match="needs fixed_frame"):
+        chain.transform_points("map", "camera", np.ones((2, 3)), START, target_stamp_ns=START)
 
 
 def test_points_at_their_own_times(chain: turtlewire.Buffer) -> None:

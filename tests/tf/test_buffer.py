@@ -120,16 +120,36 @@ class TestErrors:
             buffer.latest_common_time("a", "nobody")
 
     @pytest.mark.parametrize("arguments", [(1, "b"), ("a", None), ("a", "b", "now"), ("a", "b", 1.5), ("a", "b", 0, 0.1), ("a", "\ud800")])
-    def test_wrong_types(self, core: Any, buffer: turtlewire.Buffer, arguments: tuple[Any, ...]) -> None:
-        if core.__name__.endswith("plain"):
-            pytest.skip("the plain core takes what Python takes")
+    def test_wrong_types(self, buffer: turtlewire.Buffer, arguments: tuple[Any, ...]) -> None:
         buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
-        with pytest.raises((TypeError, UnicodeEncodeError)):
-            buffer.lookup_transform(*arguments)
+        for question in (buffer.lookup_transform, buffer.can_transform, buffer.can_transform_reason):
+            with pytest.raises((TypeError, UnicodeEncodeError)):
+                question(*arguments)
 
-    def test_stamp_beyond_64_bits(self, core: Any, buffer: turtlewire.Buffer) -> None:
-        if core.__name__.endswith("plain"):
-            pytest.skip("Python's integers have no bound")
+    @pytest.mark.parametrize(
+        ("changed", "error"),
+        [
+            ({"stamp_ns": math.nan}, TypeError),
+            ({"stamp_ns": 1.0}, TypeError),
+            ({"stamp_ns": 2**63}, OverflowError),
+            ({"parent_frame": None}, TypeError),
+            ({"authority": 1}, TypeError),
+            ({"translation": (1, 2)}, ValueError),
+            ({"translation": "123"}, TypeError),
+            ({"rotation": (0, 0, 0, 0, 1)}, ValueError),
+        ],
+    )
+    def test_wrong_samples(self, buffer: turtlewire.Buffer, changed: dict[str, Any], error: type[Exception]) -> None:
+        sample = {"parent_frame": "a", "child_frame": "b", "stamp_ns": 1, "translation": (1, 2, 3), "rotation": NO_TURN}
+        with pytest.raises(error):
+            buffer.set_transform(**{**sample, **changed})  # type: ignore[arg-type]
+        assert buffer.frame_strings() == []
+
+    def test_what_cannot_be_called_is_no_listener(self, buffer: turtlewire.Buffer) -> None:
+        with pytest.raises(TypeError):
+            buffer.add_change_listener(3)  # type: ignore[arg-type]
+
+    def test_stamp_beyond_64_bits(self, buffer: turtlewire.Buffer) -> None:
         with pytest.raises(OverflowError):
             buffer.lookup_transform("a", "b", 2**63)
 
@@ -141,6 +161,8 @@ class TestErrors:
     def test_negative_cache(self, core: Any) -> None:
         with pytest.raises(ValueError, match="negative"):
             core.Buffer(-1)
+        with pytest.raises(TypeError):
+            core.Buffer(10.0)
 
 
 class TestRefusals:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.poses import IDENTITY, Pose, Quaternion, Vector, compose, conjugate, multiply, rotate
 from turtlewire.tf.plain.texts import Failure
 from turtlewire.tf.status import LookupStatus
@@ -29,6 +30,7 @@ def lookup_batch(
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
     """lookup_transform at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
+    check_frames(target_frame=target_frame, source_frame=source_frame)
     times = _stamps(stamps)
     result = _output(out, (len(times), 4, 4) if matrices else (len(times), 7))
     for i, pose in enumerate(_poses(self, target_frame, source_frame, times, status)):
@@ -40,6 +42,8 @@ def lookup_all(self: Buffer, target_frame: str, stamp_ns: int = 0) -> tuple[list
     """The poses of all frames in one frame at one time."""
     import numpy as np
 
+    check_frames(target_frame=target_frame)
+    (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
     frames, poses, stamps = [], [], []
     with self._changed:
         self._checked(lambda: self._tree.check_name(target_frame, "lookupTransform", "target_frame"))
@@ -65,26 +69,19 @@ def transform_points(
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[Any]:
     """Express points (N, 3) of the source frame in the target frame, at one time or at a time for each."""
-    import numpy as np
-
-    given = np.asarray(points)
-    given = np.ascontiguousarray(given, dtype=np.float32 if given.dtype == np.float32 else np.float64)
-    if given.ndim != 2 or given.shape[1] != 3:
-        raise ValueError("points must have the shape (N, 3)")
-    if out is not None and (out.dtype != given.dtype or not out.flags.c_contiguous or not out.flags.writeable):
-        raise TypeError("out must be a writable, C-contiguous (N, 3) array of the same type as points")
-    _check_shape(out, given.shape, "out")
-    result = np.empty_like(given) if out is None else out
-    last: Pose = IDENTITY
-    if fixed_frame is not None:
-        last = _pose(self, target_frame, fixed_frame, target_stamp_ns)
     own_target = target_frame if fixed_frame is None else fixed_frame
-    if isinstance(stamps, int):
+    check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
+    (target_stamp_ns,) = nanoseconds(target_stamp_ns=target_stamp_ns)
+    if fixed_frame is None and target_stamp_ns:
+        raise ValueError("target_stamp_ns needs fixed_frame, the frame by way of which points get to another time")
+    given, result = _points(points, out)
+    last = _pose(self, target_frame, own_target, target_stamp_ns) if fixed_frame is not None else IDENTITY
+    times, single = _times(stamps)
+    if single:
         if status is not None:
             raise ValueError("status is for a stamp for each point")
-        poses: Iterable[Pose] = [_pose(self, own_target, source_frame, stamps)] * len(given)
+        poses: Iterable[Pose] = [_pose(self, own_target, source_frame, times[0])] * len(given)
     else:
-        times = _stamps(stamps)
         if len(times) != len(given):
             raise ValueError("stamps must be one int, or one for each point")
         poses = _poses(self, own_target, source_frame, times, status)
@@ -92,6 +89,22 @@ def transform_points(
         x, y, z = (float(value) for value in given[i])
         result[i] = compose(last, compose(pose, (x, y, z, 0.0, 0.0, 0.0, 1.0)))[:3]
     return result
+
+
+def _points(points: ArrayLike, out: NDArray[Any] | None) -> tuple[NDArray[Any], NDArray[Any]]:
+    """What to read, float32 or float64, and where to write."""
+    import numpy as np
+
+    given = np.asarray(points)
+    given = np.ascontiguousarray(given, dtype=np.float32 if given.dtype == np.float32 else np.float64)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError("points must have the shape (N, 3)")
+    if out is None:
+        return given, np.empty_like(given)
+    if not isinstance(out, np.ndarray) or out.dtype != given.dtype or not out.flags.c_contiguous or not out.flags.writeable:
+        raise TypeError("out must be a writable, C-contiguous (N, 3) array of the same type as points")
+    _check_shape(out, given.shape, "out")
+    return (given.copy() if np.may_share_memory(given, out) else given), out
 
 
 def lookup_velocity(
@@ -108,12 +121,14 @@ def lookup_velocity(
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
     """How a body moves: vx, vy, vz in m/s and wx, wy, wz in rad/s, shape (6,), or (N, 6) for an array of stamps."""
+    check_frames(tracking_frame=tracking_frame, observation_frame=observation_frame)
+    (interval_ns,) = nanoseconds(interval_ns=interval_ns)
     if interval_ns <= 0:
         raise ValueError("interval_ns must be positive")
-    single = isinstance(stamps, int)
-    times = [stamps] if isinstance(stamps, int) else _stamps(stamps)
+    px, py, pz = numbers("point", point, 3)
+    times, single = _times(stamps)
     result = _output(out, (6,) if single else (len(times), 6))
-    _check_shape(status, (len(times),), "status")
+    _check_status(status, len(times))
     latest = _attempt(lambda: self._tree.latest_common_time(observation_frame, tracking_frame))
     newest = latest if isinstance(latest, int) else 0
     axes, fixed = reference_frame or observation_frame, point_frame or tracking_frame
@@ -125,7 +140,7 @@ def lookup_velocity(
             last = _bare(self, observation_frame, tracking_frame, end)
             first = _bare(self, observation_frame, tracking_frame, end - interval_ns)
             turn = _bare(self, axes, observation_frame, t)[3:]
-            at = compose(_bare(self, tracking_frame, fixed, t), (*point, 0.0, 0.0, 0.0, 1.0))[:3]
+            at = compose(_bare(self, tracking_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
             linear, angular = _mean_velocity(first, last, at, interval_ns / 1e9)
             return (*rotate(turn, linear), *rotate(turn, angular))
 
@@ -156,7 +171,7 @@ def _pose(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
 
 
 def _poses(buffer: Buffer, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None) -> Iterable[Pose]:
-    _check_shape(status, (len(stamps),), "status")
+    _check_status(status, len(stamps))
     for i, stamp in enumerate(stamps):
         with buffer._changed:
             pose = _with_status(buffer, lambda stamp=stamp: _bare(buffer, target, source, stamp), status, i)  # type: ignore[misc]
@@ -179,6 +194,15 @@ def _with_status(buffer: Buffer, ask: Callable[[], Any], status: NDArray[np.uint
     return None if isinstance(answer, LookupStatus) else answer
 
 
+def _times(stamps: int | ArrayLike) -> tuple[list[int], bool]:
+    """The times, and whether it was a single one and no array."""
+    import numpy as np
+
+    if isinstance(stamps, (int, np.integer)):
+        return nanoseconds(stamps=stamps), True
+    return _stamps(stamps), False
+
+
 def _stamps(stamps: ArrayLike) -> list[int]:
     import numpy as np
 
@@ -188,6 +212,14 @@ def _stamps(stamps: ArrayLike) -> list[int]:
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError("stamps must be integers (nanoseconds)")
     return [int(stamp) for stamp in array]
+
+
+def _check_status(status: NDArray[np.uint8] | None, count: int) -> None:
+    import numpy as np
+
+    if status is not None and not (isinstance(status, np.ndarray) and status.dtype == np.uint8 and status.flags.carray):
+        raise TypeError("status must be a writable, C-contiguous uint8 array")
+    _check_shape(status, (count,), "status")
 
 
 def _check_shape(array: NDArray[Any] | None, shape: tuple[int, ...], name: str) -> None:
@@ -201,7 +233,7 @@ def _output(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[
 
     if out is None:
         return np.empty(shape)
-    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
         raise TypeError("out must be a writable, C-contiguous float64 array")
     _check_shape(out, shape, "out")
     return out

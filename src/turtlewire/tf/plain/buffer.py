@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from turtlewire.errors import CdrError, TransformException
 from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.cdr import decode_tf_message
+from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
 from turtlewire.tf.plain.texts import ERRORS, Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
 from turtlewire.tf.plain.transform import Transform
@@ -36,9 +37,10 @@ class Buffer:
     __module__ = "turtlewire"
 
     def __init__(self, cache_time_ns: int | None = 10_000_000_000) -> None:
-        if cache_time_ns is not None and cache_time_ns < 0:
+        (keep,) = nanoseconds(cache_time_ns=FOREVER if cache_time_ns is None else cache_time_ns)
+        if keep < 0:
             raise ValueError("cache_time_ns must not be negative")
-        self._tree = Tree(FOREVER if cache_time_ns is None else cache_time_ns)
+        self._tree = Tree(keep)
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
 
@@ -80,8 +82,10 @@ class Buffer:
         Returns:
             An empty string if the sample was accepted, else tf2's reason for refusing it.
         """
-        x, y, z = map(float, translation)
-        qx, qy, qz, qw = map(float, rotation)
+        check_frames(parent_frame=parent_frame, child_frame=child_frame, authority=authority)
+        (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
+        x, y, z = numbers("translation", translation, 3)
+        qx, qy, qz, qw = numbers("rotation", rotation, 4)
         pose = (x, y, z, qx, qy, qz, qw)
         with self._changed:
             verdict = self._tree.set(parent_frame, child_frame, stamp_ns, pose, authority, static=static)
@@ -101,8 +105,9 @@ class Buffer:
         Raises:
             CdrError: The bytes are malformed; nothing of them was added.
         """
+        check_frames(authority=authority)
         try:
-            transforms = decode_tf_message(bytes(cdr))
+            transforms = decode_tf_message(bytes(memoryview(cdr)))
         except CdrError as error:
             with self._changed:
                 fault = str(error).removeprefix("not a TFMessage: ")
@@ -139,6 +144,8 @@ class Buffer:
             ConnectivityException: The frames are not in one tree.
             ExtrapolationException: The data does not reach the time.
         """
+        check_frames(target_frame=target_frame, source_frame=source_frame)
+        (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
         stamp, pose = self._raising(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "lookupTransform"), timeout_ns)
         return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
 
@@ -146,7 +153,7 @@ class Buffer:
         self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
     ) -> Transform:
         """The pose of source_frame at one time in target_frame at another, by way of a frame that did not move."""
-        ask = partial(self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
+        ask = self._full_question(self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
         stamp, pose = self._raising(ask, timeout_ns)
         return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
 
@@ -156,6 +163,8 @@ class Buffer:
 
     def can_transform_reason(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> str:
         """An empty string if can_transform is true, else tf2's text of why it is not."""
+        check_frames(target_frame=target_frame, source_frame=source_frame)
+        (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
         return self._reason(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "canTransform"), timeout_ns)
 
     def can_transform_full(
@@ -168,10 +177,12 @@ class Buffer:
         self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
     ) -> str:
         """An empty string if can_transform_full is true, else tf2's text of why it is not."""
-        return self._reason(partial(self._can_full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame), timeout_ns)
+        ask = self._full_question(self._can_full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
+        return self._reason(ask, timeout_ns)
 
     def latest_common_time(self, target_frame: str, source_frame: str) -> int:
         """The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static."""
+        check_frames(target_frame=target_frame, source_frame=source_frame)
         with self._changed:
             try:
                 self._tree.check_name(target_frame, "get_latest_common_time", "")
@@ -223,6 +234,8 @@ class Buffer:
         Returns:
             A function that removes the listener again.
         """
+        if not callable(listener):
+            raise TypeError(f"listener must be callable, not {type(listener).__name__}")
         self._listeners.append(listener)
         return partial(self._remove_change_listener, listener)
 
@@ -239,6 +252,13 @@ class Buffer:
             self._changed.notify_all()
 
     # -- asking, with the lock and a timeout
+
+    def _full_question(
+        self, ask: Callable[..., _Answer], target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
+    ) -> Callable[[], _Answer]:
+        check_frames(target_frame=target, source_frame=source, fixed_frame=fixed)
+        target_stamp, source_stamp = nanoseconds(target_stamp_ns=target_stamp, source_stamp_ns=source_stamp)
+        return partial(ask, target, target_stamp, source, source_stamp, fixed)
 
     def _full(self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str) -> tuple[int, Pose]:
         self._check_names(target, source, fixed, "lookupTransform")
@@ -283,6 +303,7 @@ class Buffer:
 
     def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
         """Ask; as long as the answer is a Failure that data can mend, ask again when data comes in."""
+        (timeout_ns,) = nanoseconds(timeout_ns=timeout_ns)
         deadline = time.monotonic_ns() + timeout_ns
         with self._changed:
             while True:

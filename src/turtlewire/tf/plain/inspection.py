@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.tf.plain.checks import check_frames, nanoseconds
 from turtlewire.tf.plain.texts import refusal
 from turtlewire.tf.plain.transform import Transform
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 def extrapolate_transform(self: Buffer, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int) -> Transform:
     """lookup_transform, but a time up to ``limit_ns`` outside of a link's data is answered as well."""
+    check_frames(target_frame=target_frame, source_frame=source_frame)
+    stamp_ns, limit_ns = nanoseconds(stamp_ns=stamp_ns, limit_ns=limit_ns)
     if limit_ns < 0:
         raise ValueError("limit_ns must not be negative")
     with self._changed:
@@ -30,6 +33,8 @@ def lookup_latest(
     self: Buffer, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
 ) -> tuple[Transform, dict[str, int]]:
     """The transform made of the newest data of each link, whatever its time; and those times by child frame."""
+    check_frames(target_frame=target_frame, source_frame=source_frame)
+    max_age_ns, now_ns = nanoseconds(max_age_ns=max_age_ns, now_ns=now_ns)
     if max_age_ns and not now_ns:
         raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
     with self._changed:
@@ -42,12 +47,14 @@ def lookup_latest(
 
 def remove_frame(self: Buffer, child_frame: str) -> bool:
     """Forget how a frame lies in its parent; whether there was anything to forget."""
+    check_frames(child_frame=child_frame)
     with self._changed:
         return self._tree.remove(child_frame)
 
 
 def remove_stale(self: Buffer, before_ns: int) -> list[str]:
     """Remove all frames that move and have no data since a time; their names."""
+    (before_ns,) = nanoseconds(before_ns=before_ns)
     with self._changed:
         stale = [child for child, link in self._tree.links.items() if not link.static and link.newest < before_ns]
         return [child for child in stale if self._tree.remove(child)]
@@ -57,6 +64,7 @@ def samples(self: Buffer, child_frame: str) -> list[tuple[str, NDArray[np.int64]
     """The whole history of one frame, oldest first: for each run with one parent the parent, the stamps and the poses."""
     import numpy as np
 
+    check_frames(child_frame=child_frame)
     with self._changed:
         self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
         link = self._tree.links.get(child_frame)
@@ -78,6 +86,7 @@ def set_transforms(
 
     from turtlewire.tf.plain.batch import _check_shape, _stamps
 
+    check_frames(parent_frame=parent_frame, child_frame=child_frame, authority=authority)
     times = _stamps(stamps)
     rows = np.ascontiguousarray(poses, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != 7:

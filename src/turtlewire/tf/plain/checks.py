@@ -1,0 +1,43 @@
+"""What may be an argument: the same as for the compiled core, so that a mistake shows without it, too."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+_LIMIT = 2**63
+
+
+def check_frames(**frames: object) -> None:
+    """Raise a TypeError unless all are strings, and a UnicodeEncodeError if one is no text."""
+    for argument, frame in frames.items():
+        if not isinstance(frame, str):
+            raise TypeError(f"{argument} must be str, not {type(frame).__name__}")
+        if not frame.isascii():
+            frame.encode()
+
+
+def nanoseconds(**times: Any) -> list[int]:
+    """The times as Python's integers; a TypeError for floats, which cannot hold a present stamp."""
+    return [_nanoseconds(argument, time) for argument, time in times.items()]
+
+
+def _nanoseconds(argument: str, time: Any) -> int:
+    try:
+        value = operator.index(time)
+    except TypeError:
+        raise TypeError(f"{argument} must be an int of nanoseconds, not {type(time).__name__}") from None
+    if not -_LIMIT <= value < _LIMIT:
+        raise OverflowError(f"{argument} does not fit into 64 bits")
+    return value
+
+
+def numbers(argument: str, values: Any, count: int) -> tuple[float, ...]:
+    """A given count of floats."""
+    items = tuple(values)
+    if len(items) != count:
+        raise ValueError(f"{argument} must have {count} numbers")
+    for item in items:
+        if isinstance(item, str):  # float() would take it
+            raise TypeError("must be real number, not str")
+    return tuple(map(float, items))
