@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
 
-from ._rclpy_pybind11 import NodeNameNonExistentError
+from ._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
 from .client import Client
 from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from .guard_condition import GuardCondition
+from .handle import Handle
 from .logging import get_logger
 from .node_endpoints import NodeEndpoints
 from .node_graph import NodeGraph
@@ -100,6 +101,7 @@ class Node:
         enable_logger_service: bool = False,
     ) -> None:
         self._executor: weakref.ref[Executor] | None = None
+        self._destroyed = False
         self._context = _usable_context(context)
         self._arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
         self._name, self._namespace = _names(node_name, namespace or "/", self._arguments)
@@ -163,13 +165,18 @@ class Node:
 
     @property
     def wire(self) -> Any:
-        """The middleware's side of it (:class:`turtlewire.wire.base.Node`)."""
+        """The middleware's side of it (:class:`turtlewire.wire.base.Node`); raises ``InvalidHandle`` after :meth:`destroy_node`."""
+        self._check_usable()
         return self._wire
 
     @property
-    def handle(self) -> Node:
-        """The node itself: there is no C handle behind it. Usable in a ``with`` statement."""
-        return self
+    def handle(self) -> Handle:
+        """Stands for the C object that it has in ROS 2; raises ``InvalidHandle`` after :meth:`destroy_node`."""
+        return Handle(self.wire)
+
+    def _check_usable(self) -> None:
+        if self._destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
 
     def __enter__(self) -> Self:
         return self
@@ -443,6 +450,7 @@ class Node:
         if executor is not None:
             executor.remove_node(self)
         self._endpoints.destroy_all()
+        self._destroyed = True
         if self._rosout is not None:
             self._rosout.close()
         self._wire.close()

@@ -11,6 +11,7 @@ from turtlewire.wire.qos import Durability
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from .duration import Duration
+from .handle import Handle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,10 +87,10 @@ class Publisher:
         return self.topic
 
     @property
-    def handle(self) -> Publisher:
-        """The publisher itself: there is no C handle behind it."""
+    def handle(self) -> Handle:
+        """Stands for the C object that it has in ROS 2."""
         self._check_usable()
-        return self
+        return Handle(self)
 
     @property
     def logger_name(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import pytest
@@ -14,17 +15,20 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallb
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
 from rclpy.executors import (
+    Executor,
     ExternalShutdownException,
     MultiThreadedExecutor,
     ShutdownException,
     SingleThreadedExecutor,
+    TimeoutException,
 )
+from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import Int32
 
 
-@pytest.fixture(params=[SingleThreadedExecutor, MultiThreadedExecutor])
+@pytest.fixture(params=[SingleThreadedExecutor, MultiThreadedExecutor, EventsExecutor])
 def any_executor(request, context, node):
     arguments = {"num_threads": 3} if request.param is MultiThreadedExecutor else {}
     executor = request.param(context=context, **arguments)
@@ -538,3 +542,57 @@ def test_an_idle_executor_does_not_run(node, executor, spinning):
     time.sleep(0.3)
     assert len(waits) == seen
     assert waits[-1] is None
+
+
+class PoolForSomeNodes(Executor):
+    """As one writes one for ROS 2: callbacks of some nodes run in a pool, those of the others here."""
+
+    def __init__(self, pool, nodes, **options):
+        super().__init__(**options)
+        self.pool = pool
+        self.nodes_of_the_pool = nodes
+
+    def spin_once(self, timeout_sec=None):
+        handler, _entity, node = self.wait_for_ready_callbacks(timeout_sec=timeout_sec)
+        if node in self.nodes_of_the_pool:
+            self.pool.submit(handler)
+        else:
+            handler()
+            if handler.exception() is not None:
+                raise handler.exception()
+
+
+def test_an_executor_of_ones_own_decides_where_callbacks_run(context, node):
+    other = Node("other", context=context)
+    threads = {}
+    both = threading.Barrier(2, timeout=10)
+
+    def note(name):
+        threads[name] = threading.get_ident()
+        both.wait()
+
+    group = MutuallyExclusiveCallbackGroup()
+    guards = [
+        node.create_guard_condition(partial(note, "pool"), group),
+        other.create_guard_condition(partial(note, "here")),
+        other.create_guard_condition(lambda: {}["missing"]),
+    ]
+    with ThreadPoolExecutor(1) as pool, PoolForSomeNodes(pool, [node], context=context) as executor:
+        executor.add_node(node)
+        executor.add_node(other)
+        guards[0].trigger()
+        executor.spin_once()
+        assert not executor.can_execute(guards[0])
+        guards[1].trigger()
+        executor.spin_once()
+        guards[2].trigger()
+        with pytest.raises(KeyError, match="missing"):
+            executor.spin_once()
+        assert threads["here"] == threading.get_ident() != threads["pool"]
+        executor.create_task(threads.clear)
+        executor.spin_once()
+        assert threads == {}
+        with pytest.raises(TimeoutException):
+            executor.spin_once(timeout_sec=0)
+    assert executor.can_execute(guards[0])
+    other.destroy_node()

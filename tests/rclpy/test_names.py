@@ -6,6 +6,7 @@ import pytest
 
 from rclpy import exceptions
 from rclpy.expand_topic_name import expand_topic_name
+from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -98,3 +99,9 @@ def test_expansion(name, expanded):
 def test_bad_expansions(names, text):
     with pytest.raises(ValueError, match=f"^{text}: "):
         expand_topic_name(*names)
+
+
+def test_hidden_names():
+    assert topic_or_service_is_hidden("/_secret")
+    assert topic_or_service_is_hidden("fibonacci/_action/status")
+    assert not topic_or_service_is_hidden("/rosout_")

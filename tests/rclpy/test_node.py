@@ -9,7 +9,7 @@ import pytest
 from rcl_interfaces.msg import Log
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.context import Context
-from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
+from rclpy.exceptions import InvalidHandle, InvalidNamespaceException, InvalidNodeNameException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Int32
@@ -150,8 +150,6 @@ def test_what_a_node_owns(node):
     assert node.destroy_guard_condition(guard)
     assert not node.destroy_guard_condition(guard)
     assert list(node.guards) == []
-    with node.handle as handle:
-        assert handle is node
 
 
 def test_destroying_a_node_closes_everything(context, executor):
@@ -163,6 +161,9 @@ def test_destroying_a_node_closes_everything(context, executor):
     node.destroy_node()
     assert node not in executor.get_nodes()
     assert publisher not in list(node.publishers)
+    for use in (lambda: node.create_publisher(Int32, "number", 1), node.get_topic_names_and_types, lambda: node.handle):
+        with pytest.raises(InvalidHandle):
+            use()
     assert ("short", "/", "/") not in [tuple(each) for each in context.wire.graph.nodes()]
     assert not any(endpoint.topic == "/number" for endpoint in context.wire.graph.endpoints())
     with Node("with", context=context) as other:
