@@ -97,8 +97,11 @@ class Subscription(Entity):
     def _detach(self, executor: Executor) -> None:
         executor._wait.unwatch(self._wire)
 
-    def take_message(self) -> tuple[Any, MessageInfo] | None:
-        """For waitables: the next message and its info, or None; CdrError when it is malformed."""
+    def take_message(self, _msg_type: Any = None, _raw: bool | None = None) -> tuple[Any, MessageInfo] | None:
+        """For waitables and programs that look by themselves: the next message and its info, or None; CdrError when it is malformed.
+
+        ROS 2's handles want to be told class and rawness, which ours know.
+        """
         for cdr, info in self._wire.take(1):
             return (cdr if self.raw else deserialize(self.msg_type, cdr)), _message_info(info)
         return None
