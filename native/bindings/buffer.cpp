@@ -149,17 +149,6 @@ std::string BufferObject::set(std::string_view parent, std::string_view child, S
   return verdict == Verdict::accepted ? "" : explain(Refusal{verdict, parent, child, authority, stamp, pose});
 }
 
-long BufferObject::add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static) {
-  long accepted = 0;
-  const std::scoped_lock lock(shared.mutex);
-  const SourceId sender = shared.buffer.sender(authority);
-  for (const ReceivedTransform& r : transforms) {
-    accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
-  }
-  if (accepted > 0) shared.wake_waiters();
-  return accepted;
-}
-
 void BufferObject::refuse_message(std::string_view fault, std::string_view authority) {
   const std::scoped_lock lock(shared.mutex);
   shared.buffer.refuse_message(fault, shared.buffer.sender(authority));
@@ -173,6 +162,12 @@ void BufferObject::call_listeners() {
     if (result == nullptr) PyErr_WriteUnraisable(listener.ptr());
     Py_XDECREF(result);
   }
+}
+
+void BufferObject::listeners_changed() {
+  const std::size_t count = listeners.size();
+  const std::scoped_lock lock(shared.mutex);
+  shared.listeners = count;
 }
 
 void BufferObject::wake() {

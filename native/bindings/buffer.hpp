@@ -41,10 +41,9 @@ class BufferObject {
   // Adds one transform; the reason if it is refused. Wakes who waits, but does not call the listeners.
   std::string set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
                   std::string_view authority, bool is_static);
-  // Adds those of one message; the number accepted.
-  long add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static);
   void refuse_message(std::string_view fault, std::string_view authority);
   void call_listeners();
+  void listeners_changed();  // to be called then
   void wake();
 
  private:

@@ -196,7 +196,7 @@ PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, P
     buffer->refuse_message(fault, authority);
     return raise_cdr_error(fault);
   }
-  const long accepted = buffer->add(message.transforms(), authority, is_static);
+  const long accepted = buffer->shared.add(message.transforms(), authority, is_static).accepted;
   if (accepted > 0) buffer->call_listeners();
   return PyLong_FromLong(accepted);
 }
@@ -234,7 +234,12 @@ std::string locked(BufferObject& self, Make make) {
 }
 
 nb::object add_change_listener(nb::handle self, nb::callable listener) {
-  nb::inst_ptr<BufferObject>(self)->listeners.append(listener);
+  auto* buffer = nb::inst_ptr<BufferObject>(self);
+  {
+    const nb::ft_object_guard guard(buffer->listeners);
+    buffer->listeners.append(listener);
+    buffer->listeners_changed();
+  }
   return nb::module_::import_("functools").attr("partial")(self.attr("_remove_change_listener"), listener);
 }
 
@@ -244,6 +249,7 @@ void remove_change_listener(BufferObject& self, nb::handle listener) {
   for (std::size_t i = 0; i < self.listeners.size(); ++i) {
     if (self.listeners[i].ptr() == listener.ptr()) {
       nb::del(self.listeners[i]);
+      self.listeners_changed();
       return;
     }
   }

@@ -1,5 +1,6 @@
 #include "buffer.hpp"
 #include "errors.hpp"
+#include "intake.hpp"
 #include "message.hpp"
 #include "transform.hpp"
 
@@ -10,4 +11,5 @@ NB_MODULE(_native, module) {
   if (!add_transform_type(module)) throw nb::python_error();
   add_buffer_type(module);
   add_message_lookup_type(module);
+  add_intake_type(module);
 }

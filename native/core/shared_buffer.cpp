@@ -2,6 +2,17 @@
 
 namespace turtlewire {
 
+Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static) {
+  const std::scoped_lock lock(mutex);
+  const SourceId sender = buffer.sender(authority);
+  Added added{0, listeners > 0};
+  for (const ReceivedTransform& r : transforms) {
+    added.accepted += buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
+  }
+  if (added.accepted > 0) wake_waiters();
+  return added;
+}
+
 Status SharedBuffer::resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const {
   const Status status = buffer.resolve(name, id);
   if (status != Status::ok) {

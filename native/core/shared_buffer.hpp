@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "buffer.hpp"
+#include "tf_message.hpp"
 
 namespace turtlewire {
 
@@ -37,19 +39,28 @@ struct Found {
   Pose target_from_source;
 };
 
+struct Added {
+  long accepted = 0;         // so many transforms
+  bool listened_to = false;  // somebody is to be told of it
+};
+
 // Each method takes the lock for itself; those who do several things at once use `mutex` and `buffer` themselves.
 class SharedBuffer {
  public:
   explicit SharedBuffer(Stamp keep) : buffer(keep) {}
 
-  std::mutex mutex;  // guards the two below
+  std::mutex mutex;  // guards the three below
   Buffer buffer;
   std::vector<Waiter*> waiters;
+  std::size_t listeners = 0;  // how many want to be told of new data, by whoever adds it
 
   // Call with the lock held, after data came in.
   void wake_waiters() noexcept {
     for (Waiter* waiter : waiters) waiter->wake();
   }
+
+  // Adds the transforms of one message and wakes who waits.
+  Added add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static);
 
   Status lookup(const Request& request, Found& found, Failure& failure);
   Status lookup(const FullRequest& request, Found& found, Failure& failure);

@@ -1,7 +1,8 @@
-"""Fills buffers from the wire: the bytes of each ``TFMessage`` go into the buffer as they are, on the wire's reader thread.
+"""Fills buffers from the wire: the bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
 
 No message object is made and no executor takes part, so a lookup may wait for data wherever it is called. All buffers of one context
-that listen to a topic share one subscription, and each keeps its own store.
+that listen to a topic share one subscription, and each keeps its own store. With the compiled core Python is asked only for the
+first message of each publisher, whose name it finds out, and for malformed ones: the others go the short way, through an ``Intake``.
 """
 
 from __future__ import annotations
@@ -13,10 +14,14 @@ from weakref import WeakKeyDictionary
 
 from turtlewire import msg, wire
 from turtlewire.errors import CdrError, WireError
+from turtlewire.tf.buffer import CORE, Buffer
 from turtlewire.tf.publisher_names import PublisherNames
 from turtlewire.wire.base import TypeId
-from turtlewire.wire.qos import Durability, QoS
+from turtlewire.wire.qos import Durability, History, QoS
 from turtlewire.wire.report import warn_once
+
+if TYPE_CHECKING or CORE == "native":
+    from turtlewire._native import Intake
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -55,18 +60,37 @@ class _Member(NamedTuple):
 
 
 class _Feed:
-    """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name."""
+    """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name.
 
-    def __init__(self, members: tuple[_Member, ...], topic: str, *, static: bool) -> None:
-        self.members = members
+    Attributes:
+        intake: Does the same without Python, once it knows the publisher's name; None with the plain-Python core.
+    """
+
+    def __init__(self, members: tuple[_Member, ...], topic: str, qos: QoS, *, static: bool) -> None:
         self._topic = topic
         self._static = static
+        self.intake = Intake(static, _most_kept(qos)) if CORE == "native" else None
+        self.members = members
         self._publishers = PublisherNames(members[0].graph, self._rename)
+
+    @property
+    def members(self) -> tuple[_Member, ...]:
+        """Those who are fed."""
+        return self._members
+
+    @members.setter
+    def members(self, members: tuple[_Member, ...]) -> None:
+        self._members = members
+        if self.intake is not None:
+            buffers = tuple(member.store for member in members if type(member.store) is Buffer)
+            self.intake.feed(buffers if len(buffers) == len(members) else ())
 
     def __call__(self, cdr: bytes, info: base.MessageInfo) -> None:
         publisher = self._publishers[info.publisher_gid]
-        for member in self.members:
+        for member in self._members:
             self._store(member.store, cdr, publisher)
+        if self.intake is not None:
+            self.intake.name(info.publisher_gid, publisher)
 
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
@@ -75,12 +99,20 @@ class _Feed:
             warn_once(f"malformed {self._topic}", f"a message on {self._topic} was lost: {error} (publisher: {publisher})")
 
     def _rename(self, gid: str, name: str) -> None:
-        for member in self.members:
+        if self.intake is not None:
+            self.intake.name(bytes.fromhex(gid), name)
+        for member in self._members:
             member.store._rename_sender(gid, name)
 
     def close(self) -> None:
-        """Let go of the graph."""
+        """Let go of the graph and of the members."""
         self._publishers.close()
+        self.members = ()
+
+
+def _most_kept(qos: QoS) -> int:
+    """How many messages a subscription keeps for a reader thread that is busy."""
+    return 0 if qos.history == History.KEEP_ALL else qos.depth
 
 
 class _Channel:
@@ -129,9 +161,9 @@ class _Channel:
         former, former_feed = self._subscription, self._feed
         if former is not None and self._latched:
             former.close()
-        self._feed = _Feed(members, self._topic, static=self._static)
+        self._feed = _Feed(members, self._topic, self._qos, static=self._static)
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-        self._subscription = members[0].node.create_subscription(self._topic, type_id, self._qos, self._feed)
+        self._subscription = members[0].node.create_subscription(self._topic, type_id, self._qos, self._feed, self._feed.intake)
         if former is not None and not self._latched:
             former.close()
         if former_feed is not None:

@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire._native import Intake
+
     from .qos import QoS
 
 __all__ = [
@@ -292,7 +294,12 @@ class Node(Entity):
 
     @abstractmethod
     def create_subscription(
-        self, topic: str, type_id: TypeId, qos: QoS, on_message: Callable[[bytes, MessageInfo], None] | None = None
+        self,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+        intake: Intake | None = None,
     ) -> Subscription:
         """Announce and return a subscription.
 
@@ -302,6 +309,8 @@ class Node(Entity):
             qos: What is requested.
             on_message: When given, the context's reader thread calls it for every message, and the subscription cannot be attached
                 to a wait set. It must be short and must not raise (an exception is reported once and the message is lost).
+            intake: Given together with ``on_message``, it may get the messages first, without Python and on any thread of the
+                middleware; those that it keeps back go to ``on_message``. A middleware is free to do without it.
         """
 
     @abstractmethod

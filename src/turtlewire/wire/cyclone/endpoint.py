@@ -122,6 +122,9 @@ class Endpoint(Entity):
             call()
         for event in list(self._events.values()):
             event.close()
+        self._delete()
+
+    def _delete(self) -> None:
         dds.delete(self.handle)
 
 

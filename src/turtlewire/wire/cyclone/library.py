@@ -214,6 +214,10 @@ wait_set_attach = _waits("dds_waitset_attach", _retcode, _entity, _entity, c_int
 wait_set_detach = _waits("dds_waitset_detach", _retcode, _entity, _entity)
 wait_set_wait = _waits("dds_waitset_wait", _retcode, _entity, POINTER(c_int64), c_size_t, c_int64)
 
+create_listener = _short("dds_create_listener", c_void_p, c_void_p)
+delete_listener = _short("dds_delete_listener", None, c_void_p)
+lset_data_available = _short("dds_lset_data_available", None, c_void_p, c_void_p)
+
 set_status_mask = _short("dds_set_status_mask", _retcode, _entity, c_uint32)
 get_status_changes = _short("dds_get_status_changes", _retcode, _entity, POINTER(c_uint32))
 publication_matched_status = _short("dds_get_publication_matched_status", _retcode, _entity, POINTER(MatchedStatus))

@@ -13,11 +13,12 @@ from .announcer import NodeRecord
 from .endpoint import Endpoint, EndpointSpec
 from .publisher import CyclonePublisher
 from .services import CycloneClient, CycloneService, format_service_id
-from .subscription import CycloneSubscription, deliver_to
+from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire._native import Intake
     from turtlewire.wire.base import TypeId
     from turtlewire.wire.qos import QoS
 
@@ -45,17 +46,30 @@ class CycloneNode(Node):
         return self._publisher(EndpointSpec(topic, dds_topic, type_id, qos))
 
     def create_subscription(
-        self, topic: str, type_id: TypeId, qos: QoS, on_message: Callable[[bytes, MessageInfo], None] | None = None
+        self,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+        intake: Intake | None = None,
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
-        subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos))
+        subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos), intake)
         if on_message is not None:
-            condition = subscription.condition()
-            subscription.on_closing.append(lambda: self.context.reader.unwatch(condition))
-            self.context.reader.watch(condition, deliver_to(subscription, on_message))
+            self._serve(subscription, on_message)
         return subscription
+
+    def _serve(self, subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]) -> None:
+        """Have the reader thread call ``on_message`` until the subscription closes."""
+        inlet = subscription.inlet
+        if inlet is None:
+            condition, deliver = subscription.condition(), deliver_to(subscription, on_message)
+        else:
+            condition, deliver = inlet.guard, deliver_rest_to(subscription, inlet, on_message)
+        subscription.on_closing.append(lambda: self.context.reader.unwatch(condition))
+        self.context.reader.watch(condition, deliver)
 
     def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
@@ -81,8 +95,8 @@ class CycloneNode(Node):
         self._adopt(publisher, self._record.writers)
         return publisher
 
-    def _subscription(self, spec: EndpointSpec) -> CycloneSubscription:
-        subscription = CycloneSubscription(self.context.participant, spec)
+    def _subscription(self, spec: EndpointSpec, intake: Intake | None = None) -> CycloneSubscription:
+        subscription = CycloneSubscription(self.context.participant, spec, intake=intake)
         self._adopt(subscription, self._record.readers)
         return subscription
 

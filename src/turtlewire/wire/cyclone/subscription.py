@@ -12,15 +12,18 @@ from turtlewire.wire.report import call_guarded, warn_once
 
 from . import library as dds
 from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_liveliness_changed, read_matched
+from .inlet import Inlet
 from .qos import dds_qos, read_user_data
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from turtlewire._native import Intake
+
     from .participant import Participant
     from .waiting import CycloneWaitSet
 
-__all__ = ["CycloneSubscription", "deliver_to"]
+__all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to"]
 
 _BATCH = 32
 _KNOWN_PUBLISHERS = 1000
@@ -31,6 +34,7 @@ class CycloneSubscription(Endpoint, Subscription):
 
     Attributes:
         wait_sets: Those that it is attached to.
+        inlet: How messages reach the intake that it was made with.
     """
 
     _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
@@ -43,7 +47,7 @@ class CycloneSubscription(Endpoint, Subscription):
         EventKind.MESSAGE_LOST: StatusSource(1 << 5, dds.sample_lost_status, dds.CountStatus, read_count),
     }
 
-    def __init__(self, participant: Participant, spec: EndpointSpec, *, ignore_local: bool = False) -> None:
+    def __init__(self, participant: Participant, spec: EndpointSpec, *, ignore_local: bool = False, intake: Intake | None = None) -> None:
         super().__init__(spec)
         self.topic = spec.name
         self.wait_sets: set[CycloneWaitSet] = set()
@@ -53,8 +57,13 @@ class CycloneSubscription(Endpoint, Subscription):
         self._serdata = (ctypes.c_void_p * _BATCH)()
         self._infos = (dds.SampleInfo * _BATCH)()
         topic = participant.topic(spec.dds_topic, spec.type_id.name)
+        self.inlet = None if intake is None else Inlet(participant.handle, intake)
+        listener = None if self.inlet is None else self.inlet.listener
         with dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos:
-            self._created(dds.create_reader(participant.handle, topic, qos, None))
+            handle = dds.create_reader(participant.handle, topic, qos, listener)
+        if handle < 0 and self.inlet is not None:
+            self.inlet.close()
+        self._created(handle)
 
     def condition(self) -> int:
         """The read condition that is true while messages are waiting."""
@@ -87,13 +96,22 @@ class CycloneSubscription(Endpoint, Subscription):
                 size = dds.serdata_size(serdata)
                 data = bytes(size)  # new, and nobody else's yet: filled in place
                 dds.serdata_to_bytes(serdata, 0, size, data)
-                if data[:2] == LITTLE_ENDIAN:
+                if self._is_readable(data):
                     publisher = info.publication_handle
                     gid = self._gids.get(publisher) or self._gid_of(publisher)
                     messages.append((data, MessageInfo(info.source_timestamp, now, gid)))
-                else:
-                    self._refuse(data)
             dds.serdata_unref(serdata)
+        return messages
+
+    def messages_of(self, kept: list[tuple[bytes, int, int]], intake: Intake) -> list[tuple[bytes, MessageInfo]]:
+        """What an intake kept back, as :meth:`take` returns it; their publishers are introduced to the intake."""
+        messages = []
+        now = time.time_ns()
+        for data, publisher, sent in kept:
+            if self._is_readable(data):
+                gid = self._gids.get(publisher) or self._gid_of(publisher)
+                intake.introduce(publisher, gid)
+                messages.append((data, MessageInfo(sent, now, gid)))
         return messages
 
     def _gid_of(self, publisher: int) -> bytes:
@@ -116,8 +134,11 @@ class CycloneSubscription(Endpoint, Subscription):
         """What the publisher of a taken message announced of itself; empty when that is not known."""
         return self._user_data.get(publisher_gid, b"")
 
-    def _refuse(self, data: bytes) -> None:
+    def _is_readable(self, data: bytes) -> bool:
+        if data[:2] == LITTLE_ENDIAN:
+            return True
         warn_once(f"header {self.topic}", f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)")
+        return False
 
     def publisher_count(self) -> int:
         """See :meth:`Subscription.publisher_count`."""
@@ -129,6 +150,11 @@ class CycloneSubscription(Endpoint, Subscription):
             wait_set.detach(self)
         super().close()
 
+    def _delete(self) -> None:
+        super()._delete()
+        if self.inlet is not None:
+            self.inlet.close()
+
 
 def deliver_to(subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]) -> Callable[[], None]:
     """What the reader thread calls when messages are waiting on a subscription."""
@@ -138,5 +164,20 @@ def deliver_to(subscription: CycloneSubscription, on_message: Callable[[bytes, M
             if subscription.closed:
                 return
             call_guarded(on_message, message, subscription.topic)
+
+    return deliver
+
+
+def deliver_rest_to(
+    subscription: CycloneSubscription, inlet: Inlet, on_message: Callable[[bytes, MessageInfo], None]
+) -> Callable[[], None]:
+    """:func:`deliver_to` of a subscription with an intake: what the reader thread calls when the inlet's guard is triggered."""
+
+    def deliver() -> None:
+        while not subscription.closed and (kept := inlet.rest()):
+            for message in subscription.messages_of(kept, inlet.intake):
+                if subscription.closed:
+                    return
+                call_guarded(on_message, message, subscription.topic)
 
     return deliver

@@ -17,6 +17,7 @@ from .waiting import LocalWaitSet, ReaderThread
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlewire._native import Intake
     from turtlewire.wire.base import TypeId, WaitSet
     from turtlewire.wire.qos import QoS
 
@@ -42,7 +43,12 @@ class LocalNode(Node):
         return LocalPublisher(self, topic, dds_topic, type_id, qos)
 
     def create_subscription(
-        self, topic: str, type_id: TypeId, qos: QoS, on_message: Callable[[bytes, MessageInfo], None] | None = None
+        self,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+        intake: Intake | None = None,  # noqa: ARG002 - it would gain nothing here
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)

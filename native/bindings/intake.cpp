@@ -1,0 +1,184 @@
+#include "intake.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string_view.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "../core/intake.hpp"
+#include "buffer.hpp"
+
+namespace turtlewire::python {
+namespace {
+
+using namespace nb::literals;
+
+// What we call of Cyclone DDS 11. Python looks it up, in the very library that it uses itself.
+struct SampleInfo {  // dds_sample_info_t
+  std::uint32_t sample_state, view_state, instance_state;
+  bool valid_data;
+  std::int64_t source_timestamp;
+  std::uint64_t instance_handle, publication_handle;
+  std::uint32_t disposed_generation_count, no_writers_generation_count;
+  std::uint32_t sample_rank, generation_rank, absolute_generation_rank;
+};
+using Entity = std::int32_t;
+using Take = std::int32_t (*)(Entity reader, void** samples, std::uint32_t count, SampleInfo* infos,
+                              std::uint32_t states);
+using SizeOf = std::uint32_t (*)(const void* sample);
+using CopyOf = void (*)(const void* sample, std::size_t offset, std::size_t size, void* bytes);
+using Release = void (*)(void* sample);
+using Trigger = std::int32_t (*)(Entity guard, bool triggered);
+
+constexpr std::uint32_t kAnyState = 127;
+constexpr std::size_t kBatch = 32;
+
+struct Cyclone {
+  Take take = nullptr;
+  SizeOf size_of = nullptr;
+  CopyOf copy_of = nullptr;
+  Release release = nullptr;
+  Trigger trigger = nullptr;
+};
+
+class IntakeObject {
+ public:
+  IntakeObject(bool is_static, std::size_t most_kept) : core(is_static, most_kept) {}
+
+  Intake core;
+
+  void connect(const std::array<std::uintptr_t, 5>& functions, Entity guard) {
+    cyclone_ = {reinterpret_cast<Take>(functions[0]), reinterpret_cast<SizeOf>(functions[1]),
+                reinterpret_cast<CopyOf>(functions[2]), reinterpret_cast<Release>(functions[3]),
+                reinterpret_cast<Trigger>(functions[4])};
+    guard_ = guard;
+  }
+
+  void feed(nb::tuple buffers) {
+    std::vector<SharedBuffer*> fed;
+    for (const nb::handle buffer : buffers) fed.push_back(&nb::cast<BufferObject&>(buffer).shared);
+    core.feed(std::move(fed));
+    std::swap(buffers_, buffers);  // the former ones die, if they do, when nothing of them is in use any more
+  }
+
+  void call_listeners() {
+    if (!core.take_news()) return;
+    const nb::tuple fed = buffers_;
+    for (const nb::handle buffer : fed) nb::cast<BufferObject&>(buffer).call_listeners();
+  }
+
+  nb::handle buffers() const { return buffers_; }
+
+  // The dds_on_data_available_fn, on the thread of Cyclone that received something, or on the one of a publisher in
+  // this process. It must not want the GIL: who holds that may be waiting for a lock of Cyclone's that is held here.
+  static void on_data(Entity reader, void* intake) noexcept { static_cast<IntakeObject*>(intake)->take_all(reader); }
+
+ private:
+  void take_all(Entity reader) noexcept {
+    std::array<void*, kBatch> samples;
+    std::array<SampleInfo, kBatch> infos;
+    std::int32_t count = 0;
+    bool wanted = false;
+    do {
+      count = cyclone_.take(reader, samples.data(), kBatch, infos.data(), kAnyState);
+      for (std::int32_t i = 0; i < count; ++i) {
+        if (infos[i].valid_data) wanted |= receive(samples[i], infos[i]);
+        cyclone_.release(samples[i]);
+      }
+    } while (count == kBatch);
+    if (wanted) cyclone_.trigger(guard_, true);
+  }
+
+  bool receive(const void* sample, const SampleInfo& info) noexcept try {
+    bytes_.resize(cyclone_.size_of(sample));
+    cyclone_.copy_of(sample, 0, bytes_.size(), bytes_.data());
+    return core.receive(info.publication_handle, info.source_timestamp, bytes_);
+  } catch (const std::bad_alloc&) {
+    return false;  // the message is lost
+  }
+
+  Cyclone cyclone_;
+  Entity guard_ = 0;
+  std::vector<unsigned char> bytes_;  // Cyclone calls a listener on one thread at a time
+  nb::tuple buffers_;                 // keeps those alive that the core fills
+};
+
+nb::list take(IntakeObject& self) {
+  nb::list list;
+  for (const Intake::Kept& kept : self.core.take()) {
+    list.append(nb::make_tuple(nb::bytes(kept.bytes.data(), kept.bytes.size()), kept.publisher, kept.sent));
+  }
+  return list;
+}
+
+std::string_view view_of(const nb::bytes& bytes) { return {bytes.c_str(), bytes.size()}; }
+
+int traverse(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<IntakeObject>(self)->buffers().ptr());
+  return 0;
+}
+
+int clear_references(PyObject* self) {
+  if (nb::inst_ready(self)) nb::inst_ptr<IntakeObject>(self)->feed(nb::tuple());
+  return 0;
+}
+
+PyType_Slot slots[] = {
+    {Py_tp_traverse, reinterpret_cast<void*>(traverse)},
+    {Py_tp_clear, reinterpret_cast<void*>(clear_references)},
+    {0, nullptr},
+};
+
+}  // namespace
+
+void add_intake_type(nb::module_& module) {
+  nb::class_<IntakeObject>(
+      module, "Intake", nb::type_slots(slots),
+      "Stores TFMessages that a DDS reader receives, on the thread that receives them and without Python.\n\n"
+      "It keeps back what needs Python, and whatever comes behind that: messages of publishers whose name it was not\n"
+      "told, and malformed ones. Safe for use from many threads.\n\n"
+      "Args:\n"
+      "    static: Whether the transforms hold for all times.\n"
+      "    most_kept: So many messages at most are kept back, the newest; 0: any number.")
+      .def(nb::init<bool, std::size_t>(), "static"_a, "most_kept"_a)
+      .def("feed", &IntakeObject::feed, "buffers"_a,
+           "Which buffers to fill from now on; without any, all messages are kept back.")
+      .def(
+          "introduce",
+          [](IntakeObject& self, std::uint64_t publisher, const nb::bytes& gid) {
+            self.core.introduce(publisher, view_of(gid));
+          },
+          "publisher"_a, "gid"_a, "Which publisher the middleware means by a number.")
+      .def(
+          "name",
+          [](IntakeObject& self, const nb::bytes& gid, std::string_view name) { self.core.name(view_of(gid), name); },
+          "gid"_a, "name"_a, "The authority of what an introduced publisher sends.")
+      .def("take", &take,
+           "The messages kept back, as (bytes, number of the publisher, time of sending in ns). To be called until\n"
+           "there are none: only then the next ones take the short way again.")
+      .def("call_listeners", &IntakeObject::call_listeners,
+           "Calls the change listeners of the buffers, if data came for any of them since the last time.")
+      .def(
+          "connect",
+          [](nb::handle_t<IntakeObject> self, const std::array<std::uintptr_t, 5>& functions, Entity guard) {
+            auto* intake = nb::inst_ptr<IntakeObject>(self);
+            intake->connect(functions, guard);
+            return std::pair(reinterpret_cast<std::uintptr_t>(&IntakeObject::on_data),
+                             reinterpret_cast<std::uintptr_t>(intake));
+          },
+          "functions"_a, "guard"_a,
+          "Gets ready for a reader of Cyclone DDS.\n\n"
+          "Args:\n"
+          "    functions: Addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, ddsi_serdata_unref and\n"
+          "        dds_set_guardcondition.\n"
+          "    guard: The guard condition to be triggered when there is something to take or listeners to call.\n\n"
+          "Returns:\n"
+          "    What is called when data is available, and its argument; this object must outlive the reader.");
+}
+
+}  // namespace turtlewire::python

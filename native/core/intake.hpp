@@ -1,0 +1,67 @@
+// Feeds buffers with messages on whatever thread brings them, and keeps back those that need more than that.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "shared_buffer.hpp"
+#include "tf_message.hpp"
+
+namespace turtlewire {
+
+// Somebody else, the caretaker, takes what was kept back: messages of publishers without a name, and malformed ones.
+// The order of all messages is kept: until he has taken everything and come back for more in vain, the next ones are
+// kept back as well.
+class Intake {
+ public:
+  struct Kept {
+    std::uint64_t publisher;
+    Stamp sent;
+    std::vector<unsigned char> bytes;
+  };
+
+  // At most `most_kept` messages are kept back, the newest ones; 0: any number.
+  Intake(bool is_static, std::size_t most_kept) : is_static_(is_static), most_kept_(most_kept) {}
+
+  // Stores a message, or keeps it back. True if the caretaker is to be woken, which he was not before.
+  bool receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes);
+
+  // Which buffers to fill from now on, when this returns no other ones; without any, everything is kept back.
+  void feed(std::vector<SharedBuffer*> buffers);
+  // Which publisher the middleware means by a number, and how a publisher is called.
+  void introduce(std::uint64_t publisher, std::string_view gid);
+  void name(std::string_view gid, std::string_view name);
+
+  // For the caretaker, who repeats it until there is nothing.
+  std::deque<Kept> take();
+  // Whether a buffer that somebody listens to has got data since the last time.
+  bool take_news();
+
+ private:
+  static constexpr std::size_t kMostPublishers = 1000;  // they come and go; beyond it, all are introduced anew
+  struct Publisher {
+    std::string gid, name;
+  };
+
+  bool store(std::uint64_t publisher, std::span<const unsigned char> bytes);
+
+  const bool is_static_;
+  const std::size_t most_kept_;
+  std::mutex mutex_;  // guards all that follows
+  std::vector<SharedBuffer*> buffers_;
+  std::unordered_map<std::uint64_t, Publisher> publishers_;
+  TfMessage message_;
+  std::deque<Kept> kept_;
+  bool taken_care_of_ = false;  // the caretaker is busy with what he took
+  bool called_ = false;         // the caretaker was told to come
+  bool news_ = false;
+};
+
+}  // namespace turtlewire

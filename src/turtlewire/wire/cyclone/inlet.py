@@ -1,0 +1,52 @@
+"""Messages that Cyclone's own thread hands to a compiled intake, without Python."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING
+
+from . import library as dds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire._native import Intake
+
+__all__ = ["Inlet"]
+
+_FUNCTIONS = (dds.take_serdata, dds.serdata_size, dds.serdata_to_bytes, dds.serdata_unref, dds.set_guard_condition)
+
+
+class Inlet:
+    """Connects one reader with an intake: native code is the reader's listener, and triggers the guard condition for the rest.
+
+    Attributes:
+        intake: It is kept alive until the inlet is closed.
+        guard: The condition that is true while the intake has kept back messages, or listeners of its buffers are to be called.
+        listener: What to create the reader with.
+    """
+
+    def __init__(self, participant: int, intake: Intake) -> None:
+        self.intake = intake
+        self.guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
+        first, second, third, fourth, fifth = (_address(function) for function in _FUNCTIONS)
+        callback, argument = intake.connect((first, second, third, fourth, fifth), self.guard)
+        self.listener = dds.create_listener(argument)
+        dds.lset_data_available(self.listener, callback)
+
+    def rest(self) -> list[tuple[bytes, int, int]]:
+        """Reset the guard condition, call listeners, and return what was kept back; to be repeated until that is nothing."""
+        dds.set_guard_condition(self.guard, False)
+        self.intake.call_listeners()
+        return self.intake.take()
+
+    def close(self) -> None:
+        """To be called when the reader has been deleted: then no thread is in the native code any more."""
+        dds.delete_listener(self.listener)
+        dds.delete(self.guard)
+
+
+def _address(function: Callable[..., object]) -> int:
+    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type] # a function of ctypes
+    assert address is not None
+    return address
