@@ -39,6 +39,8 @@ class Client(IntrospectedEndpoint):
     _ORDER = 3
     _GATED = False
 
+    _wire: base.Client
+
     def __init__(
         self,
         wire: base.Client,

@@ -19,7 +19,7 @@ from .time import Time
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
-    from typing import Self
+    from typing_extensions import Self
 
     from .context import Context
 
@@ -141,6 +141,8 @@ class Clock:
     """Tells the time of one clock type; ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`."""
 
     _clock_type: ClockType
+    _jump_handles: list[JumpHandle]
+    _lock: threading.Lock
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034 - it may make a subclass
         """Choose the class by the clock type."""
@@ -148,7 +150,7 @@ class Clock:
             raise TypeError("Clock type must be a ClockType enum")
         self = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
         self._clock_type = clock_type
-        self._jump_handles: list[JumpHandle] = []
+        self._jump_handles = []
         self._lock = threading.Lock()
         if isinstance(self, ROSClock):
             self._override_ns = 0

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
-    from typing import Self
+    from typing_extensions import Self
 
     from .parameter import Parameter
 

@@ -35,12 +35,12 @@ class ExecutorWait:
         self._waiting = False
         self._ended = False
 
-    def watch(self, wire: base.Entity, entity: Entity) -> None:
+    def watch(self, wire: base.Waitable, entity: Entity) -> None:
         """Report ``entity`` when its side on the wire has something."""
         self._by_wire[wire] = entity
         self._wait_set.attach(wire)
 
-    def unwatch(self, wire: base.Entity) -> None:
+    def unwatch(self, wire: base.Waitable) -> None:
         """Undo :meth:`watch`."""
         self._wait_set.detach(wire)
         self._by_wire.pop(wire, None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtlewire.msg import type_name
 from turtlewire.wire import names
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from .waitable import Waitable
 
 __all__ = ["NodeEndpoints"]
+
+_Owned = TypeVar("_Owned")
 
 
 class NodeEndpoints:
@@ -218,10 +220,11 @@ class NodeEndpoints:
         """Destroy ``resource`` together with the node; it calls ``_on_destroy(itself)`` when it was destroyed before."""
         self._own(type(resource), resource)
 
-    def _own(self, kind: type, owned: Any) -> Any:
+    def _own(self, kind: type, owned: _Owned) -> _Owned:
+        made: Any = owned
         with self._lock:
             self._owned.setdefault(kind, []).append(owned)
-        owned._on_destroy = self._disown
+        made._on_destroy = self._disown
         if isinstance(owned, Entity):
             executor = self._node.executor
             if executor is not None:

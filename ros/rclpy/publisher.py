@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
 from turtlewire.msg import serialize
-from turtlewire.wire.qos import Durability
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from .duration import Duration
 from .handle import Handle
+from .qos_policies import DurabilityPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,7 +44,7 @@ class Publisher:
         self.event_handlers: list[Any] = []
         self._wire = wire
         self._context = context
-        self._keeps_for_late_joiners = qos_profile.durability == Durability.TRANSIENT_LOCAL
+        self._keeps_for_late_joiners = qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
         self._destroyed = False
         self._on_destroy: Callable[[Publisher], None] | None = None
 

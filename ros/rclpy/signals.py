@@ -154,7 +154,7 @@ def uninstall_signal_handlers() -> None:
     watcher.close()
 
 
-_mask_before_fork: set[signal.Signals] = set()
+_mask_before_fork: set[int | signal.Signals] = set()
 
 
 def _before_fork() -> None:

@@ -140,7 +140,7 @@ def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
     code = getattr(callback, "__code__", None)  # a plain function or method, without importing inspect
     if code is not None and not code.co_flags & 0x0C and not hasattr(callback, "__wrapped__"):
         count = code.co_argcount - (1 if hasattr(callback, "__self__") else 0)
-        required = count - len(callback.__defaults__ or ())  # type: ignore[attr-defined]
+        required = count - len(callback.__defaults__ or ())
         if required == count and not code.co_kwonlyargcount and count in (1, 2):
             return Subscription.CallbackType(count - 1)
     import inspect

@@ -34,7 +34,7 @@ class Future:
         self._exception: BaseException | None = None
         self._exception_fetched = False
         self._callbacks: list[Callable[[Future], Any]] = []
-        self._waiters: list[Callable[[], None]] = []
+        self._waiters: list[Callable[[], object]] = []
         self._lock = threading.Lock()
         self._executor: weakref.ref[Executor] | None = None
         self._set_executor(executor)
@@ -154,7 +154,7 @@ class Future:
 
                 warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=3)
 
-    def _add_waiter(self, waiter: Callable[[], None]) -> None:
+    def _add_waiter(self, waiter: Callable[[], object]) -> None:
         """Call ``waiter()`` in the finishing thread, at once when done; for wake-ups, which must be short and not raise."""
         with self._lock:
             if self._pending():

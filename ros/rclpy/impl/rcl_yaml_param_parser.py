@@ -69,7 +69,8 @@ class _Parser:
     def _read(self, text: str) -> Iterator[yaml.Event]:
         try:
             for event in yaml.parse(text, Loader=yaml.SafeLoader):
-                self._line = event.start_mark.line + 1
+                if event.start_mark is not None:
+                    self._line = event.start_mark.line + 1
                 if isinstance(event, yaml.AliasEvent):
                     raise RuleError(f"Will not support aliasing at line {self._line}\n")
                 if not isinstance(event, (yaml.StreamStartEvent, yaml.DocumentStartEvent)):

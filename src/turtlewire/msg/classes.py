@@ -40,6 +40,10 @@ class Message:
     _TYPE_NAME: str
     _DEFINITION: MessageDefinition
 
+    if TYPE_CHECKING:  # each class gets a constructor of its own when it is made
+
+        def __init__(self, **fields: Any) -> None: ...
+
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
         """Names and types of the fields in order, the types spelled as ROS 2 does (``sequence<double>``, ``geometry_msgs/Vector3``)."""
