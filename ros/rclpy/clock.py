@@ -19,6 +19,7 @@ from .time import Time
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
+
     from typing_extensions import Self
 
     from .context import Context
