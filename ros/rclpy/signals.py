@@ -106,6 +106,7 @@ class _Watcher:
         if signum == signal.SIGINT:
             if self._interrupt_is_fresh():
                 return
+            _note_interrupt()
             self._interrupted_at = time.monotonic()
         previous = self._previous[signum]
         if callable(previous):
@@ -122,6 +123,12 @@ class _Watcher:
 _lock = threading.Lock()
 _watcher: _Watcher | None = None
 _options = SignalHandlerOptions.NO
+_interrupted = False
+
+
+def _note_interrupt() -> None:
+    global _interrupted  # noqa: PLW0603 - as of the handlers, there is one in the process
+    _interrupted = True
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
@@ -175,6 +182,13 @@ def _after_fork_in_child() -> None:
     signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
 
 
-atexit.register(uninstall_signal_handlers)
+def _end() -> None:
+    """Python's own end puts the default of SIGINT back: the second signal of the same Ctrl-C would kill a process that ends well."""
+    uninstall_signal_handlers()
+    if _interrupted:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+atexit.register(_end)
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(before=_before_fork, after_in_parent=_after_fork_in_parent, after_in_child=_after_fork_in_child)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import subprocess
+import sys
 import time
 
 import pytest
@@ -279,3 +281,27 @@ def test_a_forked_child_does_not_shut_its_parent_down(start):
 def test_a_program_that_never_shuts_down_ends(start):
     program = start("import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')", "rmw_cyclonedds_cpp")
     assert program.finish() == (0, "", "")
+
+
+LATE = """
+import os, signal, rclpy
+
+class Last:
+    def __del__(self, kill=os.kill, pid=os.getpid(), print=print):
+        print("a second time", flush=True)
+        kill(pid, signal.SIGINT)
+
+last = Last()  # goes with the module, after Python has put the default handlers back
+rclpy.init()
+try:
+    os.kill(os.getpid(), signal.SIGINT)
+    rclpy.spin(rclpy.create_node("n"))
+except KeyboardInterrupt:
+    rclpy.try_shutdown()
+"""
+
+
+def test_the_second_signal_of_one_ctrl_c_does_not_kill_a_process_that_is_ending():
+    """`ros2 launch` passes Ctrl-C on to processes that the terminal has told already."""
+    done = subprocess.run([sys.executable, "-c", LATE], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "a second time\n", "")
