@@ -25,9 +25,10 @@ from turtlewire_ros.manifest import manifest_fault
 if TYPE_CHECKING:
     from colcon_core.package_descriptor import PackageDescriptor
 
-__all__ = ["InterfacePackageBuild", "InterfacePackageIdentification"]
+__all__ = ["InterfacePackageBuild", "InterfacePackageIdentification", "UnreadablePackageBuild"]
 
 _TYPE = "ros.turtlewire_interfaces"  # "ros." has colcon-ros read the dependencies in package.xml
+_UNREADABLE_TYPE = "turtlewire.unreadable"
 _KINDS = ("msg", "srv", "action")
 _BUILDS_CODE = re.compile(r"^\s*(add_executable|add_library|ament_python_install_package)\s*\(", re.MULTILINE)
 _GENERATES_INTERFACES = re.compile(r"^\s*rosidl_generate_interfaces\s*\(", re.MULTILINE)
@@ -49,7 +50,8 @@ class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
             return
         fault = manifest_fault(manifest)
         if fault is not None:
-            colcon_logger.error(fault)  # colcon-ros goes on without a word, and builds a package that ROS does not find
+            colcon_logger.error(fault)
+            desc.name, desc.type = desc.path.name, _UNREADABLE_TYPE
             return
         if not cmake.is_file():
             return
@@ -59,6 +61,14 @@ class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
         self._ros.identify(desc)
         if desc.type == "ros.ament_cmake":
             desc.type = _TYPE
+
+
+class UnreadablePackageBuild(TaskExtensionPoint):
+    """Fails for a package whose package.xml cannot be read, where colcon-ros would build without a word what ROS then does not find."""
+
+    async def build(self) -> int:
+        """What is wrong was said when the package was found; returns the exit status."""
+        return 1
 
 
 class InterfacePackageBuild(TaskExtensionPoint):
