@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -13,10 +14,41 @@ from ros2cli.commands import COMMANDS
 
 if TYPE_CHECKING:
     from types import ModuleType
+    from typing import NoReturn
 
 __all__ = ["main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
+_INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
+_OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
+
+#: Commands of ROS 2 that are not here, and what does their work.
+_NOT_HERE = {
+    "bag": "There are no bags here yet; `pip install rosbags` reads and writes them without ROS.",
+    "component": "Containers of nodes are for launch files here: ComposableNodeContainer and LoadComposableNodes.",
+    "control": "ros2_control is C++, and not part of this distribution.",
+    "plugin": "Plugins of C++ are not part of this distribution.",
+    "security": "Encrypted communication is not part of this distribution.",
+}
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that helps on a further line when a word is not known."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print usage and message as argparse does, and a hint."""
+        match = _INVALID_CHOICE.search(message)
+        if match:
+            message += _hint(match[1], re.findall(r"[\w-]+", message[match.end() :]))
+        super().error(message)
+
+
+def _hint(word: str, known: list[str]) -> str:
+    if word in _NOT_HERE and "topic" in known:
+        return f"\n{_NOT_HERE[word]}"
+    from ros2cli.suggestion import did_you_mean
+
+    return did_you_mean(word, known)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -29,12 +61,22 @@ def main(argv: list[str] | None = None) -> int:
         The exit status.
     """
     words = sys.argv[1:] if argv is None else argv
+    try:
+        return _run(words)
+    except KeyboardInterrupt:
+        return _EXIT_INTERRUPTED
+
+
+def _run(words: list[str]) -> int:
     parser = make_parser(_words_to_complete() or words)
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
 
         argcomplete.autocomplete(parser, exclude=["-h", "--help"])
-    args = parser.parse_args(words)
+    args, unknown = parser.parse_known_args(words)
+    if unknown:
+        options = _OPTION.findall(getattr(args, "parser", parser).format_usage())
+        parser.error(f"unrecognized arguments: {' '.join(unknown)}{_hint(unknown[0], options)}")
     if not args.use_python_default_buffering:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     return _status(args)
@@ -46,7 +88,7 @@ def make_parser(words: list[str]) -> argparse.ArgumentParser:
     Args:
         words: The words after ``ros2``.
     """
-    parser = argparse.ArgumentParser(prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False)
+    parser = _Parser(prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False)
     parser.add_argument("--use-python-default-buffering", action="store_true", help="Leave the buffering of the output to Python")
     parser.set_defaults(show_help=parser.print_help)
     _add_choices(parser, "ros2", COMMANDS, words, "ros2cli.commands")
@@ -83,8 +125,6 @@ def _status(args: argparse.Namespace) -> int:
         return 0
     try:
         status: int | str | None = module.main(args)
-    except KeyboardInterrupt:
-        return _EXIT_INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe has enough
         sys.stdout = None  # type: ignore[assignment]
         return 1

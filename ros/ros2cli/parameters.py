@@ -80,6 +80,13 @@ class RemoteParameters:
         except TimeoutError as error:
             raise RuntimeError(f"The node '{self.node_name}' did not answer within {self._timeout} s") from error
 
+    def meant(self, name: str) -> str:
+        """A line with the nearest parameters, to be put behind a message; empty when there is one of this name, or none is near."""
+        from ros2cli.suggestion import did_you_mean
+
+        known = self.names([])
+        return "" if name in known else did_you_mean(name, known)
+
     def names(self, prefixes: list[str]) -> list[str]:
         """Names of all parameters below the prefixes, sorted."""
         return sorted(self._ask("list_parameters", prefixes).result.names)

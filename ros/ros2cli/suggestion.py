@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["did_you_mean"]
+__all__ = ["did_you_mean", "field_meant", "interface_meant", "package_meant", "say_what_was_meant"]
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
@@ -16,3 +17,31 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 
     near = difflib.get_close_matches(name, list(known), n=3)
     return f"\nDid you mean: {', '.join(near)}" if near else ""
+
+
+def field_meant(error: BaseException | None) -> str:
+    """As `did_you_mean`, for a field that a message does not have; empty for other errors."""
+    fields = getattr(getattr(error, "obj", None), "get_fields_and_field_types", None)
+    return did_you_mean(str(getattr(error, "name", "")), fields()) if fields is not None else ""
+
+
+def package_meant(name: str) -> str:
+    """As `did_you_mean`, for the name of a package."""
+    from turtlewire_ros.prefix import package_names
+
+    return did_you_mean(name, package_names())
+
+
+def interface_meant(name: str, kind: str = "") -> str:
+    """As `did_you_mean`, for the name of an interface; ``kind`` is msg, srv or action when only those will do."""
+    from ros2cli.completion import interfaces
+
+    return did_you_mean(name, (known for known in interfaces() if f"/{kind}/" in known or not kind))
+
+
+def say_what_was_meant(name: str, known: Iterable[str]) -> None:
+    """Print the nearest names to stderr, unless the name is one of them or none is near."""
+    names = list(known)
+    line = "" if name in names else did_you_mean(name, names)
+    if line:
+        print(line.lstrip("\n"), file=sys.stderr)

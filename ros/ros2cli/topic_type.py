@@ -21,7 +21,9 @@ def message_class(type_name: str) -> Any:
     try:
         return get_message(type_name)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError("The passed message type is invalid") from None
+        from ros2cli.suggestion import interface_meant
+
+        raise RuntimeError(f"The passed message type is invalid{interface_meant(type_name, 'msg')}") from None
 
 
 def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
@@ -41,6 +43,9 @@ def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
     types = graph.topic_names_and_types().get(topic, [])
     if not types:
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
+        from ros2cli.suggestion import say_what_was_meant
+
+        say_what_was_meant(topic, graph.topic_names_and_types())
         if not blocking:
             return None
         graph.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))

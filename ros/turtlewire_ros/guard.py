@@ -14,13 +14,16 @@ __all__ = ["foreign_package", "main"]
 
 def main() -> int | str:
     """Run the ``ros2`` command line of this process; returns what ``sys.exit`` takes: the status, or what is wrong."""
-    foreign = foreign_package()
-    if foreign is not None:
-        remedy = "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH."
-        return f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire. {remedy}"
-    from ros2cli.main import main as run
+    try:
+        foreign = foreign_package()
+        if foreign is not None:
+            remedy = "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH."
+            return f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire. {remedy}"
+        from ros2cli.main import main as run
 
-    return run()
+        return run()
+    except KeyboardInterrupt:  # before the command line was read
+        return 2
 
 
 def foreign_package() -> str | None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-    from launch import LaunchDescription, LaunchDescriptionSource
+    from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
 __all__ = ["add_arguments", "main"]
 
@@ -48,17 +48,32 @@ def main(args: argparse.Namespace) -> int | str | None:
         if value is not None:
             arguments.append((name.replace("_", "-"), value))
     from launch import LaunchDescription
-    from launch.actions import IncludeLaunchDescription
+    from launch.actions import IncludeLaunchDescription, OpaqueFunction
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     source = AnyLaunchDescriptionSource(path)
     if args.show_args:
         return _show_arguments(source)
-    description = LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
     if args.print:
         return _print_description(source)
+    check = OpaqueFunction(function=_warn_of_unknown, args=[source, [name for name, _ in _parsed_arguments(words)]])
+    description = LaunchDescription([check, IncludeLaunchDescription(source, launch_arguments=arguments)])
     with _terminal_restored():
         return _launch(description, args)
+
+
+def _warn_of_unknown(context: LaunchContext, source: LaunchDescriptionSource, names: list[str]) -> None:
+    """Name arguments that the file does not declare and that look like one that it does."""
+    if not names:
+        return
+    from launch.logging import get_logger
+    from ros2cli.suggestion import did_you_mean
+
+    declared = [argument.name for argument in source.get_launch_description(context).get_launch_arguments()]
+    for name in names:
+        meant = "" if name in declared else did_you_mean(name, declared)
+        if meant:
+            get_logger("launch").warning(f"the launch file declares no argument '{name}'{meant}")
 
 
 def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
@@ -102,7 +117,9 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
     try:
         share = get_package_share_directory(args.package_name)
     except PackageNotFoundError as error:
-        raise RuntimeError(f"Package '{args.package_name}' not found: {error}") from error
+        from ros2cli.suggestion import package_meant
+
+        raise RuntimeError(f"Package '{args.package_name}' not found: {error}{package_meant(args.package_name)}") from error
     return _in_share(args.package_name, share, str(name)), args.launch_arguments
 
 

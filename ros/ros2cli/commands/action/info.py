@@ -23,13 +23,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> None:
     """Print clients and servers."""
-    from ros2cli.graph import action_nodes
+    from ros2cli.graph import action_nodes, actions
+    from ros2cli.suggestion import say_what_was_meant
 
     with GraphNode() as graph:
         sides = {"clients": "subscription", "servers": "publisher"}
         found = {side: action_nodes(graph, args.action_name, kind) for side, kind in sides.items()}
+        known = dict(actions(graph))
     print(f"Action: {args.action_name}")
     for side, nodes in found.items():
         print(f"Action {side}: {len(nodes)}")
         for name, types in () if args.count else nodes:
             print(f"    {name} [{', '.join(types)}]" if args.show_types else f"    {name}")
+    say_what_was_meant(args.action_name, known)

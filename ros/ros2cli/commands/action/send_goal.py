@@ -32,26 +32,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Send the goal, and print what becomes of it; Ctrl-C cancels it."""
+    from ros2cli.suggestion import field_meant, interface_meant, say_what_was_meant
     from rosidl_runtime_py import set_message_fields
     from rosidl_runtime_py.utilities import get_action
 
     try:
         action_class = get_action(args.action_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError("The passed action type is invalid") from None
+        raise RuntimeError(f"The passed action type is invalid{interface_meant(args.action_type, 'action')}") from None
     goal = action_class.Goal()
     values = read_values(sys.stdin.read() if args.stdin else args.goal)
     try:
         set_message_fields(goal, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate message fields: {error!r}"
+        return f"Failed to populate message fields: {error!r}{field_meant(error)}"
     from rclpy.action import ActionClient
     from ros2cli.direct_node import DirectNode
+    from ros2cli.graph import actions
 
     with DirectNode(args) as direct:
         client = ActionClient(direct.node, action_class, args.action_name)
         try:
             print("Waiting for an action server to become available...")
+            say_what_was_meant(args.action_name, dict(actions(direct.graph)).keys() - {args.action_name})
             client.wait_for_server()
             return _run(direct, client, goal, feedback=args.feedback)
         finally:

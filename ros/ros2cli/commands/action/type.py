@@ -22,9 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Print the type; status 1 when there is no such action."""
     from ros2cli.graph import actions
+    from ros2cli.suggestion import say_what_was_meant
 
     with GraphNode() as graph:
-        types = dict(actions(graph)).get(args.action_name, [])
+        known = dict(actions(graph))
+    types = known.get(args.action_name, [])
     for name in types:
         print(name)
+    say_what_was_meant(args.action_name, known)
     return 0 if types else 1

@@ -23,11 +23,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the full names."""
+    from ros2cli.suggestion import did_you_mean
     from turtlewire import msg
 
     packages = msg.interface_names()
     if args.package_name not in packages:
-        return f"Unknown package '{args.package_name}'"
+        return f"Unknown package '{args.package_name}'{did_you_mean(args.package_name, packages)}"
     wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
     for kind, is_wanted in wanted.items():
         if is_wanted or not any(wanted.values()):

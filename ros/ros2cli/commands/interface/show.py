@@ -30,7 +30,9 @@ def main(args: argparse.Namespace) -> str | None:
         for line in _lines(name, comments=not args.no_comments, nested_comments=args.all_comments, depth=0):
             print(line)
     except (LookupError, OSError) as error:
-        return str(error.args[-1])
+        from ros2cli.suggestion import interface_meant
+
+        return f"{error.args[-1]}{interface_meant(name)}"
     return None
 
 

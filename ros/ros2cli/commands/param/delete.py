@@ -23,9 +23,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> None:
     """Delete it, and print the result."""
     with DirectNode(args) as direct:
-        (result,) = RemoteParameters(direct, args).delete([args.parameter_name])
+        parameters = RemoteParameters(direct, args)
+        (result,) = parameters.delete([args.parameter_name])
+        meant = "" if result.successful else parameters.meant(args.parameter_name)
     reason = f": {result.reason}" if result.reason else ""
     if result.successful:
         print(f"Deleted parameter successfully{reason}")
     else:
-        print(f"Deleting parameter failed{reason}", file=sys.stderr)
+        print(f"Deleting parameter failed{reason}{meant}", file=sys.stderr)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
@@ -22,10 +23,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> str | None:
     """Print what the node says of them."""
     with DirectNode(args) as direct:
-        descriptors = RemoteParameters(direct, args).descriptors(args.parameter_names)
+        parameters = RemoteParameters(direct, args)
+        descriptors = parameters.descriptors(args.parameter_names)
+        described = {descriptor.name for descriptor in descriptors}
+        meant = "".join(parameters.meant(name) for name in args.parameter_names if name not in described)
     for descriptor in descriptors:
         _print(descriptor)
-    return None if descriptors else "Parameter not set"
+    if not descriptors:
+        return f"Parameter not set{meant}"
+    if meant:
+        print(meant.lstrip("\n"), file=sys.stderr)
+    return None
 
 
 def _print(descriptor: Any) -> None:

@@ -37,9 +37,10 @@ def main(args: argparse.Namespace) -> str | None:
     from rclpy.parameter import parameter_value_to_python
 
     with DirectNode(args) as direct:
-        values = RemoteParameters(direct, args).values([args.parameter_name])
-    if not values or values[0].type not in _LABELS:
-        return "Parameter not set"
+        parameters = RemoteParameters(direct, args)
+        values = parameters.values([args.parameter_name])
+        if not values or values[0].type not in _LABELS:
+            return f"Parameter not set{parameters.meant(args.parameter_name)}"
     value: Any = parameter_value_to_python(values[0])
     shown = list(value) if hasattr(value, "typecode") else value
     print(shown if args.hide_type else f"{_LABELS[values[0].type]} {shown}")

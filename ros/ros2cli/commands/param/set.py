@@ -28,9 +28,11 @@ def main(args: argparse.Namespace) -> None:
 
     parameter = Parameter(name=args.parameter_name, value=get_parameter_value(args.value))
     with DirectNode(args) as direct:
-        (result,) = RemoteParameters(direct, args).set([parameter])
+        parameters = RemoteParameters(direct, args)
+        (result,) = parameters.set([parameter])
+        meant = "" if result.successful else parameters.meant(args.parameter_name)
     reason = f": {result.reason}" if result.reason else ""
     if result.successful:
         print(f"Set parameter successful{reason}")
     else:
-        print(f"Setting parameter failed{reason}", file=sys.stderr)
+        print(f"Setting parameter failed{reason}{meant}", file=sys.stderr)

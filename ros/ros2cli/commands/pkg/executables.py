@@ -22,13 +22,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Print package and executable, or the path."""
+    from ros2cli.suggestion import package_meant
     from turtlewire_ros.executables import executable_paths
 
     names = packages() if args.package_name is None else [args.package_name]
     for name in names:
         paths = executable_paths(name)
         if paths is None:
-            return f"Package '{name}' not found"
+            return f"Package '{name}' not found{package_meant(name)}"
         for path in paths:
             print(path if args.full_path else f"{name} {os.path.basename(path)}")
     return None

@@ -21,10 +21,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the folder."""
+    from ros2cli.suggestion import package_meant
     from turtlewire_ros.prefix import package_prefix, share_directory
 
     folder = (share_directory if args.share else package_prefix)(args.package_name)
     if folder is None:
-        return "Package not found"
+        return f"Package not found{package_meant(args.package_name)}"
     print(folder)
     return None

@@ -22,11 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the file, or the content of a tag."""
+    from ros2cli.suggestion import package_meant
     from turtlewire_ros.prefix import share_directory
 
     share = share_directory(args.package_name)
     if share is None:
-        return "Package not found"
+        return f"Package not found{package_meant(args.package_name)}"
     path = os.path.join(share, "package.xml")
     with open(path, encoding="utf-8") as file:
         text = file.read()

@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Call, and print the response."""
+    from ros2cli.suggestion import field_meant, interface_meant, say_what_was_meant
     from rosidl_runtime_py import set_message_fields
     from rosidl_runtime_py.utilities import get_service
 
@@ -38,18 +39,20 @@ def main(args: argparse.Namespace) -> str | None:
     try:
         service_class = get_service(args.service_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError("The passed service type is invalid") from None
+        raise RuntimeError(f"The passed service type is invalid{interface_meant(args.service_type, 'srv')}") from None
     request = service_class.Request()
     try:
         set_message_fields(request, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate field: {error}"
+        return f"Failed to populate field: {error}{field_meant(error)}"
     from ros2cli.direct_node import DirectNode
+    from ros2cli.graph import services
 
     with DirectNode(args) as direct:
         client = direct.node.create_client(service_class, args.service_name)
         if not client.service_is_ready():
             print("waiting for service to become available...")
+            say_what_was_meant(client.srv_name, dict(services(direct.graph)).keys() - {client.srv_name})
             client.wait_for_service()
         while True:
             _call(direct, client, request)

@@ -23,9 +23,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Print the type; status 1 when there is no such service."""
     from ros2cli.graph import services
+    from ros2cli.suggestion import say_what_was_meant
 
     with GraphNode(args.spin_time) as graph:
-        types = dict(services(graph, hidden=True)).get(args.service_name, [])
+        known = dict(services(graph, hidden=True))
+    types = known.get(args.service_name, [])
     for name in types:
         print(name)
+    say_what_was_meant(args.service_name, known)
     return 0 if types else 1

@@ -126,7 +126,9 @@ def _field(message: Any, path: str | None) -> Any:
         try:
             message = getattr(message, name) if name else message[int(index)]
         except (AttributeError, IndexError, TypeError) as error:  # noqa: PERF203  a path has few parts
-            raise RuntimeError(f"Invalid field '{path}': {error}") from error
+            from ros2cli.suggestion import field_meant
+
+            raise RuntimeError(f"Invalid field '{path}': {error}{field_meant(error)}") from error
     return message
 
 

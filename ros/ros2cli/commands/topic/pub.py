@@ -47,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> str | None:
     """Publish."""
     from ros2cli.direct_node import DirectNode
+    from ros2cli.suggestion import field_meant
     from ros2cli.topic_type import message_class
     from rosidl_runtime_py import set_message_fields
 
@@ -55,7 +56,7 @@ def main(args: argparse.Namespace) -> str | None:
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate field: {error}"
+        return f"Failed to populate field: {error}{field_meant(error)}"
     times = 1 if args.once else args.times
     with DirectNode(args, name=args.node_name) as direct:
         publisher = direct.node.create_publisher(type(message), args.topic_name, with_options(args, "default"))

@@ -1,0 +1,114 @@
+"""Unknown names: the error line is that of ROS 2, and the nearest names follow on a line of their own."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from ros2cli.main import main
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+
+def errors(capsys, *words):
+    """The lines on stderr of a command that fails."""
+    try:
+        status = main(list(words))
+    except SystemExit as end:
+        status = end.code
+    assert status in (1, 2)
+    return [line for line in capsys.readouterr().err.splitlines() if not line.startswith(("usage:", "      "))]
+
+
+@pytest.mark.parametrize(
+    ("line", "message", "near"),
+    [
+        ("lauch", "ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: invalid choice: 'lauch'", "launch"),
+        ("topic eco", "ros2 topic: error: argument Call `ros2 topic <verb> -h` for more detailed usage.: invalid choice: 'eco'", "echo"),
+        ("topic list --includ-hidden", "ros2: error: unrecognized arguments: --includ-hidden", "--include-hidden-topics"),
+        ("run turtlesm turtlesim_node", "Package 'turtlesm' not found", "turtlesim"),
+        ("launch turtlesm x.launch.py", "Package 'turtlesm' not found: \"package 'turtlesm' not found, searching: ", "turtlesim"),
+        ("pkg prefix turtlesm", "Package not found", "turtlesim"),
+        ("pkg xml turtlesm", "Package not found", "turtlesim"),
+        ("pkg executables turtlesm", "Package 'turtlesm' not found", "turtlesim"),
+        ("interface show geometry_msgs/msg/Twst", "unknown interface 'geometry_msgs/msg/Twst'", "geometry_msgs/msg/Twist"),
+        ("interface proto std_msgs/msg/Strng", "AttributeError: module 'std_msgs.msg' has no attribute 'Strng'", "std_msgs/msg/String"),
+        ("interface package geometry_msg", "Unknown package 'geometry_msg'", "geometry_msgs"),
+        ("topic pub /x geometry_msgs/msg/Twits", "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        ("topic echo /x geometry_msgs/msg/Twits", "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        ("service call /x turtlesim/srv/Spwn", "The passed service type is invalid", "turtlesim/srv/Spawn"),
+        ("action send_goal /x turtlesim/action/RotatAbsolute {}", "The passed action type is invalid", "turtlesim/action/RotateAbsolute"),
+        ("service call /x turtlesim/srv/Spawn {nme:1}", "Failed to populate field: 'Spawn_Request' object has no attribute 'nme'", "name"),
+    ],
+)  # fmt: skip
+def test_names_that_are_known_without_nodes(capsys, line, message, near):
+    told, hint = errors(capsys, *(word.replace(":1", ": '1'") for word in line.split()))
+    assert told.startswith(message)
+    assert hint.removeprefix("Did you mean: ").split(", ")[0] == near
+
+
+@pytest.mark.parametrize("command", ["bag", "component"])
+def test_commands_that_are_not_here(capsys, command):
+    told, hint = errors(capsys, command, "list")
+    assert f"invalid choice: '{command}'" in told
+    assert hint.startswith(("There are no bags here yet", "Containers of nodes are for launch files here"))
+
+
+def test_what_is_like_nothing_gets_no_hint(capsys):
+    assert len(errors(capsys, "zzzz")) == 1
+    assert errors(capsys, "pkg", "prefix", "zzzz") == ["Package not found"]
+
+
+@pytest.fixture
+def pose_publisher():
+    context = open_context()
+    node = context.create_node("turtlesim")
+    node.create_publisher("/turtle1/pose", TypeId("turtlesim/msg/Pose", "RIHS01_" + "0" * 64), QoS())
+    yield
+    context.close()
+
+
+@pytest.mark.usefixtures("pose_publisher")
+def test_names_of_the_graph(capsys):
+    hint = "Did you mean: /turtle1/pose"
+    assert errors(capsys, "topic", "echo", "/turtel1/pose") == [hint, "Could not determine the type for the passed topic"]
+    assert errors(capsys, "topic", "type", "/turtel1/pose") == [hint]
+    assert errors(capsys, "topic", "info", "/turtel1/pose") == ["Unknown topic '/turtel1/pose'", hint]
+    assert errors(capsys, "node", "info", "/turtlsim") == ["Unable to find node '/turtlsim'", "Did you mean: /turtlesim"]
+    assert errors(capsys, "param", "get", "/turtlsim", "x") == ["Node not found", "Did you mean: /turtlesim"]
+
+
+def test_parameters_and_services(run, capsys):
+    node = run(sys.executable, "-m", "turtlesim.turtlesim_node", "--headless")
+    node.wait_for("Spawning turtle")
+    near = "Did you mean: background_r, "
+    message, hint = errors(capsys, "param", "get", "/turtlesim", "backgroud_r")
+    assert message == "Parameter not set"
+    assert hint.startswith(near)
+    assert main(["param", "set", "/turtlesim", "backgroud_r", "3"]) == 0
+    message, hint = capsys.readouterr().err.splitlines()
+    assert message == "Setting parameter failed: parameter 'backgroud_r' cannot be set because it was not declared"
+    assert hint.startswith(near)
+    assert main(["param", "describe", "/turtlesim", "backgroud_r"]) == 0
+    assert capsys.readouterr().err.startswith(near)
+    assert errors(capsys, "service", "type", "/spwn") == ["Did you mean: /spawn"]
+    assert main(["action", "info", "/turtle1/rotate_absolut"]) == 0
+    assert capsys.readouterr().err == "Did you mean: /turtle1/rotate_absolute\n"
+
+
+LAUNCH = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument("target_frame", default_value="turtle1")])
+"""
+
+
+def test_launch_arguments(ros2_launch):
+    launch = ros2_launch(LAUNCH, "targt_frame:=turtle3", "quite_another:=1")
+    assert launch.wait() == 0
+    warning = launch.text.splitlines()[2:]
+    assert warning == ["[WARNING] [launch]: the launch file declares no argument 'targt_frame'", "Did you mean: target_frame"]
