@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import struct
 from collections import deque
-from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from turtlesim.model import Stroke
@@ -18,10 +17,26 @@ _RECORD = struct.Struct("<I4f")
 RECORD_SIZE = _RECORD.size
 #: Strokes kept one by one, for browsers that watch; one that falls back further starts again.
 _RECENT = 20_000
-#: Lines kept of what is older. Beyond them the oldest are forgotten: a browser that opens then does not see them.
+#: Lines kept of what is older, and strokes of a crowd. Beyond them the oldest are forgotten: a browser that opens then does not see them.
 _OLDER = 200_000
 #: How far a joined line may pass beside a point that the turtle visited [pixels].
 _TOLERANCE = 0.05
+
+
+class _Entry(NamedTuple):
+    """Strokes drawn together.
+
+    Attributes:
+        end: How many strokes there have been up to the last of these.
+        count: How many these are.
+        records: Their records.
+        origin: The one stroke and its turtle's name; None for those of a crowd, which are never joined.
+    """
+
+    end: int
+    count: int
+    records: bytes
+    origin: tuple[str, Stroke] | None
 
 
 class Drawing:
@@ -31,7 +46,8 @@ class Drawing:
     """
 
     def __init__(self) -> None:
-        self._recent: deque[tuple[str, Stroke]] = deque()
+        self._recent: deque[_Entry] = deque()
+        self._held = 0
         self._next = 0
         self._cleared_at = 0
         self._older: deque[_Line] = deque(maxlen=_OLDER)
@@ -39,14 +55,17 @@ class Drawing:
 
     def add(self, turtle: str, stroke: Stroke) -> None:
         """Append a stroke of the turtle of that name."""
-        self._recent.append((turtle, stroke))
-        self._next += 1
-        if len(self._recent) > _RECENT:
-            self._age(*self._recent.popleft())
+        self._append(1, _record(stroke), (turtle, stroke))
+
+    def add_records(self, records: bytes) -> None:
+        """Append strokes of a crowd, as records."""
+        if records:
+            self._append(len(records) // RECORD_SIZE, records, None)
 
     def clear(self) -> None:
         """Forget everything; every reader starts again."""
         self._recent.clear()
+        self._held = 0
         self._older.clear()
         self._open.clear()
         self._next += 1
@@ -61,12 +80,25 @@ class Drawing:
         Returns:
             Whether the reader must begin with an empty picture, the records (each of :data:`RECORD_SIZE` bytes), and the new position.
         """
-        first_recent = self._next - len(self._recent)
-        restart = position < max(first_recent, self._cleared_at)
-        records = [line.record() for line in self._older] if restart else []
-        skip = 0 if restart else position - first_recent
-        records += [_record(stroke) for _, stroke in islice(self._recent, skip, None)]
-        return restart, b"".join(records), self._next
+        restart = position < max(self._next - self._held, self._cleared_at)
+        records = []
+        for entry in reversed(self._recent):
+            if entry.end <= position and not restart:
+                break
+            records.append(entry.records)
+        if restart:
+            records += [line.record() for line in reversed(self._older)]
+        return restart, b"".join(reversed(records)), self._next
+
+    def _append(self, count: int, records: bytes, origin: tuple[str, Stroke] | None) -> None:
+        self._next += count
+        self._held += count
+        self._recent.append(_Entry(self._next, count, records, origin))
+        while self._recent and self._held > (_OLDER if self._recent[0].origin is None else _RECENT):
+            entry = self._recent.popleft()
+            self._held -= entry.count
+            if entry.origin is not None:
+                self._age(*entry.origin)
 
     def _age(self, turtle: str, stroke: Stroke) -> None:
         line = self._open.get(turtle)

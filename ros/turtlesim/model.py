@@ -193,6 +193,11 @@ class Turtle:
         self._command_is_fresh = False
         self._teleports: list[tuple[bool, float, float, float]] = []
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether the next tick only drives it: no teleport, no rotation to a goal."""
+        return self.rotation is None and not self._teleports
+
     def drive(self, forward: float, lateral: float, turning: float) -> Rotation | None:
         """Take a velocity command; it holds for one second from the next tick on.
 
@@ -318,6 +323,7 @@ class World:
 
     def __init__(self) -> None:
         self.turtles: dict[str, Turtle] = {}
+        self._order: list[Turtle] | None = None
         self._named = 0
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle | None:
@@ -337,6 +343,7 @@ class World:
         elif name in self.turtles:
             return None
         turtle = self.turtles[name] = Turtle(name, x, y, theta)
+        self._order = None
         return turtle
 
     def spawn_centred(self) -> Turtle:
@@ -348,12 +355,20 @@ class World:
 
     def kill(self, name: str) -> Turtle | None:
         """Remove a turtle and return it, or None when there is none of that name."""
+        self._order = None
         return self.turtles.pop(name, None)
 
     def reset(self) -> None:
         """Remove all turtles; names start at ``turtle1`` again."""
         self.turtles.clear()
+        self._order = None
         self._named = 0
+
+    def in_order(self) -> list[Turtle]:
+        """All turtles in the order of their names, in which they move and draw; not to be changed."""
+        if self._order is None:
+            self._order = [self.turtles[name] for name in sorted(self.turtles)]
+        return self._order
 
     def step(self, now_ns: int) -> list[TurtleTick]:
         """Move every turtle by one tick, in the order of their names.
@@ -361,7 +376,7 @@ class World:
         Args:
             now_ns: The time of this tick, on any clock that only moves forward; commands grow old by it.
         """
-        return [self.turtles[name].step(now_ns) for name in sorted(self.turtles)]
+        return [turtle.step(now_ns) for turtle in self.in_order()]
 
     def _next_name(self) -> str:
         while True:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from turtlesim.model import IMAGE_SIZE
+from turtlesim.model import IMAGE_SIZE, Pen, Stroke
 
 if TYPE_CHECKING:
-    from turtlesim.model import Stroke
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = ["EMPTY_COLOUR", "PathImage"]
 
@@ -38,6 +39,20 @@ class PathImage:
     def draw(self, stroke: Stroke) -> None:
         """Add a pen line."""
         self._pending.append(stroke)
+
+    def draw_lines(self, lines: NDArray[np.float64], pens: NDArray[np.uint8]) -> None:
+        """Add many pen lines, in order.
+
+        Args:
+            lines: Shape (n, 4): x0, y0, x1, y1.
+            pens: Shape (n, 4): red, green, blue, width.
+        """
+        from turtlesim.path_bulk import draw_short_lines
+
+        self._draw_pending()
+        if not draw_short_lines(self._rgba, lines, pens):
+            for (x0, y0, x1, y1), pen in zip(lines.tolist(), pens.tolist(), strict=True):
+                self._draw_now(Stroke(x0, y0, x1, y1, Pen(*pen)))
 
     def settle(self) -> None:
         """Draw what waits if it is much, so that nobody who looks later has to wait for it. Call it after each tick."""
@@ -68,9 +83,9 @@ class PathImage:
         self._pending.clear()
 
     def _draw_together(self) -> bool:
-        from turtlesim.path_bulk import draw_short_strokes
+        from turtlesim.path_bulk import as_arrays, draw_short_lines
 
-        return draw_short_strokes(self._rgba, self._pending)
+        return draw_short_lines(self._rgba, *as_arrays(self._pending))
 
     def _draw_now(self, stroke: Stroke) -> None:
         pixel = bytes((stroke.pen.r, stroke.pen.g, stroke.pen.b, 255))

@@ -1,4 +1,4 @@
-"""Draws many short strokes at once, pixel for pixel as :mod:`turtlesim.path` does one by one. For swarms; the only user of NumPy here."""
+"""Draws many short lines at once, pixel for pixel as :mod:`turtlesim.path` does one by one. For swarms; with NumPy."""
 
 from __future__ import annotations
 
@@ -13,39 +13,53 @@ if TYPE_CHECKING:
 
     from turtlesim.model import Stroke
 
-__all__ = ["draw_short_strokes"]
+__all__ = ["as_arrays", "draw_short_lines"]
 
 _GRID = 64
-#: Longest extent of a stroke with its pen [pixels]; every stroke costs this number squared.
+#: Longest extent of a line with its pen [pixels]; every line costs the square of the longest one's.
 MAX_EXTENT = 10
 
 
-def draw_short_strokes(rgba: bytearray, strokes: list[Stroke]) -> bool:
-    """Draw the strokes in order into a picture of 500 x 500 pixels, 4 bytes each.
+def as_arrays(strokes: list[Stroke]) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+    """Places and pens of strokes, shape (n, 4) each, as :func:`draw_short_lines` takes them."""
+    return np.array([stroke[:4] for stroke in strokes], dtype=np.float64), np.array([stroke.pen for stroke in strokes], dtype=np.uint8)
+
+
+def draw_short_lines(rgba: bytearray, lines: NDArray[np.float64], pens: NDArray[np.uint8]) -> bool:
+    """Draw lines in order into a picture of 500 x 500 pixels, 4 bytes each.
+
+    Args:
+        rgba: The picture.
+        lines: Shape (n, 4): x0, y0, x1, y1 [pixels].
+        pens: Shape (n, 4): red, green, blue, width.
 
     Returns:
         False, and nothing is drawn, when one of them is too long for this.
     """
-    corners_x, corners_y = _corners(strokes)
+    if not len(lines):
+        return True
+    corners_x, corners_y = _corners(lines, pens[:, 3])
     top = np.ceil(corners_y.min(axis=1) - 0.5)
-    if np.any(corners_y.max(axis=1) - top > MAX_EXTENT - 1) or np.any(np.ptp(corners_x, axis=1) > MAX_EXTENT - 1):
+    extent = int(max(np.max(corners_y.max(axis=1) - top), np.max(np.ptp(corners_x, axis=1)))) + 1
+    if extent > MAX_EXTENT:
         return False
-    rows = top[:, None] + np.arange(MAX_EXTENT)
+    rows = top[:, None] + np.arange(extent)
     first, last = _spans(corners_x, corners_y, rows + 0.5)
-    columns = first[:, :, None] + np.arange(MAX_EXTENT)
+    columns = first[:, :, None] + np.arange(extent)
     inside = (columns <= last[:, :, None]) & (columns >= 0) & (columns < IMAGE_SIZE) & ((rows >= 0) & (rows < IMAGE_SIZE))[:, :, None]
     pixels = (rows[:, :, None] * IMAGE_SIZE + columns)[inside].astype(np.intp)
-    pens = np.array([(stroke.pen.r, stroke.pen.g, stroke.pen.b, 255) for stroke in strokes], dtype=np.uint8).view(np.uint32)
-    colours = np.repeat(pens[:, 0], inside.sum(axis=(1, 2)))
+    opaque = pens.copy()
+    opaque[:, 3] = 255
+    colours = np.repeat(opaque.view(np.uint32)[:, 0], inside.sum(axis=(1, 2)))
     np.frombuffer(rgba, dtype=np.uint32)[pixels] = colours  # of equal pixels the last one counts, as when drawn in order
     return True
 
 
-def _corners(strokes: list[Stroke]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Columns and rows of the four corners of each stroke, shape (n, 4) each."""
-    x0, y0, x1, y1, width = np.array([(*stroke[:4], stroke.pen.width) for stroke in strokes], dtype=np.float64).T
+def _corners(lines: NDArray[np.float64], widths: NDArray[np.uint8]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Columns and rows of the four corners of each line, shape (n, 4) each."""
+    x0, y0, x1, y1 = lines.T
     length = np.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
-    half = width / 2
+    half = widths / 2
     is_dot = length == 0.0
     length[is_dot] = 1.0
     along_x = np.where(is_dot, half, (x1 - x0) / length * half)

@@ -25,6 +25,7 @@ from turtlewire.web import Server
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from turtlesim.crowd import CrowdTick
     from turtlesim.model import TurtleTick
     from turtlesim.page_commands import Command
     from turtlesim.transform_view import TransformView
@@ -92,6 +93,15 @@ class Screen:
                     self._drawing.add(tick.turtle.name, stroke)
                 if tick.move_stroke is not None:
                     self._drawing.add(tick.turtle.name, tick.move_stroke)
+        self._server.notify()
+
+    def show_crowd(self, tick: CrowdTick) -> None:
+        """Take what one tick of a crowd did."""
+        with self._lock:
+            self._tick += 1
+            self._shown = tuple([turtle.name for turtle in tick.turtles])
+            self._poses = tick.poses.tobytes()
+            self._drawing.add_records(tick.stroke_records())
         self._server.notify()
 
     def set_scene(self, scene: Scene) -> None:

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import Twist
+from rclpy.event_handler import PublisherEventCallbacks
 from turtlesim.model import Pen
 from turtlesim.msg import Color, Pose
 from turtlesim.rotate_action import RotateAction
@@ -22,10 +23,16 @@ __all__ = ["QUEUE_DEPTH", "TurtleEndpoints", "are_finite"]
 QUEUE_DEPTH = 7
 #: Commands must fit into single precision, in which velocities are published.
 _LARGEST = 3.4e38
+#: What every message begins with: little-endian CDR.
+_CDR_HEADER = b"\x00\x01\x00\x00"
 
 
 class TurtleEndpoints:
     """Everything that ROS sees of a turtle; :meth:`destroy` takes it off the graph again.
+
+    Attributes:
+        pose_listeners: How many listen to its pose. The middleware tells of changes: a thousand turtles are not asked at each tick.
+        color_listeners: How many listen to its colour sensor.
 
     Raises (on construction):
         InvalidTopicNameException: The turtle's name is no part of a topic's name.
@@ -37,8 +44,13 @@ class TurtleEndpoints:
         name = turtle.name
         node.resolve_topic_name(f"{name}/cmd_vel")  # a wrong name fails here, before anything is made
         self._cmd_vel = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH)
-        self._pose = node.create_publisher(Pose, f"{name}/pose", QUEUE_DEPTH)
-        self._color = node.create_publisher(Color, f"{name}/color_sensor", QUEUE_DEPTH)
+        self.pose_listeners = self.color_listeners = 0
+        self._pose = node.create_publisher(
+            Pose, f"{name}/pose", QUEUE_DEPTH, event_callbacks=PublisherEventCallbacks(matched=self._on_pose_matched)
+        )
+        self._color = node.create_publisher(
+            Color, f"{name}/color_sensor", QUEUE_DEPTH, event_callbacks=PublisherEventCallbacks(matched=self._on_color_matched)
+        )
         self._services = [
             node.create_service(SetPen, f"{name}/set_pen", self._on_set_pen),
             node.create_service(TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative),
@@ -51,12 +63,20 @@ class TurtleEndpoints:
         """Send pose, colour and feedback to whoever listens; the tick's last stroke must not be on ``path`` yet."""
         if tick.rotation is not None:
             self._rotate.report(tick.rotation)
-        if self._pose.get_subscription_count():
+        if self.pose_listeners:
             x, y, theta, linear_velocity, angular_velocity = tick.pose
             self._pose.publish(Pose(x=x, y=y, theta=theta, linear_velocity=linear_velocity, angular_velocity=angular_velocity))
-        if self._color.get_subscription_count():
-            r, g, b = path.colour_at(*tick.sensor_pixel)
-            self._color.publish(Color(r=r, g=g, b=b))
+        if self.color_listeners:
+            self.publish_color(*path.colour_at(*tick.sensor_pixel))
+
+    def publish_pose(self, floats: bytes) -> None:
+        """Send a pose to whoever listens; ``floats`` are its five fields, little-endian, in single precision."""
+        if self.pose_listeners:
+            self._pose.publish(_CDR_HEADER + floats)
+
+    def publish_color(self, r: int, g: int, b: int) -> None:
+        """Send what the colour sensor sees."""
+        self._color.publish(Color(r=r, g=g, b=b))
 
     def destroy(self) -> None:
         """Leave the graph."""
@@ -66,6 +86,12 @@ class TurtleEndpoints:
         for service in self._services:
             self._node.destroy_service(service)
         self._rotate.destroy()
+
+    def _on_pose_matched(self, info: Any) -> None:
+        self.pose_listeners = info.current_count
+
+    def _on_color_matched(self, info: Any) -> None:
+        self.color_listeners = info.current_count
 
     def _on_cmd_vel(self, message: Any) -> None:
         forward, lateral, turning = message.linear.x, message.linear.y, message.angular.z

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from turtlesim.model import DEFAULT_PEN, Pen, Stroke
 from turtlesim.path import EMPTY_COLOUR, PathImage
-from turtlesim.path_bulk import draw_short_strokes
+from turtlesim.path_bulk import as_arrays, draw_short_lines
 
 positions = st.floats(-4.0, 504.0)
 short = st.floats(-3.0, 3.0) | st.just(0.0)
@@ -30,14 +30,28 @@ def test_many_at_once_are_the_same_pixels_as_one_by_one(strokes):
     for stroke in strokes:
         one_by_one.draw(stroke)
     together = bytearray(PathImage().rgba())
-    assert draw_short_strokes(together, strokes)
+    assert draw_short_lines(together, *as_arrays(strokes))
     assert bytes(together) == one_by_one.rgba()
+
+
+@pytest.mark.parametrize("long", [False, True])
+def test_lines_in_arrays_are_drawn_after_what_waits(long):
+    strokes = [Stroke(100 + k, 100, 102 + k, 101, Pen(k, 0, 0, 3)) for k in range(10)]
+    if long:
+        strokes.append(Stroke(100, 90, 140, 120, Pen(9, 9, 9, 3)))
+    one_by_one, mixed = PathImage(), PathImage()
+    for stroke in strokes:
+        one_by_one.draw(stroke)
+    for stroke in strokes[:3]:
+        mixed.draw(stroke)
+    mixed.draw_lines(*as_arrays(strokes[3:]))
+    assert mixed.rgba() == one_by_one.rgba()
 
 
 def test_long_strokes_are_left_to_the_slow_way():
     picture = bytearray(PathImage().rgba())
     before = bytes(picture)
-    assert not draw_short_strokes(picture, [Stroke(10, 10, 12, 10, DEFAULT_PEN), Stroke(10, 10, 300, 10, DEFAULT_PEN)])
+    assert not draw_short_lines(picture, *as_arrays([Stroke(10, 10, 12, 10, DEFAULT_PEN), Stroke(10, 10, 300, 10, DEFAULT_PEN)]))
     assert bytes(picture) == before
 
 
