@@ -1,4 +1,4 @@
-"""The lessons of learning_tf2_py after the follow demo: carrots and time travel, in lock-step."""
+"""The lessons of learning_tf2_py after the follow demo: carrots, time travel and awaiting, in lock-step."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 import pytest
 from learning_tf2_py.dynamic_frame_tf2_broadcaster import DynamicFrameBroadcaster
 from learning_tf2_py.fixed_frame_tf2_broadcaster import FixedFrameBroadcaster
+from learning_tf2_py.turtle_tf2_async_listener import AsyncListener
 from learning_tf2_py.turtle_tf2_broadcaster import TurtleBroadcaster
 from learning_tf2_py.turtle_tf2_listener import TurtleListener
 from learning_tf2_py.turtle_tf2_time_travel import TimeTraveller
@@ -54,3 +55,14 @@ def test_turtle2_goes_where_turtle1_was(simulation):
     assert (still.x, still.y) == pytest.approx((there.x, there.y), abs=0.1)  # it follows five seconds behind
     simulation.run(10.0)
     assert simulation.distance("turtle1", "turtle2") < 0.3
+
+
+def test_turtle2_is_driven_by_transforms_that_are_awaited(simulation):
+    listener = simulation.start(AsyncListener)
+    asked = []
+    wait = listener.tf_buffer.wait_for_transform_async
+    listener.tf_buffer.wait_for_transform_async = lambda *args: asked.append(answer := wait(*args)) or answer
+    simulation.run(20.0)
+    assert simulation.distance("turtle1", "turtle2") < 0.1
+    assert len(asked) > 150
+    assert all(answer.done() for answer in asked[:-1])  # one after the other

@@ -27,7 +27,11 @@ setup(
             "turtle_tf2_listener = learning_tf2_py.turtle_tf2_listener:main",
             "fixed_frame_tf2_broadcaster = learning_tf2_py.fixed_frame_tf2_broadcaster:main",
             "dynamic_frame_tf2_broadcaster = learning_tf2_py.dynamic_frame_tf2_broadcaster:main",
+            "turtle_tf2_blocking_listener = learning_tf2_py.turtle_tf2_blocking_listener:main",
+            "turtle_tf2_async_listener = learning_tf2_py.turtle_tf2_async_listener:main",
             "turtle_tf2_time_travel = learning_tf2_py.turtle_tf2_time_travel:main",
+            "swarm = learning_tf2_py.swarm:main",
+            "swarm_with_simulator = learning_tf2_py.swarm_with_simulator:main",
         ],
     },
 )

@@ -10,6 +10,7 @@ def generate_launch_description():
     return LaunchDescription(
         [
             DeclareLaunchArgument("target_frame", default_value="turtle1", description="The frame that turtle2 follows."),
+            DeclareLaunchArgument("listener", default_value="turtle_tf2_listener", description="The program that drives turtle2."),
             Node(package="turtlesim", executable="turtlesim_node", name="sim"),
             Node(
                 package="learning_tf2_py",
@@ -25,7 +26,7 @@ def generate_launch_description():
             ),
             Node(
                 package="learning_tf2_py",
-                executable="turtle_tf2_listener",
+                executable=LaunchConfiguration("listener"),
                 name="listener",
                 parameters=[{"target_frame": LaunchConfiguration("target_frame")}],
             ),

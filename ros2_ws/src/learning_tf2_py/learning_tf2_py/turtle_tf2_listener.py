@@ -24,8 +24,8 @@ def twist_towards(x, y):
 class TurtleListener(Node):
     """Asks TF2 ten times a second where the target is, as seen from turtle2, and steers turtle2 there."""
 
-    def __init__(self):
-        super().__init__("turtle_tf2_listener")
+    def __init__(self, node_name="turtle_tf2_listener"):
+        super().__init__(node_name)
         self.target_frame = self.declare_parameter("target_frame", "turtle1").value
 
         self.tf_buffer = Buffer()
@@ -38,11 +38,12 @@ class TurtleListener(Node):
 
     def on_timer(self):
         try:
-            follower_from_target = self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, Time())
+            self.steer(self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, Time()))
         except TransformException as ex:
             self.get_logger().info(f"Could not retrieve transform: {ex}", throttle_duration_sec=1.0)
             self.spawn_follower()
-            return
+
+    def steer(self, follower_from_target):
         target = follower_from_target.transform.translation
         self.publisher.publish(twist_towards(target.x, target.y))
 

@@ -1,0 +1,38 @@
+"""Drives turtle2 to where the target is at this very moment: it awaits the transform, and holds no thread meanwhile."""
+
+import rclpy
+from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener
+from rclpy.executors import ExternalShutdownException
+from tf2_ros import TransformException
+
+
+class AsyncListener(TurtleListener):
+    """Awaits the transform of the present. Other callbacks of the node run in between; the timer waits for its own turn to end."""
+
+    def __init__(self):
+        super().__init__("turtle_tf2_async_listener")
+
+    async def on_timer(self):
+        if not self.count_publishers(f"{FOLLOWER}/pose"):
+            self.spawn_follower()
+            return
+        now = self.get_clock().now()
+        try:
+            await self.tf_buffer.wait_for_transform_async(FOLLOWER, self.target_frame, now)
+            self.steer(self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, now))
+        except TransformException as ex:
+            self.get_logger().info(f"Could not retrieve transform: {ex}", throttle_duration_sec=1.0)
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    try:
+        rclpy.spin(AsyncListener())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

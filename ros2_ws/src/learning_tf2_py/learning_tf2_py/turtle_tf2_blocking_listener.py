@@ -1,0 +1,37 @@
+"""Drives turtle2 to where the target is at this very moment: a lookup that waits until TF2 has heard of it."""
+
+import rclpy
+from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from tf2_ros import TransformException
+
+
+class BlockingListener(TurtleListener):
+    """Asks for the present instead of the latest transform: it is on its way, so the lookup gets a time limit to wait for it."""
+
+    def __init__(self):
+        super().__init__("turtle_tf2_blocking_listener")
+
+    def on_timer(self):
+        now = self.get_clock().now()
+        try:
+            self.steer(self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, now, timeout=Duration(seconds=1.0)))
+        except TransformException as ex:
+            self.get_logger().info(f"Could not retrieve transform: {ex}", throttle_duration_sec=1.0)
+            self.spawn_follower()
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    try:
+        # A callback that waits holds its thread. Where TF2 listens through the executor, another thread must bring what it waits for.
+        rclpy.spin(BlockingListener(), MultiThreadedExecutor())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""Each lesson of our tutorial package after the follow demo, launched for real: what turtle2 does, and a clean end."""
+
+from __future__ import annotations
+
+import math
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from turtlewire import Buffer
+from turtlewire.tf.listener import TransformListener
+
+ROOT = Path(__file__).parents[2]
+ROS2 = Path(sys.executable).parent / "ros2"
+PACKAGE = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
+LONG_NS = 60_000_000_000
+
+
+@pytest.fixture
+def lesson(run, workspace):
+    """Starts a launch file of the package; at the end Ctrl-C must end all of its processes cleanly."""
+    started = []
+
+    def start(name, *arguments, processes):
+        started.append((run(ROS2, "launch", "learning_tf2_py", name, *arguments, environment=workspace(PACKAGE)), processes))
+        return started[-1][0]
+
+    yield start
+    for launch, processes in started:
+        launch.signal_group(signal.SIGINT)
+        assert launch.wait() == 0
+        assert launch.survivors() == []
+        assert "Traceback" not in launch.text
+        assert launch.text.count("process has finished cleanly") == processes
+
+
+def carrot_seen_from_turtle1(turtles):
+    with TransformListener(buffer := Buffer(), turtles.node, context=turtles.context):
+        return buffer.lookup_transform("turtle1", "carrot1", 0, LONG_NS).translation
+
+
+def away(turtles, x, y):
+    """How far turtle2 is from a place [m]."""
+    turtle2 = turtles.poses.get("turtle2")
+    return math.inf if turtle2 is None else math.dist((turtle2.x, turtle2.y), (x, y))
+
+
+def test_the_fixed_carrot(lesson, turtles):
+    lesson("turtle_tf2_fixed_frame_demo.launch.py", processes=5)
+    assert carrot_seen_from_turtle1(turtles) == (0.0, 2.0, 0.0)
+    middle = 499 / 90
+    turtles.wait_for(lambda: away(turtles, middle, middle + 2.0) < 1.0)
+
+
+def test_the_swinging_carrot(lesson, turtles):
+    lesson("turtle_tf2_dynamic_frame_demo.launch.py", processes=5)
+    assert math.hypot(*carrot_seen_from_turtle1(turtles)) == pytest.approx(10.0)
+    turtles.wait_for(lambda: "turtle2" in turtles.poses and turtles.poses["turtle2"].linear_velocity > 2.0)  # never nearer than that
+
+
+@pytest.mark.parametrize("waiting", ["blocking", "async"])
+def test_a_listener_that_waits(lesson, turtles, waiting):
+    launch = lesson("turtle_tf2_waiting_demo.launch.py", f"waiting:={waiting}", processes=4)
+    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
+    assert f"turtle_tf2_{waiting}_listener-4" in launch.text
+    assert "extrapolation into the future" not in launch.text  # the present is newer than the latest transform: it did wait
+
+
+@pytest.mark.slow
+def test_time_travel(lesson, turtles):
+    lesson("turtle_tf2_time_travel_demo.launch.py", processes=4)
+    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
+
+
+def test_a_target_is_an_argument(lesson, turtles, run, workspace):
+    """The launch file of the demo with another target, and the carrot from a terminal of its own."""
+    lesson("turtle_tf2_demo.launch.py", "target_frame:=carrot1", processes=4)
+    static = ["--x", "-2", "--frame-id", "turtle1", "--child-frame-id", "carrot1"]
+    run(ROS2, "run", "tf2_ros", "static_transform_publisher", *static)
+    middle = 499 / 90
+    turtles.wait_for(lambda: away(turtles, middle - 2.0, middle) < 1.0)
+
+
+def test_the_arguments_are_shown_and_checked(run, workspace):
+    environment = workspace(PACKAGE)
+    shown = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_waiting_demo.launch.py", "-s", environment=environment)
+    assert shown.wait() == 0
+    assert "'waiting':" in shown.text
+    assert "(default: 'blocking')" in shown.text
+    wrong = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_waiting_demo.launch.py", "waiting:=never", environment=environment)
+    assert wrong.wait() == 1
+    assert "['blocking', 'async']" in wrong.text
