@@ -1,0 +1,215 @@
+"""The short way of transforms: from the wire's receiving thread into the compiled core, without Python."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+
+import pytest
+
+from turtlewire import Buffer, msg, wire
+from turtlewire.tf import buffer as core
+from turtlewire.tf import inspection, listener
+from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import History
+
+pytestmark = pytest.mark.skipif(core.CORE != "native", reason="the plain-Python core has no short way")
+
+TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+KEEP_ALL = QOS._replace(history=History.KEEP_ALL)
+LONG_NS = 30_000_000_000
+
+
+def tf_bytes(stamp_s, child="robot"):
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = "world"
+    transform.header.stamp.sec = stamp_s
+    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
+
+
+class Flow:
+    """One publisher and one listener; counts the messages that go through Python."""
+
+    def __init__(self, monkeypatch):
+        self.by_python = 0
+        self.sender, self.receiver = (wire.open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2))
+        self.publisher = self.sender.create_node("talker").create_publisher("/tf", TYPE, KEEP_ALL)
+        self.node = self.receiver.create_node("listener")
+        self._stamps = itertools.count(1)
+        call = listener._Feed.__call__
+
+        def counted(feed, cdr, info):
+            self.by_python += 1
+            call(feed, cdr, info)
+
+        monkeypatch.setattr(listener._Feed, "__call__", counted)
+
+    def listen(self, store, **choices):
+        return TransformListener(store, self.node, context=self.receiver, qos=KEEP_ALL, **choices)
+
+    def wait_for_match(self, count=1):
+        assert self.sender.graph.wait_for(lambda: self.publisher.subscription_count() == count, LONG_NS)
+
+    def send(self, buffer):
+        """Send one transform and wait until it is in the buffer."""
+        stamp_s = next(self._stamps)
+        self.publisher.publish(tf_bytes(stamp_s))
+        buffer.lookup_transform("world", "robot", stamp_s * 1_000_000_000, LONG_NS)
+
+    def send_until_short(self, buffer):
+        """Send until a message comes without Python: the publisher has been introduced."""
+        for _ in range(1000):
+            before = self.by_python
+            self.send(buffer)
+            if before and self.by_python == before:
+                return
+        raise AssertionError("all of 1000 messages went through Python")
+
+    def close(self):
+        self.sender.close()
+        self.receiver.close()
+
+
+@pytest.fixture
+def flow(monkeypatch):
+    flow = Flow(monkeypatch)
+    yield flow
+    flow.close()
+
+
+def test_python_sees_the_first_messages_of_a_publisher_only(flow):
+    buffer = Buffer()
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.send_until_short(buffer)
+        seen = flow.by_python
+        for _ in range(50):
+            flow.send(buffer)
+        assert flow.by_python == seen
+
+
+def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
+    buffer = Buffer(None)
+    publishers = [flow.sender.create_node(f"talker{i}").create_publisher("/tf", TYPE, KEEP_ALL) for i in range(3)]
+    count = 300
+    with flow.listen(buffer):
+        for publisher in publishers:
+            assert flow.sender.graph.wait_for(lambda publisher=publisher: publisher.subscription_count() == 1, LONG_NS)
+
+        def flood(number):
+            for stamp_s in range(1, count + 1):
+                publishers[number].publish(tf_bytes(stamp_s, f"robot{number}"))
+
+        threads = [threading.Thread(target=flood, args=(number,)) for number in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for number in range(3):
+            buffer.lookup_transform("world", f"robot{number}", count * 1_000_000_000, LONG_NS)
+            [(_, stamps, _)] = buffer.samples(f"robot{number}")
+            assert stamps.tolist() == [stamp_s * 1_000_000_000 for stamp_s in range(1, count + 1)]
+    assert not inspection.refusals(buffer)
+
+
+def test_change_listeners_are_called_on_the_reader_thread(flow):
+    buffer = Buffer()
+    called, threads = threading.Event(), []
+
+    def on_change():
+        threads.append(threading.current_thread().name)
+        called.set()
+
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.send_until_short(buffer)
+        stop = buffer.add_change_listener(on_change)
+        seen = flow.by_python
+        for _ in range(5):
+            called.clear()
+            flow.send(buffer)
+            assert called.wait(30)
+        assert flow.by_python == seen
+        assert set(threads) == {"turtlewire-reader"}
+        stop()
+        calls = len(threads)
+        flow.send(buffer)
+        flow.receiver.reader.close()  # joined: whatever it had to call has been called
+        assert len(threads) <= calls + 1  # one may have been on its way
+
+
+def test_a_malformed_message_between_good_ones_is_counted_with_its_sender(flow):
+    buffer = Buffer()
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.send_until_short(buffer)
+        flow.publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
+        flow.send(buffer)
+        assert inspection.malformed(buffer).messages == 1
+        flow.send_until_short(buffer)
+        assert flow.receiver.graph.wait_for(lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS)
+
+
+def test_stores_of_other_kinds_are_served_beside_buffers(flow):
+    class Store(Buffer):
+        def __init__(self):
+            super().__init__()
+            self.messages = 0
+
+        def ingest(self, cdr, **how):
+            self.messages += 1
+            return super().ingest(cdr, **how)
+
+    buffer, store = Buffer(), Store()
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.send_until_short(buffer)
+        with flow.listen(store):
+            for _ in range(10):
+                flow.send(store)
+            assert store.messages == 10
+        flow.send_until_short(buffer)
+
+
+def test_latched_transforms_take_part(flow):
+    static = flow.sender.create_node("walls").create_publisher("/tf_static", TYPE, STATIC_QOS._replace(depth=10))
+    for number in range(10):
+        static.publish(tf_bytes(1, f"wall{number}"))
+    buffers = [Buffer() for _ in range(3)]
+    for buffer in buffers:  # each begins a new subscription, with what was published before
+        with flow.listen(buffer):
+            for number in range(10):
+                buffer.lookup_transform("world", f"wall{number}", 0, LONG_NS)
+        assert {link.senders[0].name for link in inspection.links(buffer)} <= {"/walls", static.gid.hex()}
+
+
+def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
+    stop = threading.Event()
+    volatile = flow.sender.create_node("flood").create_publisher("/tf", TYPE, QOS)
+
+    def flood():
+        for stamp_s in itertools.count(1):
+            if stop.is_set():
+                return
+            volatile.publish(tf_bytes(stamp_s % 1_000_000_000))
+
+    thread = threading.Thread(target=flood)
+    thread.start()
+    try:
+        for number in range(20):
+            context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+            buffers = [Buffer() for _ in range(3)]
+            node = context.create_node("listener")
+            listeners = [TransformListener(buffer, node, context=context) for buffer in buffers]
+            for buffer in buffers:
+                assert buffer.can_transform("world", "robot", 0, LONG_NS)
+            for opened in listeners if number % 2 else ():
+                opened.close()
+            context.close()
+            newest = [buffer.latest_common_time("world", "robot") for buffer in buffers]
+            flow.publisher.publish(tf_bytes(1))
+            assert newest == [buffer.latest_common_time("world", "robot") for buffer in buffers]
+    finally:
+        stop.set()
+        thread.join()
