@@ -53,20 +53,21 @@ def turtles():
             self.node = self.context.create_node("turtles")
             self.poses = {}
             self.more = threading.Condition()
-            pose = msg.get_message("turtlesim/msg/Pose")
             for name in ("turtle1", "turtle2"):
-                type_id = TypeId("turtlesim/msg/Pose", msg.type_hash("turtlesim/msg/Pose"))
-                self.node.create_subscription(
-                    f"/{name}/pose", type_id, QoS(), lambda cdr, _, name=name: self._take(name, msg.deserialize(pose, cdr))
-                )
+                self.watch(name)
+
+        def watch(self, name):
+            pose = msg.get_message("turtlesim/msg/Pose")
+            type_id = TypeId("turtlesim/msg/Pose", msg.type_hash("turtlesim/msg/Pose"))
+            self.node.create_subscription(f"/{name}/pose", type_id, QoS(), lambda cdr, _: self._take(name, msg.deserialize(pose, cdr)))
 
         def _take(self, name, pose):
             with self.more:
                 self.poses[name] = pose
                 self.more.notify_all()
 
-        def distance(self):
-            first, second = self.poses["turtle1"], self.poses["turtle2"]
+        def distance(self, one="turtle1", other="turtle2"):
+            first, second = self.poses[one], self.poses[other]
             return ((first.x - second.x) ** 2 + (first.y - second.y) ** 2) ** 0.5
 
         def wait_for(self, condition, timeout=60):

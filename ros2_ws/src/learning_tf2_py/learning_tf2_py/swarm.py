@@ -1,0 +1,130 @@
+"""Drives a swarm: every turtle follows the one before it through TF, with all broadcasters and followers in one node."""
+
+import math
+
+import rclpy
+from geometry_msgs.msg import TransformStamped, Twist
+from learning_tf2_py.turtle_tf2_listener import twist_towards
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformBroadcaster, TransformException, TransformListener
+from turtlesim.msg import Pose
+from turtlesim.srv import Spawn
+
+#: Where they begin: on a spiral around the middle of the field, so that each has the one before it near by.
+MIDDLE, RADIUS = 5.5444, 4.5
+#: Each turtle is looked after ten times a second, a fifth of them at a time: the simulator never waits for all.
+GROUPS = 5
+PERIOD = 0.1 / GROUPS
+#: So many turtles may wait for the simulator at a time.
+SPAWNING = 8
+
+
+def place_on_spiral(k, count):
+    """Return x, y and the heading inwards of turtle number `k` of `count`."""
+    growth = math.sqrt(k / count)
+    angle = math.tau * growth * math.sqrt(count) / 3
+    return MIDDLE + RADIUS * growth * math.cos(angle), MIDDLE + RADIUS * growth * math.sin(angle), angle - math.pi / 2
+
+
+class Member:
+    """One turtle of the swarm."""
+
+    def __init__(self, name, swarm):
+        self.name = name
+        self.place = TransformStamped()
+        self.place.header.frame_id = "world"
+        self.place.child_frame_id = name
+        # The simulator tells poses at 62.5 Hz; a mailbox that holds the newest one is read when it is needed, and needs no callback.
+        self.mailbox = swarm.mailboxes.create_subscription(Pose, f"/{name}/pose", lambda _: None, 1).handle
+        self.commands = swarm.create_publisher(Twist, f"/{name}/cmd_vel", 1)
+
+    def see_place(self, stamp):
+        """Return the transform of this turtle if the simulator has told a new pose."""
+        news = self.mailbox.take_message(Pose, False)
+        if news is None:
+            return None
+        pose = news[0]
+        self.place.header.stamp = stamp
+        self.place.transform.translation.x = pose.x
+        self.place.transform.translation.y = pose.y
+        self.place.transform.rotation.z = math.sin(pose.theta / 2)
+        self.place.transform.rotation.w = math.cos(pose.theta / 2)
+        return self.place
+
+
+class Swarm(Node):
+    """Spawns the turtles that the parameter `count` asks for, tells TF where they are, and lets each follow the one before."""
+
+    def __init__(self):
+        super().__init__("swarm")
+        self.count = self.declare_parameter("count", 1000).value
+        self.mailboxes = Node("swarm_mailboxes", use_global_arguments=False, start_parameter_services=False, enable_rosout=False)
+        self.tf_buffer = Buffer()
+        self.tf_listener = TransformListener(self.tf_buffer, self)
+        self.broadcaster = TransformBroadcaster(self)
+
+        self.members = [Member("turtle1", self)]  # the simulator's own turtle leads, and is anybody's to drive
+        self.asked = 1
+        self.ticks = 0
+        self.spawner = self.create_client(Spawn, "spawn")
+        self.create_timer(PERIOD, self.on_timer)
+
+    def destroy_node(self):
+        self.mailboxes.destroy_node()
+        super().destroy_node()
+
+    def on_timer(self):
+        self.ticks += 1
+        if self.asked == 1 and self.count > 1 and self.spawner.service_is_ready():
+            for _ in range(SPAWNING):
+                self.spawn_next()
+        group = range(self.ticks % GROUPS, len(self.members), GROUPS)
+        stamp = self.get_clock().now().to_msg()
+        places = [self.members[k].see_place(stamp) for k in group]
+        self.broadcaster.sendTransform([place for place in places if place is not None])
+        for k in group:
+            if k > 0:
+                self.drive(k)
+
+    def drive(self, k):
+        """Send a turtle to where TF says that the one before it is."""
+        member, leader = self.members[k], self.members[k - 1]
+        try:
+            place = self.tf_buffer.lookup_transform(member.name, leader.name, Time()).transform.translation
+        except TransformException as ex:
+            self.get_logger().debug(f"Could not retrieve transform: {ex}")  # TF has not heard of a new turtle yet
+            return
+        member.commands.publish(twist_towards(place.x, place.y))
+
+    def spawn_next(self):
+        """Ask the simulator for one more turtle."""
+        if self.asked == self.count:
+            return
+        self.asked += 1
+        x, y, theta = place_on_spiral(self.asked, self.count)
+        request = Spawn.Request(x=x, y=y, theta=theta, name=f"turtle{self.asked}")
+        self.spawner.call_async(request).add_done_callback(lambda future: self.on_spawned(request.name, future))
+
+    def on_spawned(self, name, future):
+        future.result()  # an empty answer means that there is a turtle of this name: it takes part
+        self.members.append(Member(name, self))
+        done = len(self.members)
+        if done == self.count or done % 100 == 0:
+            self.get_logger().info(f"{done} of {self.count} turtles follow the one before them")
+        self.spawn_next()
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    try:
+        rclpy.spin(Swarm())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
