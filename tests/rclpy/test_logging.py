@@ -258,6 +258,12 @@ def test_the_command_line_decides(logger, capfd):
     assert messages(capfd) == []
 
 
+def test_a_configuration_file_is_ignored_with_a_warning(logger, capfd):
+    rclpy.logging.configure(Arguments.parse(["--ros-args", "--log-config-file", "spdlog.conf", "--disable-external-lib-logs"]))
+    logger.info("shown")
+    assert messages(capfd) == ["Configuration files of logging are not supported: 'spdlog.conf' is ignored", "shown"]
+
+
 def test_the_log_file(logger, tmp_path, monkeypatch, capfd):
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "a" / "b"))
     log_output.configure(file_prefix="robot")

@@ -170,5 +170,5 @@ def test_payloads_that_are_no_messages_are_dropped_and_said_once(program: Path, 
                 except CdrError:
                     errors += 1
     assert received == ["good"]
-    assert errors == 1
+    assert errors == 2  # the big-endian one comes with the header of a little-endian one: to us its string is far too long
     assert capfd.readouterr().err.count("dropped a message on /broken") == 1

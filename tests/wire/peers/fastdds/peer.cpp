@@ -210,6 +210,7 @@ void latch_broken(Peer& peer) {
       {0, 3, 0, 0, 1, 0, 0, 0},                                  // a parameter list
       {0, 7, 0, 0, 2, 0, 0, 0, 'x', 0, 0, 0},                    // XCDR2
       {0, 1, 0, 0, 255, 255, 255, 127, 'x', 0, 0, 0},            // a string longer than the message
+      {0, 0, 0, 0, 0, 0, 0, 5, 'd', 'u', 'b', 'i', 0, 0, 0, 0},  // big-endian
       {0, 1, 0, 0, 5, 0, 0, 0, 'g', 'o', 'o', 'd', 0, 0, 0, 0},  // good
   };
   for (Bytes& payload : payloads) writer->write(&payload);

@@ -1,0 +1,291 @@
+"""`docs/compatibility.md` is true: each of its entries has a test, which the table below names.
+
+An entry is known by its first cell, what ROS 2 does. Whoever adds one adds its test here; whoever changes a test's name sees it here.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import importlib
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+PAGE = TESTS.parent / "docs" / "compatibility.md"
+
+# Entry, and below it the tests of what we do instead.
+TESTED = """
+discovery reaches the subnet
+  wire/test_environment.py test_the_range_is_localhost_unless_said_otherwise
+  wire/test_two_hosts.py test_nobody_from_outside_gets_in_by_default
+Ctrl-C of the tutorial's nodes ends in tracebacks, exit code -2 or 1
+  rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises
+a waiting lookup sleeps 20 ms at a time, on the system clock
+  tf/test_buffer.py test_wakes_when_data_comes
+  tf2_ros/test_waiting_in_callbacks.py test_waiting_never_hangs_and_answers_right
+Python errors carry a text
+  rclpy/test_exceptions.py test_hints_are_notes
+
+range `LOCALHOST` switches multicast off and asks peers on this host
+  wire/test_environment.py test_localhost_uses_nothing_but_the_loopback_interface
+`ROS_STATIC_PEERS` on one side is enough, since the default range is `SUBNET`
+  wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
+`publish()` on a reliable keep-all topic blocks as long as a subscription stands still
+  wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
+some 30 processes on a host in range `LOCALHOST`
+  wire/test_scale.py test_fifty_processes_see_each_other
+  wire/test_environment.py test_configuration_of_each_range
+a service waits within its callback's thread until the client's reader is known
+  wire/test_processes.py test_the_first_request_of_a_new_client_is_always_answered
+`ros_discovery_info` is sent anew for every endpoint
+  wire/test_scale.py test_a_thousand_endpoints_take_a_handful_of_announcements
+big-endian messages are read
+  wire/test_foreign_peers.py test_payloads_that_are_no_messages_are_dropped_and_said_once
+`message_lost` is raised for lost samples
+  wire/test_cyclone_events.py test_message_lost_can_be_watched
+
+fields are properties over `_x` slots
+  msg/test_classes.py test_fields_are_plain_slots_that_do_not_take_other_names
+an int in a float field crashes the process when it is published
+  msg/test_cdr.py test_integers_and_numpy_scalars_are_accepted_as_floats
+a value of the wrong type fails inside C, or an assertion ends the process
+  msg/test_cdr.py test_a_wrong_value_is_named
+a float32 out of range is sent as infinity
+  msg/test_cdr.py test_a_wrong_value_is_named
+an unknown keyword raises `AssertionError` only where assertions are on
+  test_compatibility.py test_an_unknown_keyword_is_an_error_without_assertions_too
+`from geometry_msgs.msg._twist import Twist` works
+  test_compatibility.py test_there_is_no_module_for_a_single_message
+
+error texts end in `, at ./src/rcl/arguments.c:380`
+  rclpy/test_arguments.py test_golden_errors
+`[]` on the command line is a byte array
+  rclpy/test_parameters.py test_an_empty_list_of_the_command_line_fits_every_array
+`get_parameter_value('"5"')` makes a number of it
+  rclpy/test_parameter.py test_values_from_yaml
+a lifecycle transition that is not possible raises out of `spin`
+  rclpy/test_lifecycle.py test_services
+after the clock is set back, a throttled message is silent until it catches up
+  rclpy/test_logging.py test_throttle
+log files are called `python3_<pid>_<ms>.log`
+  rclpy/test_logging.py test_the_log_file
+`--log-config-file` configures spdlog
+  rclpy/test_logging.py test_a_configuration_file_is_ignored_with_a_warning
+`transition_event` has neither time nor transition
+  rclpy/test_lifecycle.py test_transition_events
+which children of a node's logger reach `/rosout` depends on who made them
+  rclpy/test_logging.py test_records_reach_the_sink_of_their_node
+`client.call_async` responses wait for the client's callback group
+  rclpy/test_executors.py test_awaiting_a_service_in_the_same_group
+`client.call()` in a callback of a single-threaded executor hangs
+  rclpy/test_executors.py test_call_in_a_callback_of_a_single_thread test_call_to_a_service_of_the_blocked_executor_raises
+`client.call()` with nobody spinning hangs in silence
+  rclpy/test_executors.py test_a_call_that_nobody_serves_is_warned_of
+`rate.sleep()` in the thread that spins hangs
+  rclpy/test_timer.py test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever
+`shutdown()` after Ctrl-C raises
+  rclpy/test_signals.py test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises
+a Ctrl-C that is not caught prints a traceback
+  rclpy/test_signals.py test_ctrl_c_that_is_not_caught_ends_without_a_traceback test_other_errors_keep_their_traceback
+two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
+  rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly
+`rclpy.spin_once(node)` takes a node out of the executor it was in
+  rclpy/test_init_shutdown.py test_a_spin_within_a_callback_leaves_the_node_where_it_was
+messages without a subscription are encoded all the same
+  rclpy/test_topics.py test_what_is_not_encoded_while_nobody_listens
+a cancel request whose goals all refuse is answered `ERROR_NONE`
+  rclpy/test_actions.py test_a_refused_cancelling
+content filters of subscriptions work with `rmw_fastrtps_cpp`
+  rclpy/test_surface.py test_a_subscription_says_that_nothing_is_filtered
+
+Python sees one `ExtrapolationException`
+  tf/test_buffer.py test_classes
+rotations closer than about 1.5e-8 rad hold the older one between samples
+  tf/test_agreement.py test_interpolation_moves_at_one_speed
+values of one stamp are stored without limit
+  tf/test_buffer.py test_flood_of_one_stamp
+a lookup with a timeout polls, and waits to the end of it
+  tf/test_buffer.py test_does_not_wait_for_the_impossible
+`BufferCore(cache_time=...)` as a keyword is ignored
+  tf2_py/test_buffer_core.py test_cache_time
+`lookupVelocityCore` is wrong in general (a lever arm is multiplied element by element)
+  tf2_py/test_buffer_core.py test_velocity
+`_chain` lists wrong frames for V-shaped paths
+  tf2_py/test_buffer_core.py test_chain
+a translation must be a real `Vector3`
+  tf2_py/test_buffer_core.py test_lookup_returns_a_message
+any bytes are a frame name
+  tf/test_buffer.py test_name_that_is_not_utf8 test_reason
+a rejected transform is told in the log alone
+  tf/test_inspection.py test_refusals_are_counted
+  tf2_py/test_buffer_core.py test_refusal_is_logged
+
+`do_transform_vector3` zeroes the caller's transform; result headers are the transform's own object
+  tf2_geometry_msgs/test_vectors.py test_the_header_is_the_transforms_but_a_copy_of_it
+C++ turns a wrench's force and torque and leaves it at that
+  tf2_geometry_msgs/test_twists.py test_power_is_the_same_in_every_frame
+Python has no twists, paths, pose arrays, wrenches, velocities, quaternions
+  tf2_geometry_msgs/test_registration.py test_a_buffer_transforms_it_at_the_time_of_its_stamp test_the_package_lists_what_it_has
+clouds: only x, y, z turn, `row_step` is ignored
+  tf2_sensor_msgs/test_clouds.py test_normals_are_turned_and_not_moved test_every_layout
+`view_frames` needs graphviz, and crashes on a loop
+  tf2_tools/test_view_frames.py test_it_listens_and_writes_three_files test_a_loop_is_told_and_written
+a static link has a rate of 10000 Hz
+  tf/test_tree_drawing.py test_a_static_transform_has_no_rate_and_a_single_one_neither
+  tf2_tools/test_dot.py test_one_link_as_ros_2_writes_it
+
+a static transform that is sent again from Python is ignored
+  tf2_ros/test_broadcasters.py test_a_static_transform_can_be_sent_again test_the_last_sender_of_a_process_wins_for_late_joiners_too
+`StaticTransformBroadcaster` keeps the caller's message
+  tf2_ros/test_broadcasters.py test_the_caller_may_reuse_the_message
+async lookups have no timeout, and wait for times that are lost
+  tf2_ros/test_buffer.py test_futures_may_have_a_timeout test_a_future_fails_when_its_time_has_fallen_out_of_the_cache
+a timed-out remote lookup is an empty transform and a success
+  tf2_ros/test_buffer_server.py test_a_remote_timeout_is_an_error_and_no_empty_transform
+`BufferClient` needs another thread that spins its node
+  tf2_ros/test_buffer_server.py test_a_callback_of_the_user_s_node_may_ask
+`tf2_echo` does not pad nanoseconds
+  tf2_ros/test_tools.py test_echo_prints_what_ros_2_prints test_echo_as_json
+`tf2_monitor` names no publisher
+  tf2_ros/test_tools.py test_monitor_names_who_publishes
+`MessageFilter` is for C++
+  tf2_ros/test_message_filter.py test_callbacks_run_on_the_executor_not_where_the_data_come
+quaternions of `tf_transformations` are NumPy arrays
+  tf_transformations/test_tf_transformations.py test_the_broadcaster_s_function_needs_no_numpy
+
+two INFO lines at the start
+  turtlesim/test_turtlesim_processes.py test_ctrl_c_ends_it_with_a_browser_open_too test_ctrl_c_ends_the_simulator_cleanly
+a Qt window; closing it ends the node
+  turtlesim/test_turtlesim_processes.py test_the_page_drives_the_turtle_on_its_topic
+  web/test_server.py test_a_taken_port_is_replaced_by_a_free_one
+a NaN or infinite command loses the turtle
+  turtlesim/test_turtlesim_node.py test_what_is_not_finite_is_ignored_with_one_line test_a_heading_that_is_not_finite_is_rejected
+an invalid turtle name ends the process
+  turtlesim/test_turtlesim_node.py test_start_spawn_kill_and_reset_with_their_texts
+nothing is said of turtles that others wait for
+  turtlesim/test_turtlesim_node.py test_a_wanted_turtle_is_named_once_with_the_command
+  turtlesim/test_page.py test_a_missing_turtle_is_offered
+callbacks run inside ticks only
+  turtlesim/test_model.py test_teleports_are_applied_in_order_at_the_next_tick
+ticks follow wall time with `use_sim_time`, too
+  turtlesim/test_testing.py test_time_moves_only_in_steps
+teleop without a terminal aborts
+  turtlesim/test_turtlesim_processes.py test_teleop_without_a_terminal_says_so
+`signal_handler(signum=2)` is printed
+  turtlesim/test_turtlesim_processes.py test_ctrl_c_ends_the_simulator_cleanly
+`turtlesim_msgs` comes with Kilted
+  turtlesim/test_distro.py test_types_are_those_of_the_distribution
+bad `--ros-args` abort with 250
+  test_compatibility.py test_bad_arguments_end_turtlesim_with_status_1
+
+children's `print()` waits in a buffer
+  launch/test_execute_process.py test_print_is_seen_at_once
+a launched program has a pipe as its input
+  launch_ros/test_examples.py test_a_launched_teleop_reads_the_terminal
+SIGTERM of launch may leave orphans
+  launch/test_interrupts.py test_sigterm_stops_the_children_too test_not_even_sigkill_leaves_children
+a start that fails, and errors in a launch file, print a traceback
+  launch/test_launch_files.py test_malformed_files
+  launch/test_launch_service.py test_debug_shows_tracebacks_and_events
+a component container must be named in full
+  launch_ros/test_composable_nodes.py test_nodes_of_a_container
+a daemon answers questions about the graph
+  test_compatibility.py test_no_daemon_is_running
+Ctrl-C of a verb may end in error lines
+  ros2cli/test_main.py test_what_a_verb_raises_becomes_one_line_and_a_status
+`ros2 run` obeys the first line of a script
+  ros2cli/test_run_command.py test_python_scripts_run_on_this_interpreter
+`AMENT_PREFIX_PATH` must be set
+  turtlewire_ros/test_prefix.py test_prefixes_that_exist_in_their_order_and_the_own_one_last
+`pkg create` makes C++ packages, too
+  test_compatibility.py test_only_python_packages_are_created
+`ros2 doctor` counts checks
+  cli/test_doctor.py test_the_command_says_problems_first_and_fails
+action feedback follows "Goal accepted"
+  ros2cli/test_golden_cli.py test_commands_beside_the_demo
+"""
+
+
+def entries():
+    """The first cells of the page's tables; a line of dashes follows each head."""
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    heads = {index - 1 for index, line in enumerate(lines) if line.startswith("|---")}
+    cells = [line.strip("|").split(" | ")[0].strip() for index, line in enumerate(lines) if line.startswith("| ") and index not in heads]
+    assert len(cells) == len(set(cells))
+    return cells
+
+
+def table():
+    """Each entry with its tests as pairs of file and name."""
+    found = {}
+    for line in filter(None, TESTED.splitlines()):
+        if line.startswith(" "):
+            file, *names = line.split()
+            found[entry] += [(file, name) for name in names]
+        else:
+            entry = line
+            found[entry] = []
+    return found
+
+
+@functools.cache
+def functions_of(file):
+    tree = ast.parse((TESTS / file).read_text(encoding="utf-8"))
+    return {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+
+
+def test_every_entry_has_its_tests():
+    untested = [entry for entry in entries() if not table().get(entry)]
+    assert untested == [], "write tests of these, and name them in TESTED above"
+    gone = [entry for entry in table() if entry not in entries()]
+    assert gone == [], "these are not on the page any more: change or delete them in TESTED above"
+
+
+@pytest.mark.parametrize(("file", "name"), sorted({pair for pairs in table().values() for pair in pairs}))
+def test_the_tests_are_there(file, name):
+    assert name in functions_of(file)
+
+
+# What no other room tests
+
+
+def test_there_is_no_module_for_a_single_message():
+    with pytest.raises(ModuleNotFoundError, match="_twist"):
+        importlib.import_module("geometry_msgs.msg._twist")
+
+
+def run(*command):
+    return subprocess.run([sys.executable, *command], capture_output=True, text=True, timeout=60, check=False)
+
+
+def test_an_unknown_keyword_is_an_error_without_assertions_too():
+    ended = run("-O", "-c", "from geometry_msgs.msg import Twist; Twist(lineer=1)")
+    assert ended.returncode == 1
+    assert "AssertionError" in ended.stderr.splitlines()[-1]
+
+
+def test_bad_arguments_end_turtlesim_with_status_1():
+    ended = run("-m", "turtlesim.turtlesim_node", "--ros-args", "-r", "a:=b:=c")
+    assert ended.returncode == 1
+    assert "Couldn't parse remap rule: '-r a:=b:=c'" in ended.stderr
+
+
+def test_no_daemon_is_running(capsys):
+    from ros2cli.main import main
+
+    main(["daemon", "status"])
+    assert capsys.readouterr().out == "The daemon is not running\n"
+
+
+def test_only_python_packages_are_created(capsys, tmp_path):
+    from ros2cli.main import main
+
+    with pytest.raises(SystemExit) as end:
+        main(["pkg", "create", "p", "--build-type", "ament_cmake", "--destination-directory", str(tmp_path)])
+    assert end.value.code == 2
+    assert "'ament_cmake'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
