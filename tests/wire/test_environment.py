@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -11,10 +12,12 @@ import pytest
 
 from turtlewire.errors import WireError
 from turtlewire.wire import environment, open_context, report
+from turtlewire.wire.cyclone import participant
 from turtlewire.wire.cyclone.configuration import domain_configuration
 from turtlewire.wire.environment import Discovery, Range
 
 VARIABLES = ["ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY", "CYCLONEDDS_URI"]
+OWN_DOMAIN = os.environ["ROS_DOMAIN_ID"]
 
 
 @pytest.fixture(autouse=True)
@@ -63,7 +66,7 @@ def test_localhost_only_is_honoured_and_deprecated(monkeypatch: pytest.MonkeyPat
 
 
 def configuration(discovery: Discovery) -> ET.Element:
-    domain = ET.fromstring(domain_configuration(discovery)).find("Domain")
+    domain = ET.fromstring(domain_configuration(7, discovery)).find("Domain")
     assert domain is not None
     return domain
 
@@ -100,12 +103,12 @@ def test_configuration_of_each_range():
 
 def test_the_users_configuration_comes_last(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "file:///my.xml")
-    assert domain_configuration(Discovery(Range.SUBNET, ())).endswith("</CycloneDDS>,file:///my.xml")
+    assert domain_configuration(7, Discovery(Range.SUBNET, ())).endswith("</CycloneDDS>,file:///my.xml")
 
 
 def test_a_static_peer_must_be_an_address():
     with pytest.raises(WireError, match="ROS_STATIC_PEERS: 'a\"/><b' is not an address"):
-        domain_configuration(Discovery(Range.SUBNET, ('a"/><b',)))
+        domain_configuration(7, Discovery(Range.SUBNET, ('a"/><b',)))
 
 
 @pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])
@@ -122,6 +125,30 @@ def test_a_broken_configuration_of_the_user_is_one_clear_error():
     done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 1
     assert "WireError: join domain" in done.stderr
+    assert "CYCLONEDDS_URI is set" in done.stderr
+
+
+def test_a_domain_that_is_full_says_so(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture):
+    """Configured for one process, with a neighbour that is there already."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", OWN_DOMAIN)
+    monkeypatch.setenv("CYCLONEDDS_URI", "<Discovery><MaxAutoParticipantIndex>1</MaxAutoParticipantIndex></Discovery>")
+    monkeypatch.setattr(participant, "max_processes", lambda _: 1)
+    code = "from turtlewire.wire import open_context; c = open_context(); print('there', flush=True); input()"
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as neighbour:
+        assert neighbour.stdout is not None
+        neighbour.stdout.readline()  # nothing, if the one place is taken already
+        with pytest.raises(WireError, match=f"join domain {OWN_DOMAIN}") as caught:
+            open_context()
+        neighbour.communicate(b"\n")
+    assert "Failed to find a free participant index" in capfd.readouterr().err
+    if sys.platform == "linux":
+        assert re.search(r"in the domain: \d+; it holds 1\.", caught.value.hint)
+
+
+def test_the_last_domain_works():
+    code = "from turtlewire.wire import open_context; c = open_context(232); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.stdout, done.stderr) == ("1\n", "")
 
 
 def test_a_platform_without_cyclone_gets_one_clear_line():

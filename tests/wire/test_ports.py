@@ -9,7 +9,7 @@ import time
 import pytest
 
 from turtlewire.wire import environment, open_context
-from turtlewire.wire.cyclone.ports import process_of, processes_on_host
+from turtlewire.wire.cyclone.ports import max_processes, process_of, processes_on_host
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the bound ports")
 
@@ -82,3 +82,7 @@ def test_where_the_system_does_not_tell_nothing_is_counted(monkeypatch):
 
     monkeypatch.setattr("builtins.open", refuse)
     assert processes_on_host(7) is None
+
+
+def test_each_domain_holds_120_processes_but_the_last_one():
+    assert [max_processes(domain_id) for domain_id in (0, 7, 231, 232)] == [120, 120, 120, 63]

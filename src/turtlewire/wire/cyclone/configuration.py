@@ -8,34 +8,38 @@ import re
 from turtlewire.errors import WireError
 from turtlewire.wire.environment import Discovery, Range
 
+from .ports import max_processes
+
 __all__ = ["domain_configuration"]
 
-#: So many processes of one host and domain can see each other.
-_MAX_PARTICIPANTS = 120
-#: A killed process vanishes after its lease. On one host no network delays its renewal, so it can be shorter than Cyclone's 10 s.
-_LOCAL_LEASE = "5s"
+#: Above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes, or the heartbeats of a crowd, arrive in one burst.
+_RECEIVE_BUFFER = "10 MB"
+#: On one host each process that comes makes all writers of all others send heartbeats to everybody. Half as often as Cyclone's 100 ms
+#: halves what a crowd that starts at once has to work through; what arrives at the first attempt takes no longer.
+_LOCAL_HEARTBEAT_INTERVAL = "200 ms"
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
 #: would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
 _ADDRESS = re.compile(r"[A-Za-z0-9.:_%\[\]-]+")
 
 
-def domain_configuration(discovery: Discovery) -> str:
+def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     """The configuration: ours first and then ``CYCLONEDDS_URI``, so that the user has the last word.
 
     Raises:
         WireError: A static peer is not an address.
     """
-    parts = [_general(discovery)]
+    parts = [_general(discovery), _internal(discovery)]
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this host.
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
         parts.append(f"<Discovery><ParticipantIndex>none</ParticipantIndex>{tag}</Discovery>")
     else:
-        index = f"<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{_MAX_PARTICIPANTS}</MaxAutoParticipantIndex>"
-        lease = f"<LeaseDuration>{_LOCAL_LEASE}</LeaseDuration>" if discovery.range == Range.LOCALHOST else ""
+        # the least index that Cyclone does not take, whatever its name says
+        limit = f"<MaxAutoParticipantIndex>{max_processes(domain_id)}</MaxAutoParticipantIndex>"
+        index = f"<ParticipantIndex>auto</ParticipantIndex>{limit}"
         interval = f"<SPDPInterval>{_ANNOUNCEMENT_INTERVAL}</SPDPInterval>"
-        parts.append(f"<Discovery>{index}{lease}{interval}{_peers(discovery)}</Discovery>")
+        parts.append(f"<Discovery>{index}{interval}{_peers(discovery)}</Discovery>")
     ours = f"<CycloneDDS><Domain>{''.join(parts)}</Domain></CycloneDDS>"
     users = os.environ.get("CYCLONEDDS_URI", "")
     return f"{ours},{users}" if users else ours
@@ -48,6 +52,13 @@ def _general(discovery: Discovery) -> str:
     # it alone, nobody from outside gets in.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
     return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
+
+
+def _internal(discovery: Discovery) -> str:
+    buffer = f'<SocketReceiveBufferSize max="{_RECEIVE_BUFFER}"/>'
+    local = discovery.range == Range.LOCALHOST
+    heartbeat = f"<HeartbeatInterval>{_LOCAL_HEARTBEAT_INTERVAL}</HeartbeatInterval>" if local else ""
+    return f"<Internal>{buffer}{heartbeat}</Internal>"
 
 
 def _peers(discovery: Discovery) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import threading
 
 from turtlewire.errors import WireError
@@ -12,6 +13,7 @@ from turtlewire.wire.graph import format_user_data
 
 from . import library as dds
 from .configuration import domain_configuration
+from .ports import max_processes, processes_on_host
 
 __all__ = ["Participant"]
 
@@ -34,9 +36,9 @@ class _Domains:
         """Make the domain, unless it is there."""
         with self._lock:
             if not self._users.get(domain_id):
-                handle = dds.create_domain(domain_id, domain_configuration(discovery()).encode())
+                handle = dds.create_domain(domain_id, domain_configuration(domain_id, discovery()).encode())
                 if handle != dds.RETCODE_PRECONDITION_NOT_MET:  # somebody else in this process made it: it is theirs
-                    self._handles[domain_id] = dds.check(handle, f"join domain {domain_id}")
+                    self._handles[domain_id] = _checked(handle, domain_id)
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
 
     def leave(self, domain_id: int) -> None:
@@ -45,6 +47,19 @@ class _Domains:
             self._users[domain_id] -= 1
             if not self._users[domain_id] and domain_id in self._handles:
                 dds.delete(self._handles.pop(domain_id))
+
+
+def _checked(handle: int, domain_id: int) -> int:
+    """The handle of a new domain, or the error with what may have caused it; Cyclone has written its own line on stderr."""
+    if handle >= 0:
+        return handle
+    error = WireError(f"join domain {domain_id}: Cyclone DDS says {dds.return_code_text(handle).decode()}")
+    processes, limit = processes_on_host(domain_id), max_processes(domain_id)
+    if processes is not None and processes >= limit:
+        raise error.with_hint(f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain.")
+    if os.environ.get("CYCLONEDDS_URI"):
+        raise error.with_hint("CYCLONEDDS_URI is set: see Cyclone's line above for what is wrong with it, or unset it.")
+    raise error
 
 
 _domains = _Domains()

@@ -8,20 +8,30 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["process_of", "processes_on_host"]
+__all__ = ["max_processes", "process_of", "processes_on_host"]
 
 _BASE = 7400
 _PER_DOMAIN = 250
 _METATRAFFIC_UNICAST = 10
 _PER_PARTICIPANT = 2
-_MAX_INDEX = 119  # above it, ports belong to the next domain
+_MAX_PROCESSES = 120  # beyond, ports belong to the next domain
+_LAST_PORT = 65535
 _CYCLONE = b"\x01\x10"
 _LOCAL_PORT = re.compile(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", re.MULTILINE)
 
 
+def max_processes(domain_id: int) -> int:
+    """How many processes of one host a domain has ports for; the last domain has fewer than the others."""
+    return min(_MAX_PROCESSES, (_LAST_PORT + 1 - _first_port(domain_id)) // _PER_PARTICIPANT)
+
+
+def _first_port(domain_id: int) -> int:
+    return _BASE + _PER_DOMAIN * domain_id + _METATRAFFIC_UNICAST
+
+
 def processes_on_host(domain_id: int) -> int | None:
     """The number of processes of the domain in this host's network namespace; None where the kernel does not tell (only Linux does)."""
-    first = _BASE + _PER_DOMAIN * domain_id + _METATRAFFIC_UNICAST
+    first = _first_port(domain_id)
     ports: set[int] = set()
     try:
         for table in ("/proc/net/udp", "/proc/net/udp6"):
@@ -29,7 +39,7 @@ def processes_on_host(domain_id: int) -> int | None:
                 ports.update(int(port, 16) for port in _LOCAL_PORT.findall(file.read()))
     except OSError:
         return None
-    return sum(first + _PER_PARTICIPANT * index in ports for index in range(_MAX_INDEX + 1))
+    return sum(first + _PER_PARTICIPANT * index in ports for index in range(_MAX_PROCESSES))
 
 
 def process_of(gid: bytes) -> bytes:
