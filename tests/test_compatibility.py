@@ -221,7 +221,7 @@ def entries():
 
 def table():
     """Each entry with its tests as pairs of file and name."""
-    found = {}
+    found, entry = {}, ""
     for line in filter(None, TESTED.splitlines()):
         if line.startswith(" "):
             file, *names = line.split()
