@@ -85,4 +85,4 @@ def test_where_the_system_does_not_tell_nothing_is_counted(monkeypatch):
 
 
 def test_each_domain_holds_120_processes_but_the_last_one():
-    assert [max_processes(domain_id) for domain_id in (0, 7, 231, 232)] == [120, 120, 120, 63]
+    assert [max_processes(domain_id) for domain_id in (0, 7, 231, 232)] == [120, 120, 120, 62]

@@ -35,7 +35,7 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
         parts.append(f"<Discovery><ParticipantIndex>none</ParticipantIndex>{tag}</Discovery>")
     else:
-        # the least index that Cyclone does not take, whatever its name says
+        # Cyclone takes indices below this number, and looks for others up to it
         limit = f"<MaxAutoParticipantIndex>{max_processes(domain_id)}</MaxAutoParticipantIndex>"
         index = f"<ParticipantIndex>auto</ParticipantIndex>{limit}"
         interval = f"<SPDPInterval>{_ANNOUNCEMENT_INTERVAL}</SPDPInterval>"

@@ -21,8 +21,8 @@ _LOCAL_PORT = re.compile(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", re.MULTILINE)
 
 
 def max_processes(domain_id: int) -> int:
-    """How many processes of one host a domain has ports for; the last domain has fewer than the others."""
-    return min(_MAX_PROCESSES, (_LAST_PORT + 1 - _first_port(domain_id)) // _PER_PARTICIPANT)
+    """How many processes of one host a domain takes: it has ports for them and one more; the last domain has fewer than the others."""
+    return min(_MAX_PROCESSES, (_LAST_PORT - _first_port(domain_id)) // _PER_PARTICIPANT)
 
 
 def _first_port(domain_id: int) -> int:
