@@ -14,6 +14,7 @@ from launch.event_handler import entity_list
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
+from launch.utilities.raised_in import raised_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -167,7 +168,7 @@ class LaunchService:
 
     def _fail(self, error: BaseException) -> None:
         self._logger.debug("%s", "".join(traceback.format_exception(type(error), error, error.__traceback__)))
-        self._logger.error("Caught exception in launch (see debug for traceback): %s", error)
+        self._logger.error("Caught exception in launch (see debug for traceback): %s%s", error, raised_in(error))
         self._return_code = 1
         self._shut_down(f"Caught exception in launch (see debug for traceback): {error}", due_to_sigint=False)
 

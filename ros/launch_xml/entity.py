@@ -23,6 +23,7 @@ class Entity(BaseEntity):
 
     def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
         self._element = xml_element
+        self.line = getattr(xml_element, "line", 0)
         self._parent = parent
         self._children = [Entity(child, parent=self) for child in xml_element]
         self._read_attributes: set[str] = set()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree as ET
 
 from launch.frontend import Parser as BaseParser
 from launch_xml.entity import Entity
@@ -12,6 +13,23 @@ if TYPE_CHECKING:
     import io
 
 __all__ = ["Parser"]
+
+
+class _Element(ET.Element):
+    line = 0
+
+
+class _Builder(ET.TreeBuilder):
+    """Builds elements that know their lines."""
+
+    def __init__(self) -> None:
+        super().__init__(element_factory=_Element)
+        self.parser: Any = None
+
+    def start(self, tag: str, attributes: dict[str, str], /) -> ET.Element:
+        element = super().start(tag, attributes)
+        element.line = self.parser.CurrentLineNumber
+        return element
 
 
 class Parser(BaseParser):
@@ -25,11 +43,14 @@ class Parser(BaseParser):
             SyntaxError: It is no XML; names file and line.
             ValueError: It declares entities.
         """
-        from defusedxml import ElementTree
+        from defusedxml.ElementTree import DefusedXMLParser, parse
 
+        builder = _Builder()
+        parser = DefusedXMLParser(target=builder, forbid_dtd=True)
+        builder.parser = parser.parser
         try:
-            root = ElementTree.parse(file, forbid_dtd=True).getroot()
-        except ElementTree.ParseError as error:
+            root = parse(file, parser=parser).getroot()
+        except ET.ParseError as error:
             path = file if isinstance(file, str) else getattr(file, "name", "")
             error.filename, error.lineno = os.path.basename(path), error.position[0]
             raise

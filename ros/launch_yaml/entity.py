@@ -54,7 +54,9 @@ class Entity(BaseEntity):
             if not isinstance(item, dict) or len(item) != 1:
                 raise RuntimeError(f"Subentities must be a dictionary with only one key, as the entity type: '{item}'")
             ((name, value),) = item.items()
-            children.append(Entity(value, str(name), parent=self))
+            child = Entity(value, str(name), parent=self)
+            child.line = getattr(item, "line", 0)
+            children.append(child)
         return children
 
     def assert_entity_completely_parsed(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import Parser as BaseParser
@@ -10,6 +11,7 @@ from launch_yaml.entity import Entity
 
 if TYPE_CHECKING:
     import io
+    from collections.abc import Iterator
 
 __all__ = ["Parser"]
 
@@ -46,11 +48,34 @@ class Parser(BaseParser):
         return {"yaml", "yml"}
 
 
+class _Mapping(dict):  # type: ignore[type-arg]
+    """A mapping that knows its line."""
+
+    line = 0
+
+
+@cache
+def _loader() -> Any:
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        pass
+
+    def mapping(loader: Any, node: Any) -> Iterator[_Mapping]:
+        made = _Mapping()
+        made.line = node.start_mark.line + 1
+        yield made
+        made.update(loader.construct_mapping(node))
+
+    Loader.add_constructor("tag:yaml.org,2002:map", mapping)
+    return Loader
+
+
 def _tree(file: io.TextIOBase) -> Any:
     import yaml
 
     try:
-        return yaml.safe_load(file)
+        return yaml.load(file, _loader())  # noqa: S506  a SafeLoader
     except yaml.MarkedYAMLError as error:
         if error.problem_mark is None:
             raise

@@ -134,6 +134,7 @@ def _status(args: argparse.Namespace) -> int:
         import traceback
 
         status = "".join(traceback.format_exception_only(type(error), error)).rstrip("\n")
+        status += f"\n{error.hint}" if hasattr(error, "hint") else ""
     if isinstance(status, str):
         print(status, file=sys.stderr)
         return 1

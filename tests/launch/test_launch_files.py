@@ -182,3 +182,52 @@ def test_the_tree_of_a_description():
     assert lines[9] == "└── ExecuteProcess(cmd=['echo', LaunchConfig('x')], cwd=None, env={'A': 'b'}, shell=False)"
     assert lines[10].startswith("    └── process '[[<launch.substitutions.text_substitution.TextSubstitution object at ")
     assert lines[11] == "        └── EmitEvent(event='launch.events.Shutdown')"
+
+
+LATE = """
+from launch import LaunchDescription
+from launch.actions import OpaqueFunction
+
+def late(context):
+    return [][3]
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=late)])
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "line"),
+    [
+        ("x.launch.py", "import os\n\ndef generate_launch_description():\n    return os.nope()\n", 4),
+        ("x.launch.py", "from launch import LaunchDescription\nimport nowhere_at_all\n", 2),
+        (
+            "x.launch.py",
+            LATE,
+            6,
+        ),
+        ("x.launch.xml", "<launch>\n  <group>\n    <nope/>\n  </group>\n</launch>", 3),
+        ("x.launch.xml", "<launch>\n  <log message='a' massage='b'/>\n</launch>", 2),
+        ("x.launch.yaml", "launch:\n- log:\n    message: hello\n- let:\n    name: x\n", 4),
+        ("x.launch.yaml", "launch:\n- group:\n  - nope: {}\n", 3),
+    ],
+)
+def test_errors_in_files_are_named_with_their_lines(launch, file, name, content, line):
+    path = file(name, content)
+    outcome = launch(IncludeLaunchDescription(path))
+    assert outcome.status == 1
+    assert outcome.lines[-1] == f"  raised in {path}:{line}"
+
+
+def test_errors_of_a_file_that_is_only_shown_are_named_with_their_lines(tmp_path, capsys):
+    from ros2cli.main import main
+
+    path = tmp_path / "x.launch.py"
+    path.write_text("def generate_launch_description():\n    raise ValueError('boom')\n")
+    for option in ("--show-args", "--print"):
+        assert main(["launch", option, str(path)]) == 1
+        assert capsys.readouterr().err.splitlines()[1:] == [
+            " - ValueError: boom",
+            " - RuntimeError: Expected 'launch' as root tag",
+            f"  raised in {path}:2",
+        ]

@@ -8,7 +8,13 @@ __all__ = ["Entity"]
 
 
 class Entity:
-    """One element of a launch file; each language has a class of its own."""
+    """One element of a launch file; each language has a class of its own.
+
+    Attributes:
+        line: The line that it begins in, from 1; 0 when that is not known.
+    """
+
+    line: int = 0
 
     @property
     def type_name(self) -> str:

@@ -84,12 +84,20 @@ class Parser:
         return LaunchDescription(actions)
 
     def parse_action(self, entity: Entity) -> Action:
-        """The action of an element.
+        """The action of an element. Errors get the line of the innermost element that has one, as ``launch_file_line``.
 
         Raises:
             RuntimeError: There is no such action.
             ValueError: The element has attributes or children that the action does not know.
         """
+        try:
+            return self._action(entity)
+        except Exception as error:
+            if entity.line:
+                vars(error).setdefault("launch_file_line", entity.line)
+            raise
+
+    def _action(self, entity: Entity) -> Action:
         _load_extensions()
         if entity.type_name not in action_parse_methods:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")

@@ -19,7 +19,13 @@ def get_launch_description_from_frontend_launch_file(
 
     Raises:
         InvalidFrontendLaunchFileError: No language fits.
-        Exception: What is wrong with an element.
+        Exception: What is wrong with an element; ``launch_file_line`` says where.
     """
     root, file_parser = (parser or Parser).load(frontend_launch_file_path)
-    return file_parser.parse_description(root)
+    try:
+        return file_parser.parse_description(root)
+    except Exception as error:
+        line = vars(error).get("launch_file_line")
+        if line is not None:
+            vars(error)["launch_file_line"] = f"{frontend_launch_file_path}:{line}"
+        raise

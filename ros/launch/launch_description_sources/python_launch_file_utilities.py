@@ -6,6 +6,8 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from typing import TYPE_CHECKING, cast
 
+from launch.utilities.raised_in import MODULE_NAME
+
 if TYPE_CHECKING:
     from types import ModuleType
 
@@ -24,7 +26,7 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     Raises:
         Exception: Whatever the file raises.
     """
-    loader = _UncachedLoader("python_launch_file", python_launch_file_path)
+    loader = _UncachedLoader(MODULE_NAME, python_launch_file_path)
     spec = spec_from_loader(loader.name, loader)
     assert spec is not None
     module = module_from_spec(spec)

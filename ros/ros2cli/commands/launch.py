@@ -52,10 +52,8 @@ def main(args: argparse.Namespace) -> int | str | None:
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     source = AnyLaunchDescriptionSource(path)
-    if args.show_args:
-        return _show_arguments(source)
-    if args.print:
-        return _print_description(source)
+    if args.show_args or args.print:
+        return (_show_arguments if args.show_args else _print_description)(_description(source))
     check = OpaqueFunction(function=_warn_of_unknown, args=[source, [name for name, _ in _parsed_arguments(words)]])
     description = LaunchDescription([check, IncludeLaunchDescription(source, launch_arguments=arguments)])
     with _terminal_restored():
@@ -161,11 +159,23 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     return list(values.items())
 
 
-def _show_arguments(source: LaunchDescriptionSource) -> int:
+def _description(source: LaunchDescriptionSource) -> LaunchDescription:
+    """What the file describes; errors get a hint that says where in the file."""
+    from launch import LaunchContext
+    from launch.utilities.raised_in import raised_in
+
+    try:
+        return source.get_launch_description(LaunchContext())
+    except Exception as error:
+        if where := raised_in(error).lstrip("\n"):
+            vars(error)["hint"] = where
+        raise
+
+
+def _show_arguments(description: LaunchDescription) -> int:
     from launch import LaunchContext
     from launch.utilities import perform_substitutions
 
-    description = source.get_launch_description(LaunchContext())
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     conditional = False
     for argument in description.get_launch_arguments():
@@ -186,8 +196,8 @@ def _show_arguments(source: LaunchDescriptionSource) -> int:
     return 0
 
 
-def _print_description(source: LaunchDescriptionSource) -> int:
-    from launch import LaunchContext, LaunchIntrospector
+def _print_description(description: LaunchDescription) -> int:
+    from launch import LaunchIntrospector
 
-    print(LaunchIntrospector().format_launch_description(source.get_launch_description(LaunchContext())))
+    print(LaunchIntrospector().format_launch_description(description))
     return 0

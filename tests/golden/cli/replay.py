@@ -203,7 +203,7 @@ def masked(case: Case, text: str) -> list[str]:
         text = re.sub(pattern, replacement, text)
     if _NUMBERS_VARY.search(case.name):
         text = _FLOAT.sub("F", re.sub(r"(window: |from )\d+", r"\1N", text))
-    lines = [line for line in text.splitlines() if not line.startswith(("QStandardPaths", "Did you mean:"))]
+    lines = [line for line in text.splitlines() if not line.startswith(("QStandardPaths", "Did you mean:", "  raised in "))]
     if case.interrupt_after is not None:  # how often something happened until then
         lines = sorted({re.sub(r"#\d+", "#N", line) for line in lines})
     return sorted(lines) if _ORDER_VARIES.search(case.name) else lines
