@@ -6,7 +6,21 @@ import json
 import math
 from typing import Any, NamedTuple
 
-__all__ = ["Clear", "Command", "CommandError", "Drive", "Kill", "Reset", "Spawn", "Teleport", "Unwatch", "Watch", "parse_command"]
+__all__ = [
+    "Cancel",
+    "Clear",
+    "Command",
+    "CommandError",
+    "Drive",
+    "Kill",
+    "Reset",
+    "Rotate",
+    "Spawn",
+    "Teleport",
+    "Unwatch",
+    "Watch",
+    "parse_command",
+]
 
 #: All other fields are numbers.
 _TEXT_FIELDS = frozenset({"turtle", "name", "target", "source"})
@@ -24,6 +38,19 @@ class Drive(NamedTuple):
     turtle: str
     linear: float
     angular: float
+
+
+class Rotate(NamedTuple):
+    """A rotation to the heading theta [rad]."""
+
+    turtle: str
+    theta: float
+
+
+class Cancel(NamedTuple):
+    """The end of a rotation that was asked for in the page."""
+
+    turtle: str
 
 
 class Spawn(NamedTuple):
@@ -69,9 +96,10 @@ class Unwatch(NamedTuple):
     """Have no frames sent."""
 
 
-Command = Drive | Spawn | Teleport | Kill | Clear | Reset | Watch | Unwatch
+Command = Drive | Rotate | Cancel | Spawn | Teleport | Kill | Clear | Reset | Watch | Unwatch
 
-_COMMANDS: dict[str, type[Any]] = {kind.__name__.lower(): kind for kind in (Drive, Spawn, Teleport, Kill, Clear, Reset, Watch, Unwatch)}
+_KINDS: tuple[type[Any], ...] = (Drive, Rotate, Cancel, Spawn, Teleport, Kill, Clear, Reset, Watch, Unwatch)
+_COMMANDS = {kind.__name__.lower(): kind for kind in _KINDS}
 
 
 def parse_command(text: str | bytes) -> Command:

@@ -23,6 +23,7 @@ from turtlesim import page_commands
 from turtlesim.cpp_node import CppNode
 from turtlesim.missing_turtles import MissingTurtles
 from turtlesim.model import FIELD_SIZE, TICK_NS, World
+from turtlesim.page_rotations import PageRotations
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import QUEUE_DEPTH, TurtleEndpoints, are_finite
@@ -65,6 +66,7 @@ class TurtlesimNode(CppNode):
         self._endpoints_of: dict[str, TurtleEndpoints] = {}
         self._page_commands: deque[page_commands.Command] = deque()
         self._page_publishers: dict[str, Publisher] = {}
+        self._page_rotations = PageRotations(self)
         self._screen: Screen | None = None
         self._hinted: set[str] = set()
         self.create_service(Empty, "clear", self._on_clear)
@@ -179,6 +181,7 @@ class TurtlesimNode(CppNode):
 
     def _remove(self, name: str) -> None:
         self._endpoints_of.pop(name).destroy()
+        self._page_rotations.forget(name)
         publisher = self._page_publishers.pop(name, None)
         if publisher is not None:
             self.destroy_publisher(publisher)
@@ -293,6 +296,10 @@ class TurtlesimNode(CppNode):
         message.angular.z = command.angular
         publisher.publish(message)
 
+    def _rotate_from_page(self, command: page_commands.Rotate) -> None:
+        if command.turtle in self.world.turtles and not self._page_rotations.rotate(command.turtle, command.theta):
+            self._page_commands.append(command)
+
     def _teleport_from_page(self, command: page_commands.Teleport) -> None:
         turtle = self.world.turtles.get(command.turtle)
         if turtle is not None:
@@ -300,6 +307,8 @@ class TurtlesimNode(CppNode):
 
     _page_actions: ClassVar[dict[type, Callable[[TurtlesimNode, Any], object]]] = {
         page_commands.Drive: _drive_from_page,
+        page_commands.Rotate: _rotate_from_page,
+        page_commands.Cancel: lambda self, command: self._page_rotations.cancel(command.turtle),
         page_commands.Teleport: _teleport_from_page,
         page_commands.Spawn: lambda self, command: self.spawn(*command),
         page_commands.Kill: lambda self, command: self._kill(command.turtle),

@@ -93,6 +93,8 @@ class Simulator:
         self.commands.append(command)
         if isinstance(command, page_commands.Drive):
             self.world.turtles[command.turtle].drive(command.linear, 0.0, command.angular)
+        elif isinstance(command, page_commands.Rotate):
+            self.world.turtles[command.turtle].rotate_to(command.theta)
         elif isinstance(command, page_commands.Spawn):
             self.world.spawn(*command)
         elif isinstance(command, page_commands.Teleport):
@@ -230,6 +232,23 @@ def test_the_pad_drives_by_mouse_touch_and_keyboard(simulator, open_page):
     page.click("#clear")
     wait_until(lambda: page_commands.Clear() in simulator.commands)
     assert simulator.commands[:-1] == 3 * [page_commands.Drive("turtle1", 2.0, 0.0)]
+
+
+def test_keys_and_buttons_turn_to_a_heading(simulator, open_page):
+    page = open_page(simulator.screen.url)
+    headings = {"g": 0.0, "t": 0.7854, "r": 1.5708, "e": 2.3562, "d": 3.1416, "c": -2.3562, "v": -1.5708, "b": -0.7854}  # as in teleop
+    for key in [*headings, "f", "F", "q", "Alt+t"]:
+        page.keyboard.press(key)
+    page.get_by_role("button", name="turn to 90°").click()
+    page.get_by_role("button", name="cancel the rotation").click()
+    wait_until(lambda: len(simulator.commands) == 12)
+    turns = [page_commands.Rotate("turtle1", theta) for theta in headings.values()]
+    cancel = page_commands.Cancel("turtle1")
+    assert simulator.commands == [*turns, cancel, cancel, page_commands.Rotate("turtle1", 1.5708), cancel]
+    wait_for_text(page, "#roster", "89°")  # a rotation ends 0.02 rad before its goal, as in the original
+    page.focus("#clear")
+    page.keyboard.press("g")  # wherever the focus is
+    wait_until(lambda: len(simulator.commands) == 13)
 
 
 def test_another_turtle_can_be_chosen(simulator, open_page):

@@ -152,6 +152,32 @@ def test_the_page_drives_the_turtle_on_its_topic(ear):
         assert simulator.interrupt() == 0
 
 
+def test_the_page_rotates_the_turtle_by_its_action(ear):
+    simulator = Process("turtlesim.turtlesim_node")
+    try:
+        url = simulator.wait_for(r"The field is shown at (http://127\.0\.0\.1:\d+/)")[1]
+        poses = ear.listen(Pose, "/turtle1/pose")
+        with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
+            browser.send('{"type": "cancel", "turtle": "turtle1"}')  # there is nothing to cancel
+            browser.send('{"type": "rotate", "turtle": "turtle1", "theta": 0.3}')
+            simulator.wait_for("Rotation goal completed successfully")
+            ear.spin_until(lambda: poses and poses[-1].theta == pytest.approx(0.3, abs=0.03))
+            browser.send('{"type": "rotate", "turtle": "turtle1", "theta": 3.1416}')
+            ear.spin_until(lambda: poses[-1].theta > 0.4)
+            browser.send('{"type": "cancel", "turtle": "turtle1"}')
+            simulator.wait_for("Rotation goal canceled")
+            browser.send('{"type": "rotate", "turtle": "turtle1", "theta": 3.1416}')
+            browser.send('{"type": "kill", "turtle": "turtle1"}')
+            browser.send('{"type": "rotate", "turtle": "turtle1", "theta": 0.0}')  # it is gone
+            browser.send('{"type": "reset"}')
+            simulator.wait_for("Resetting turtlesim")
+            browser.send('{"type": "rotate", "turtle": "turtle1", "theta": -0.2}')
+            simulator.wait_for(r"Rotation goal completed successfully(?s:.*)Rotation goal completed successfully")
+    finally:
+        assert simulator.interrupt() == 0
+    assert "Traceback" not in simulator.output
+
+
 class Terminal:
     """A pseudo-terminal with teleop on it."""
 

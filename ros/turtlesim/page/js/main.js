@@ -1,5 +1,6 @@
 // Wiring: the stream feeds field and panels; keys, buttons and the pointer feed the stream.
 
+import { listenForRotating } from "./compass.js";
 import { Connection } from "./connection.js";
 import { listenForDriving } from "./controls.js";
 import { Field } from "./field.js";
@@ -89,6 +90,11 @@ requestAnimationFrame(display);
 
 listenForDriving(byId("pad"), ({ linear, angular }) => {
   if (driven !== null) connection.send({ type: "drive", turtle: driven, linear, angular });
+});
+
+listenForRotating(byId("compass"), {
+  rotate: (theta) => driven !== null && connection.send({ type: "rotate", turtle: driven, theta }),
+  cancel: () => driven !== null && connection.send({ type: "cancel", turtle: driven }),
 });
 
 /** By mouse or finger, the next press on the field places the turtle; by keyboard it appears somewhere. */

@@ -12,9 +12,7 @@ def generate_launch_description():
     listener = ["turtle_tf2_", LaunchConfiguration("waiting"), "_listener"]
     return LaunchDescription(
         [
-            DeclareLaunchArgument(
-                "waiting", default_value="blocking", choices=["blocking", "async"], description="How it waits."
-            ),
+            DeclareLaunchArgument("waiting", default_value="blocking", choices=["blocking", "async"], description="How it waits."),
             IncludeLaunchDescription(PythonLaunchDescriptionSource(demo), launch_arguments={"listener": listener}.items()),
         ]
     )

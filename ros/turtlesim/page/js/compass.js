@@ -1,0 +1,35 @@
+// Turning to a heading: the keys around F, each for the direction in which it lies from there, as in turtle_teleop_key.
+
+const KEYS = [
+  ["e", 2.3562], ["r", 1.5708], ["t", 0.7854],
+  ["d", 3.1416], ["f", null], ["g", 0],
+  ["c", -2.3562], ["v", -1.5708], ["b", -0.7854],
+];
+
+/** Fill `compass` with buttons; call `rotate(theta)` [rad], and `cancel()` for the one in the middle. */
+export function listenForRotating(compass, { rotate, cancel }) {
+  const buttons = new Map(KEYS.map(([key, theta]) => [key, makeButton(key, theta, () => (theta === null ? cancel() : rotate(theta)))]));
+  compass.append(...buttons.values());
+  addEventListener("keydown", (event) => {
+    const button = buttons.get(event.key.toLowerCase());
+    if (!button || event.repeat || event.ctrlKey || event.altKey || event.metaKey || event.target instanceof HTMLSelectElement) return;
+    button.classList.add("pressed");
+    button.click();
+  });
+  const release = () => buttons.forEach((button) => button.classList.remove("pressed"));
+  addEventListener("keyup", release);
+  addEventListener("blur", release);
+}
+
+function makeButton(key, theta, act) {
+  const button = document.createElement("button");
+  const degrees = Math.round((theta * 180) / Math.PI);
+  button.type = "button";
+  button.setAttribute("aria-label", theta === null ? "cancel the rotation" : `turn to ${degrees}°`);
+  button.setAttribute("aria-keyshortcuts", key);
+  button.title = `${button.getAttribute("aria-label")} (key ${key})`;
+  const shape = theta === null ? "M7 7l10 10M17 7L7 17" : "M4 12h15M13 6l6 6-6 6";
+  button.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${shape}" transform="rotate(${-degrees} 12 12)"/></svg><kbd>${key}</kbd>`;
+  button.onclick = act;
+  return button;
+}
