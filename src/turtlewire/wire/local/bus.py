@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import threading
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.wire.base import EventKind, EventStatus
 from turtlewire.wire.qos import Durability, Reliability
@@ -33,6 +33,13 @@ def bus_of(domain_id: int) -> Bus:
         return _buses.setdefault(domain_id, Bus())
 
 
+class _Topic(NamedTuple):
+    """The endpoints of one topic and type, in the order of their creation."""
+
+    publishers: dict[LocalPublisher, None]
+    subscriptions: dict[LocalSubscription, None]
+
+
 class Bus:
     """All contexts, publishers and subscriptions of a domain.
 
@@ -43,32 +50,51 @@ class Bus:
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.contexts: list[LocalContext] = []
-        self.publishers: list[LocalPublisher] = []
-        self.subscriptions: list[LocalSubscription] = []
+        self._topics: dict[tuple[str, str], _Topic] = {}
+
+    def publishers(self) -> list[LocalPublisher]:
+        """All of them; called with the lock held."""
+        return [publisher for topic in self._topics.values() for publisher in topic.publishers]
+
+    def subscriptions(self) -> list[LocalSubscription]:
+        """All of them; called with the lock held."""
+        return [subscription for topic in self._topics.values() for subscription in topic.subscriptions]
+
+    def _topic_of(self, endpoint: LocalEndpoint) -> _Topic:
+        return self._topics.setdefault((endpoint.dds_topic, endpoint.type_id.name), _Topic({}, {}))
 
     def add_publisher(self, publisher: LocalPublisher) -> None:
         """Let it match; called with the lock held."""
-        self.publishers.append(publisher)
-        for subscription in self.subscriptions:
+        topic = self._topic_of(publisher)
+        topic.publishers[publisher] = None
+        for subscription in topic.subscriptions:
             _meet(publisher, subscription)
 
     def add_subscription(self, subscription: LocalSubscription) -> None:
         """Let it match; called with the lock held."""
-        self.subscriptions.append(subscription)
-        for publisher in self.publishers:
+        topic = self._topic_of(subscription)
+        topic.subscriptions[subscription] = None
+        for publisher in topic.publishers:
             _meet(publisher, subscription)
 
     def remove_publisher(self, publisher: LocalPublisher) -> None:
         """Let it match no more; called with the lock held."""
-        self.publishers.remove(publisher)
+        del self._topic_of(publisher).publishers[publisher]
         for subscription in publisher.matched:
             _part(subscription, publisher)
+        self._forget_if_empty(publisher)
 
     def remove_subscription(self, subscription: LocalSubscription) -> None:
         """Let it match no more; called with the lock held."""
-        self.subscriptions.remove(subscription)
+        del self._topic_of(subscription).subscriptions[subscription]
         for publisher in subscription.matched:
             _part(publisher, subscription)
+        self._forget_if_empty(subscription)
+
+    def _forget_if_empty(self, endpoint: LocalEndpoint) -> None:
+        topic = self._topic_of(endpoint)
+        if not topic.publishers and not topic.subscriptions:
+            del self._topics[endpoint.dds_topic, endpoint.type_id.name]
 
     def changed(self) -> None:
         """Tell every context that the graph is another one now."""
@@ -79,8 +105,7 @@ class Bus:
 
 
 def _meet(publisher: LocalPublisher, subscription: LocalSubscription) -> None:
-    if (publisher.dds_topic, publisher.type_id.name) != (subscription.dds_topic, subscription.type_id.name):
-        return
+    """Match two endpoints of one topic and type, or say which policy does not fit."""
     policy = _misfit(publisher, subscription)
     if policy:
         for endpoint in (publisher, subscription):

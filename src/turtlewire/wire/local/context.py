@@ -89,8 +89,8 @@ class _LocalGraph(GraphView):
     def endpoints(self) -> list[EndpointInfo]:
         """See :meth:`Graph.endpoints`."""
         with self._bus.lock:
-            publishers = [publisher.info("publisher") for publisher in self._bus.publishers]
-            return publishers + [subscription.info("subscription") for subscription in self._bus.subscriptions]
+            publishers = [publisher.info("publisher") for publisher in self._bus.publishers()]
+            return publishers + [subscription.info("subscription") for subscription in self._bus.subscriptions()]
 
 
 class LocalContext(Context):
