@@ -143,6 +143,8 @@ class MessageLookup {
     this->buffer = nb::inst_ptr<BufferObject>(owner_);
   }
 
+  nb::handle owner() const { return owner_; }
+
   StampedMaker maker;
   BufferObject* buffer;
 
@@ -197,7 +199,18 @@ PyMethodDef methods[] = {
     {nullptr, nullptr, 0, nullptr},
 };
 
-PyType_Slot slots[] = {{Py_tp_methods, methods}, {0, nullptr}};
+// Shows the garbage collector cycles through the buffer, which breaks them: it forgets its listeners.
+int traverse(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<MessageLookup>(self)->owner().ptr());
+  return 0;
+}
+
+PyType_Slot slots[] = {
+    {Py_tp_methods, methods},
+    {Py_tp_traverse, reinterpret_cast<void*>(traverse)},
+    {0, nullptr},
+};
 
 }  // namespace
 

@@ -34,6 +34,7 @@ struct Failure {
   std::string target_root, source_root;  // of two frames that are not connected
   std::string link_child, link_parent;   // the link whose data does not reach, with its newest parent
   bool emptied = false;                  // that link has no sample at all
+  bool latest = false;                   // the latest time was asked for, which new data moves on
   Stamp requested = 0, oldest = 0, newest = 0;
   std::string frames;  // all_frames_as_string() of a tree with a loop
 };

@@ -34,6 +34,7 @@ Status SharedBuffer::find(const Request& request, Found& found, Failure& failure
   Status status = resolve(request.target, Argument::target, target, failure);
   if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
   if (status != Status::ok) return status;
+  failure.latest = request.t == 0;
   return buffer.lookup(buffer.path(target, source), found.stamp, found.target_from_source, &failure);
 }
 
@@ -43,6 +44,7 @@ Status SharedBuffer::test(const Request& request, Failure& failure) {
   Status status = resolve(request.target, Argument::target, target, failure);
   if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
   if (status != Status::ok) return status;
+  failure.latest = request.t == 0;
   return buffer.can_transform(buffer.path(target, source), request.t, &failure);
 }
 
@@ -99,7 +101,7 @@ bool SharedBuffer::worth_waiting(const Failure& failure) const {
       return false;
     case Status::no_data:
     case Status::past:
-      return failure.emptied || failure.requested >= earlier(failure.newest, buffer.keep());
+      return failure.latest || failure.emptied || failure.requested >= earlier(failure.newest, buffer.keep());
     default:
       return true;
   }

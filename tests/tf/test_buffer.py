@@ -353,6 +353,20 @@ class TestWaiting:
             buffer.lookup_transform("a", "/b", timeout_ns=3600 * SECOND)
         assert time.monotonic() - start < 600
 
+    @pytest.mark.parametrize("full", [False, True])
+    def test_the_latest_time_never_leaves_the_cache(self, buffer: turtlewire.Buffer, full: bool) -> None:
+        """A link that has stood still for longer than the cache may go on."""
+        for t in range(90, 101):
+            buffer.set_transform("a", "b", t * SECOND, (1, 0, 0), NO_TURN)
+        buffer.set_transform("b", "c", 50 * SECOND, (1, 0, 0), NO_TURN)
+        goes_on = threading.Timer(0.05, lambda: buffer.set_transform("b", "c", 100 * SECOND, (2, 0, 0), NO_TURN))
+        goes_on.start()
+        if full:
+            assert buffer.lookup_transform_full("a", 0, "c", 0, "a", timeout_ns=60 * SECOND).x == 3.0
+        else:
+            assert buffer.lookup_transform("a", "c", timeout_ns=60 * SECOND).x == 3.0
+        goes_on.join()
+
     def test_many_waiters(self, buffer: turtlewire.Buffer) -> None:
         results: list[float] = []
         waiters = [

@@ -146,9 +146,14 @@ class Tree:
             return (link.newest if stamp == 0 and link else stamp, IDENTITY)
         self.check_name(target, question, "target_frame")
         self.check_name(source, question, "source_frame")
-        if stamp == 0:
+        latest = stamp == 0
+        if latest:
             stamp = self.latest_common_time(target, source)
-        return stamp, canonical(self._walk(target, source, stamp, lambda link: link.read(stamp))[0])
+        try:
+            return stamp, canonical(self._walk(target, source, stamp, lambda link: link.read(stamp))[0])
+        except Failure as failure:
+            failure.hopeless = failure.hopeless and not latest  # new data moves the latest time on
+            raise
 
     def lookup_by(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
         """The pose by another rule than tf2's for what a link answers, and the children of the links on the way."""
