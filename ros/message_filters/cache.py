@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from bisect import bisect_left, bisect_right
+from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from .simple_filter import SimpleFilter
@@ -16,7 +17,7 @@ __all__ = ["Cache"]
 
 
 class Cache(SimpleFilter):
-    """Keeps the newest messages of a filter in the order of their stamps, and passes them on. Thread-safe.
+    """Keeps the last messages of a filter in the order of their stamps, and passes them on. Thread-safe.
 
     Args:
         f: The filter to listen to; None to :meth:`add` messages by hand.
@@ -29,6 +30,7 @@ class Cache(SimpleFilter):
         self._lock = threading.Lock()
         self.cache_msgs: list[Any] = []
         self.cache_times: list[Time] = []
+        self._arrived: deque[tuple[Time, Any]] = deque()
         self.cache_size = cache_size
         self.allow_headerless = allow_headerless
         if f is not None:
@@ -47,9 +49,17 @@ class Cache(SimpleFilter):
             place = bisect_right(self.cache_times, stamp)
             self.cache_times.insert(place, stamp)
             self.cache_msgs.insert(place, msg)
-            if len(self.cache_msgs) > self.cache_size:
-                del self.cache_times[0], self.cache_msgs[0]
+            self._arrived.append((stamp, msg))
+            if len(self._arrived) > self.cache_size:
+                self._forget(*self._arrived.popleft())
         self.signalMessage(msg)
+
+    def _forget(self, stamp: Time, msg: Any) -> None:
+        """The first to come goes: after a clock has jumped back, those of before have the newest stamps."""
+        place = bisect_left(self.cache_times, stamp)
+        while self.cache_msgs[place] is not msg:
+            place += 1
+        del self.cache_times[place], self.cache_msgs[place]
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802 -- ROS 2's name
         """The messages from one time to another, both included."""

@@ -26,7 +26,7 @@ class TimeSynchronizer(SimpleFilter):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the oldest is dropped beyond.
+        queue_size: How many messages of each filter wait for their partners; the one that has waited longest is dropped beyond.
 
     Attributes:
         queues: The waiting messages of each filter, by nanoseconds.
@@ -58,9 +58,10 @@ class TimeSynchronizer(SimpleFilter):
             self.signalMessage(*messages)
 
     def _keep(self, msg: Any, stamp_ns: int, queue: dict[int, Any]) -> None:
+        queue.pop(stamp_ns, None)
         queue[stamp_ns] = msg
         while len(queue) > self.queue_size:
-            del queue[min(queue)]
+            del queue[next(iter(queue))]  # by arrival: after a clock has jumped back, those of before have the newest stamps
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
@@ -68,7 +69,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the oldest is dropped beyond.
+        queue_size: How many messages of each filter wait for their partners; the one that has waited longest is dropped beyond.
         slop: All stamps of a set lie within less than so many seconds.
         allow_headerless: Whether messages without a stamp are taken, with the time of their arrival.
     """

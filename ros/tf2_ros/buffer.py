@@ -9,7 +9,7 @@ from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
 from tf2_py.times import to_nanoseconds
-from turtlewire.errors import TransformException
+from turtlewire.errors import BackwardExtrapolationException, InvalidArgumentException, NoDataForExtrapolationException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .transform_futures import TransformFutures
@@ -22,8 +22,12 @@ if TYPE_CHECKING:
     from rclpy.clock import TimeJump
     from rclpy.node import Node
     from rclpy.task import Future
+    from turtlewire.errors import TransformException
 
-__all__ = ["Buffer"]
+__all__ = ["JUMP_BACK", "Buffer"]
+
+#: The jumps of a clock after which what was stored is of another time.
+JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
 
 
 class Buffer(BufferCore, BufferInterface):
@@ -32,10 +36,13 @@ class Buffer(BufferCore, BufferInterface):
     A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a timeout works wherever a lookup is called: the call
     sleeps until the data is there, polls nothing, and needs nobody to spin.
 
+    When the clock jumps back, as at the end of a bag that is played in a loop, what was stored is of another time, and is forgotten; static
+    transforms stay. The clock is the one of ``node``, and without a node that of the listener's node; a simulated clock moves while that
+    node is spun.
+
     Args:
         cache_time: How long samples are kept; 10 s unless given.
-        node: Offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``) on this node and follows its clock: when that jumps back, what
-            was stored is of another time, and is forgotten. Static transforms stay.
+        node: Offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``) on this node, and has the clock.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -46,8 +53,7 @@ class Buffer(BufferCore, BufferInterface):
         self.clock = Clock() if node is None else node.get_clock()
         if node is not None:
             self._offer_frames(node)
-            threshold = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
-            self.jump_handle = self.clock.create_jump_callback(threshold, post_callback=self.time_jump_callback)
+            self.jump_handle = self.clock.create_jump_callback(JUMP_BACK, post_callback=self.time_jump_callback)
 
     def _offer_frames(self, node: Node) -> None:
         from tf2_msgs.srv import FrameGraph
@@ -171,8 +177,9 @@ class Buffer(BufferCore, BufferInterface):
         Done-callbacks run on the thread that brings the data, and should be short. Arguments and errors as
         :meth:`lookup_transform_async`.
         """
-        leg = _Leg(self.engine, target_frame, source_frame, to_nanoseconds(time))
-        return self._futures.add(_Question((leg,), lambda: self.lookup_transform_core(target_frame, source_frame, time)), _limit(timeout))
+        leg = _Leg(target_frame, source_frame, to_nanoseconds(time))
+        answer = functools.partial(self.lookup_transform_core, target_frame, source_frame, time)
+        return self._futures.add(_Question(self.engine, (leg,), answer), _limit(timeout))
 
     def wait_for_transform_full_async(
         self,
@@ -186,46 +193,37 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Future:
         """As :meth:`wait_for_transform_async`, for :meth:`lookup_transform_full`."""
         legs = (
-            _Leg(self.engine, target_frame, fixed_frame, to_nanoseconds(target_time)),
-            _Leg(self.engine, fixed_frame, source_frame, to_nanoseconds(source_time)),
+            _Leg(target_frame, fixed_frame, to_nanoseconds(target_time)),
+            _Leg(fixed_frame, source_frame, to_nanoseconds(source_time)),
         )
         answer = functools.partial(self.lookup_transform_full_core, target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._futures.add(_Question(legs, answer), _limit(timeout))
+        return self._futures.add(_Question(self.engine, legs, answer), _limit(timeout))
 
 
 class _Leg(NamedTuple):
     """One way between two frames at one time."""
 
-    engine: turtlewire.Buffer
     target: str
     source: str
     stamp_ns: int
-
-    def known(self) -> bool:
-        return self.engine.can_transform(self.target, self.source, self.stamp_ns)
-
-    def lost(self) -> bool:
-        """Whether its time has fallen out of the cache; the latest time (0) never does."""
-        if self.stamp_ns == 0:
-            return False
-        try:
-            newest_ns = self.engine.latest_common_time(self.target, self.source)
-        except TransformException:
-            return False  # a frame is not known yet
-        return self.stamp_ns + self.engine.cache_time_ns < newest_ns
 
 
 class _Question(NamedTuple):
     """What a future waits for."""
 
+    engine: turtlewire.Buffer
     legs: tuple[_Leg, ...]
     answer: Callable[[], TransformStamped]
 
-    def can(self) -> bool:
-        return all(leg.known() for leg in self.legs)
-
-    def never(self) -> bool:
-        return any(leg.lost() for leg in self.legs)
+    def never(self, error: TransformException) -> bool:
+        """Whether no data will bring an answer: a frame id is not valid, or a link has forgotten the time. The latest time moves on."""
+        if isinstance(error, InvalidArgumentException):
+            return True
+        keep_ns = self.engine.cache_time_ns
+        if keep_ns is None or not isinstance(error, (BackwardExtrapolationException, NoDataForExtrapolationException)):
+            return False
+        latest = any(leg.stamp_ns == 0 for leg in self.legs if (leg.target, leg.source) == (error.target_frame, error.source_frame))
+        return not latest and error.requested_ns < error.newest_ns - keep_ns
 
 
 def _limit(timeout: Duration | Any) -> int | None:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import threading
 import warnings
-from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from rclpy.action import ActionClient
 from rclpy.duration import Duration
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
@@ -19,6 +17,7 @@ from turtlewire.errors import TimeoutException, TransformException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .buffer_server import exception_for
+from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
@@ -69,14 +68,7 @@ class BufferClient(BufferInterface):
             start_parameter_services=False,
         )
         self.action_client = ActionClient(self._node, LookupTransform, node.resolve_topic_name(ns))
-        self._executor = SingleThreadedExecutor(context=node.context)
-        self._executor.add_node(self._node)
-        self._thread = threading.Thread(target=self._spin, name="buffer-client", daemon=True)
-        self._thread.start()
-
-    def _spin(self) -> None:
-        with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
-            self._executor.spin()
+        self._executor, self._thread = spin_in_thread(self._node, "buffer-client")
 
     def destroy(self) -> bool:
         """End the thread and leave the graph."""

@@ -11,9 +11,12 @@ from message_filters import SimpleFilter
 from tf2_py.times import to_nanoseconds
 from turtlewire.errors import TransformException
 
+from .buffer import JUMP_BACK
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from rclpy.clock import TimeJump
     from rclpy.duration import Duration
     from rclpy.node import Node
 
@@ -26,6 +29,7 @@ class FilterFailureReason(IntEnum):
     """Why a message was dropped."""
 
     Unknown = 0
+    """The clock has jumped back, and what waited is of another time."""
     OutTheBack = 1
     """It is older than what the buffer keeps."""
     EmptyFrameID = 2
@@ -87,6 +91,7 @@ class MessageFilter(SimpleFilter):
         self.setTargetFrames([target_frame] if isinstance(target_frame, str) else target_frame)
         self._timer = None if timeout is None else node.create_timer(timeout.nanoseconds / 1e9, self._expire, autostart=False)
         self._stop_listening: Callable[[], None] | None = self._engine.add_change_listener(self._on_data)
+        self._jumps = node.get_clock().create_jump_callback(JUMP_BACK, post_callback=self._on_jump)
         self._on_destroy: Callable[[MessageFilter], None] | None = None
         node._endpoints.keep(self)
         if f is not None:
@@ -156,12 +161,21 @@ class MessageFilter(SimpleFilter):
             return
         self._stop_listening()
         self._stop_listening = None
+        self._jumps.unregister()
         self.clear()
         self._node.destroy_guard_condition(self._ready)
         if self._timer is not None:
             self._node.destroy_timer(self._timer)
         if self._on_destroy is not None:
             self._on_destroy(self)
+
+    def _on_jump(self, _jump: TimeJump) -> None:
+        """After the clock of the node has jumped back: nothing will come for the messages that wait."""
+        with self._lock:
+            waiting = list(self._waiting)
+            self._waiting.clear()
+        for each in waiting:
+            self._fail(each.message, FilterFailureReason.Unknown)
 
     def _on_data(self) -> None:
         """On the thread that brought data: have the executor look when there is something for it to do."""

@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from rclpy.task import Future
-from turtlewire.errors import InvalidArgumentException, TransformException
+from turtlewire.errors import TransformException
 
 from .deadlines import Deadlines
 
@@ -20,12 +20,8 @@ if TYPE_CHECKING:
     class Question(Protocol):
         """What is asked of the buffer."""
 
-        def can(self) -> bool:
-            """Whether there is an answer now."""
-            ...
-
-        def never(self) -> bool:
-            """Whether there will not be one any more, because the time has fallen out of the cache."""
+        def never(self, error: TransformException) -> bool:
+            """Whether there will be none, by the error that there is instead of an answer now."""
             ...
 
         def answer(self) -> TransformStamped:
@@ -77,10 +73,8 @@ class TransformFutures:
                 self._stop_listening = self._buffer.add_change_listener(self._look_again)
         try:
             result = question.answer()
-        except InvalidArgumentException as error:
-            self._finish(waiting, error)
         except TransformException as error:
-            if question.never() or timeout_ns == 0:
+            if timeout_ns == 0 or question.never(error):
                 self._finish(waiting, error)
         else:
             self._finish(waiting, result)
@@ -94,13 +88,14 @@ class TransformFutures:
         with self._lock:
             candidates = list(self._waiting)
         for waiting in candidates:
-            if waiting.question.can():
-                try:
-                    self._finish(waiting, waiting.question.answer())
-                except TransformException:
-                    continue  # another thread has cleared the buffer, or pushed the time out of it
-            elif waiting.question.never():
-                self._give_up(waiting)
+            self._look_at(waiting)
+
+    def _look_at(self, waiting: _Waiting) -> None:
+        try:
+            self._finish(waiting, waiting.question.answer())
+        except TransformException as error:
+            if waiting.question.never(error):
+                self._finish(waiting, error)
 
     def _give_up(self, waiting: _Waiting) -> None:
         try:

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from threading import Thread, current_thread
+from threading import current_thread
 from typing import TYPE_CHECKING, Any
 
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from turtlewire.tf import listener as engine
 
+from .buffer import JUMP_BACK, Buffer
+from .spinning import spin_in_thread
+
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from threading import Thread
 
+    from rclpy.clock import JumpHandle
+    from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
     from tf2_msgs.msg import TFMessage
-
-    from .buffer import Buffer
 
 __all__ = ["DEFAULT_STATIC_TF_TOPIC", "DEFAULT_TF_TOPIC", "StaticTransformListener", "TransformListener"]
 
@@ -72,14 +74,14 @@ class TransformListener:
                 static_qos, QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
             ).to_wire(),
         )
+        self._follow_clock: JumpHandle | None = None
+        if isinstance(buffer, Buffer) and buffer.node is None:
+            self._follow_clock = self.node.get_clock().create_jump_callback(JUMP_BACK, post_callback=buffer.time_jump_callback)
         self.node._endpoints.keep(self)
         self.executor: SingleThreadedExecutor | None = None
         self.dedicated_listener_thread: Thread | None = None
         if spin_thread:
-            self.executor = SingleThreadedExecutor(context=self.node.context)
-            self.executor.add_node(self.node)
-            self.dedicated_listener_thread = Thread(target=_spin, args=(self.executor,), name="transform-listener", daemon=True)
-            self.dedicated_listener_thread.start()
+            self.executor, self.dedicated_listener_thread = spin_in_thread(self.node, "transform-listener")
 
     def unregister(self) -> None:
         """Stop listening; what is in the buffer stays. Idempotent."""
@@ -88,6 +90,8 @@ class TransformListener:
     def destroy(self) -> None:
         """What :meth:`unregister` does; the node calls it when it is destroyed itself."""
         self._engine.close()
+        if self._follow_clock is not None:
+            self._follow_clock.unregister()
         if self._on_destroy is not None:
             self._on_destroy(self)
             self._on_destroy = None
@@ -144,8 +148,3 @@ def _profile(qos: QoSProfile | int | None, default: QoSProfile) -> QoSProfile:
     if qos is None:
         return default
     return qos if isinstance(qos, QoSProfile) else QoSProfile(depth=qos)
-
-
-def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
-        executor.spin()

@@ -152,7 +152,7 @@ def test_the_cache_answers_by_time(collected):
     cache.registerCallback(collected)
     assert cache.getLast() is cache.getLatestTime() is cache.getOldestTime() is None
     assert cache.getElemAfterTime(ros_time(0)) is cache.getElemBeforeTime(ros_time(0)) is None
-    for stamp in (30, 10, 40, 20, 50):
+    for stamp in (10, 30, 40, 20, 50):
         source.signalMessage(at(stamp, x=float(stamp)))
     assert [time.nanoseconds for time in cache.cache_times] == [20, 30, 40, 50]
     assert [message.point.x for message in cache.getInterval(ros_time(30), ros_time(40))] == [30.0, 40.0]
@@ -169,6 +169,25 @@ def test_the_cache_answers_by_time(collected):
     )
     assert cache.getLast().point.x == 50.0
     assert len(collected) == 5
+
+
+@pytest.mark.parametrize("kind", [TimeSynchronizer, lambda filters, size: ApproximateTimeSynchronizer(filters, size, slop=0.5)])
+def test_after_the_time_has_jumped_back_sets_pass_again(kind, collected):
+    left, right = SimpleFilter(), SimpleFilter()
+    kind([left, right], 3).registerCallback(collected)
+    for second in (100, 101, 102, 103):
+        left.signalMessage(at(second * 10**9))
+    for second in (1, 2, 3):
+        left.signalMessage(at(second * 10**9))
+        right.signalMessage(at(second * 10**9))
+    assert collected.stamps() == [(second * 10**9,) * 2 for second in (1, 2, 3)]
+
+
+def test_the_cache_after_the_time_has_jumped_back():
+    cache = Cache(cache_size=3)
+    for stamp in (100, 101, 102, 1, 2, 3, 4):
+        cache.add(at(stamp))
+    assert [time.nanoseconds for time in cache.cache_times] == [2, 3, 4]
 
 
 def test_the_cache_and_messages_without_a_stamp(capfd):

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import gc
+import subprocess
+import sys
 import threading
 import time
+import weakref
 from contextlib import suppress
 from functools import partial
 
@@ -21,7 +25,7 @@ from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
-from tf2_ros import Buffer, TransformBroadcaster, TransformListener
+from tf2_ros import Buffer, MessageFilter, TransformBroadcaster, TransformListener
 
 LONG = Duration(seconds=10)
 
@@ -230,6 +234,53 @@ def test_a_jump_back_clears_what_is_not_static(make_node, stamped, capfd):
     assert "Detected jump back in time. Clearing tf buffer." in capfd.readouterr().err
 
 
+@pytest.mark.parametrize("with_node", [True, False])
+def test_a_buffer_follows_the_clock_of_its_listener(with_node, make_node, stamped):
+    node = make_node()
+    buffer = Buffer(node=make_node("other") if with_node else None)
+    listener = TransformListener(buffer, node)
+    clock = node.get_clock()
+    clock._set_ros_time_is_active(True)
+    for seconds, known in ((100, True), (50, with_node)):
+        clock.set_ros_time_override(Time(seconds=seconds, clock_type=ClockType.ROS_TIME))
+        if seconds == 100:
+            buffer.set_transform(stamped(), "me")
+        assert buffer.can_transform("world", "robot", Time()) == known
+    listener.unregister()
+    buffer.set_transform(stamped(), "me")
+    clock.set_ros_time_override(Time(seconds=1, clock_type=ClockType.ROS_TIME))
+    assert buffer.can_transform("world", "robot", Time()) == 1
+
+
+def test_a_buffer_in_a_cycle_is_collected(context):
+    node = Node("node", context=context)
+
+    def leave_a_cycle():
+        buffer = Buffer()
+        MessageFilter(None, buffer, "world", 10, node).registerCallback(lambda _message: buffer)
+        return weakref.ref(buffer.engine)
+
+    gone = leave_a_cycle()
+    node.destroy_node()
+    gc.collect()
+    assert gone() is None
+
+
+def test_a_program_that_destroys_nothing_ends_without_a_word():
+    program = """
+import rclpy
+from rclpy.node import Node
+from tf2_ros import Buffer, MessageFilter, TransformListener
+rclpy.init()
+node, buffer = Node("node"), Buffer()
+TransformListener(buffer, node)
+MessageFilter(None, buffer, "world", 10, node).registerCallback(lambda message: buffer)
+future = buffer.wait_for_transform_async("a", "b", rclpy.time.Time())
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+
+
 def test_cache_time():
     buffer = Buffer(cache_time=Duration(seconds=2))
     assert buffer.engine.cache_time_ns == 2_000_000_000
@@ -267,6 +318,20 @@ def test_a_future_fails_when_its_time_has_fallen_out_of_the_cache(buffer, stampe
     for each in (future, full, buffer.wait_for_transform_async("world", "robot", at(2))):
         with pytest.raises(tf2_ros.ExtrapolationException):
             each.result()
+
+
+def test_a_future_fails_when_a_link_has_forgotten_its_time_while_another_stands_still(buffer, stamped):
+    future = buffer.wait_for_transform_async("world", "hand", at(40))
+    latest = buffer.wait_for_transform_async("world", "hand", Time())
+    buffer.set_transform(stamped(stamp_s=30), "me")
+    for second in range(41, 61):
+        buffer.set_transform(stamped("robot", "hand", stamp_s=second), "me")
+        assert future.done() == (second > 50)
+    with pytest.raises(tf2_ros.ExtrapolationException, match="into the past"):
+        future.result()
+    assert not latest.done()
+    buffer.set_transform(stamped(stamp_s=60), "me")
+    assert latest.result().header.stamp.sec == 60
 
 
 def test_a_cancelled_future_is_forgotten(buffer):

@@ -6,6 +6,7 @@ import pytest
 
 from geometry_msgs.msg import PointStamped
 from message_filters import Subscriber, TimeSynchronizer
+from rclpy.clock import ClockType
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.time import Time
@@ -147,6 +148,19 @@ def test_a_message_waits_no_longer_than_the_timeout(setup, stamped):
     s.filter.add(point(3))
     s.buffer.set_transform(stamped(stamp_s=3), "me")
     s.spin_until(lambda: s.passed == [3])
+
+
+def test_what_waits_is_dropped_when_the_clock_jumps_back(setup, node, stamped):
+    s = setup(timeout=Duration(seconds=1000))
+    clock = node.get_clock()
+    clock._set_ros_time_is_active(True)
+    clock.set_ros_time_override(Time(seconds=100, clock_type=ClockType.ROS_TIME))
+    s.filter.add(point(100))
+    clock.set_ros_time_override(Time(seconds=10, clock_type=ClockType.ROS_TIME))
+    assert s.failed == [(100, FilterFailureReason.Unknown)]
+    s.filter.add(point(10))
+    s.buffer.set_transform(stamped(stamp_s=10), "me")
+    s.spin_until(lambda: s.passed == [10])
 
 
 def test_clear_forgets_silently(setup, stamped):

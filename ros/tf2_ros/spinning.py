@@ -1,0 +1,28 @@
+"""An executor that spins in a thread of its own."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from threading import Thread
+from typing import TYPE_CHECKING
+
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ["spin_in_thread"]
+
+
+def spin_in_thread(node: Node, name: str) -> tuple[SingleThreadedExecutor, Thread]:
+    """Spin a node in a daemon thread, which ends when the executor or the node's context is shut down."""
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    thread = Thread(target=_spin, args=(executor,), name=name, daemon=True)
+    thread.start()
+    return executor, thread
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
+        executor.spin()
