@@ -18,6 +18,7 @@ from tf_transformations import euler_from_quaternion
 from turtlewire.errors import TransformException
 
 from .buffer import Buffer
+from .pipes import leave_pipe
 from .transform_listener import TransformListener
 
 if TYPE_CHECKING:
@@ -42,9 +43,12 @@ def main(args: list[str] | None = None) -> int:
         return 3
     rclpy.init(args=argv)
     try:
-        _echo(options, 1.0 / rate)
+        with Node("tf2_echo") as node:
+            _echo(node, options, 1.0 / rate)
     except KeyboardInterrupt:
         pass
+    except BrokenPipeError:
+        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0
@@ -69,10 +73,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _echo(options: argparse.Namespace, period_s: float) -> None:
-    node, buffer, stopped = Node("tf2_echo"), Buffer(), threading.Event()
+def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
+    buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
-    TransformListener(buffer, node)
+    TransformListener(buffer, node, spin_thread=True)  # spun for the sake of a simulated clock
     source, target = options.source_frame, options.target_frame
     count = 0
     while not stopped.is_set():

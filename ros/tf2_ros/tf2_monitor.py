@@ -18,6 +18,8 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NA
 from turtlewire.wire.base import TypeId
 
 from .buffer import Buffer
+from .pipes import leave_pipe
+from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -125,9 +127,17 @@ def main(args: list[str] | None = None) -> int:
         return 1
     rclpy.init(args=argv)
     try:
-        _monitor(options)
+        with Node("tf2_monitor") as node:
+            executor, thread = spin_in_thread(node, "tf2-monitor")  # for the sake of a simulated clock
+            try:
+                _monitor(node, options)
+            finally:
+                executor.shutdown()
+                thread.join()
     except KeyboardInterrupt:
         pass
+    except BrokenPipeError:
+        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0
@@ -142,8 +152,8 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _monitor(options: argparse.Namespace) -> None:
-    node, buffer, stopped = Node("tf2_monitor"), Buffer(), threading.Event()
+def _monitor(node: Node, options: argparse.Namespace) -> None:
+    buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
     clock = node.get_clock()
     statistics = Statistics(lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9)

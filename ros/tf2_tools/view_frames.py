@@ -14,6 +14,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
+from tf2_ros.pipes import leave_pipe
 from tf2_tools.dot import dot_from_tree
 from tf2_tools.pdf import pdf_from_drawing
 from turtlewire.tf.drawing import svg_from_drawing
@@ -107,7 +108,7 @@ def main(args: list[str] | None = None) -> int:
         with ViewFrames(wanted.tf_topic, wanted.tf_static_topic) as node:
             tree = node.listen(wanted.wait_time)
             if wanted.json:
-                print(json.dumps([link._asdict() for link in tree.links.values()], indent=2))  # noqa: T201 -- what was asked for
+                print(json.dumps([link._asdict() for link in tree.links.values()], indent=2), flush=True)  # noqa: T201 -- what was asked for
                 return 0
             try:
                 node.write(tree, wanted.output or time.strftime("frames_%Y-%m-%d_%H.%M.%S"))
@@ -116,6 +117,8 @@ def main(args: list[str] | None = None) -> int:
                 return 1
     except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
+    except BrokenPipeError:
+        return leave_pipe()
     finally:
         rclpy.try_shutdown()
     return 0

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -25,6 +26,7 @@ from turtlewire.tf.listener import QOS, TYPE_NAME
 from turtlewire.wire.base import MessageInfo, TypeId
 
 LONG = Duration(seconds=60)
+BIN = Path(sys.executable).parent
 TOOLS = {
     "tf2_echo": "tf2_ros.tf2_echo",
     "tf2_monitor": "tf2_ros.tf2_monitor",
@@ -254,6 +256,30 @@ def test_monitor_of_a_chain_as_json(tool):
     assert data["net_delay"]["max"] >= data["net_delay"]["average"] > 0.0
     assert stop(process)[0] == 0
     assert finish(tool("tf2_monitor", "robot"))[0] == 1
+
+
+@pytest.mark.usefixtures("talker")
+@pytest.mark.parametrize(
+    ("command", "first"),
+    [
+        ("tf2_ros tf2_echo world robot 50", r"At time \d+\.\d{9}"),
+        ("tf2_ros tf2_echo world robot 50 --json", r"\{.*\}"),
+        ("tf2_ros tf2_monitor --period 0.2", r"Gathering data on all frames for 0\.2 seconds\.\.\."),
+    ],
+)
+def test_the_end_of_a_pipe_is_a_quiet_end(command, first, run):
+    pipe = run("bash", "-c", f"{BIN / 'ros2'} run {command} | head -n 1")
+    assert pipe.wait() == 0
+    assert re.fullmatch(first, pipe.text)
+
+
+@pytest.mark.usefixtures("talker")
+def test_who_writes_into_a_closed_pipe_ends_as_other_tools_do(tool):
+    process = tool("tf2_echo", "world", "robot", "50")
+    process.stdout.readline()
+    process.stdout.close()
+    assert (process.wait(60), process.stderr.read()) == (141, "")
+    process.stdout = None
 
 
 def test_chains_go_up_and_down_again(stamped):
