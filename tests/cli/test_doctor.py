@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
 from turtlewire import msg
 from turtlewire.cli import doctor
 from turtlewire.cli.main import main
+from turtlewire.cli.network import domains_of, multicast_works, udp_ports
 from turtlewire.cli.tf_traffic import TfTraffic, listen_to_transforms
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
@@ -193,3 +196,106 @@ def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
 def test_a_domain_that_cannot_be_joined_is_a_finding(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_nope")
     assert "middleware 'rmw_nope' is not available" in texts(doctor.examine(0.0))
+
+
+def test_stamps_that_jump_back_and_frames_that_leap(context, broadcasters):
+    one, _ = broadcasters
+    there = transform("world", "a", NOW_NS - 40_000_000)
+    there.transforms[0].transform.translation.x = 7.0
+    traffic = traffic_of((transform("world", "a"), one, False), (there, one, False))
+    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+        "The stamps of 'a' jump back, by up to 0.040 s.",
+        "The frame 'a' leaps by up to 7.0 m from one transform to the next.",
+    ]
+
+
+def test_motion_and_a_change_of_parents_are_no_leaps(context, broadcasters):
+    one, _ = broadcasters
+    moved = transform("world", "a", NOW_NS + 500_000_000)
+    moved.transforms[0].transform.translation.x = 2.0
+    elsewhere = transform("map", "a", NOW_NS + 510_000_000)
+    traffic = traffic_of((transform("world", "a"), one, False), (moved, one, False), (elsewhere, one, False))
+    assert not any("leaps" in text for text in texts(doctor.tf_findings(context.graph, traffic)))
+
+
+def test_the_domains_of_ports():
+    # the ports that DDS computes: 7400 + 250 * domain + 10 + 2 * participant (+ 1)
+    assert domains_of([7400, 7401, 7410, 7411, 7412 + 250 * 3, 7410 + 250 * 101 + 239, 7410 + 250 * 102, 53]) == {0, 3, 101}
+
+
+def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
+    monkeypatch.setattr(doctor, "udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * int(os.environ["ROS_DOMAIN_ID"])})
+    (finding,) = doctor.graph_findings(context.graph)
+    assert "This host has nodes on domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the ports in use are read from /proc")
+def test_the_ports_of_a_context_are_seen():
+    opened = open_context()
+    assert int(os.environ["ROS_DOMAIN_ID"]) in domains_of(udp_ports())
+    opened.close()
+
+
+def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
+    monkeypatch.setattr(doctor, "multicast_works", lambda: False)
+    assert doctor.network_findings() == []
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    (finding,) = doctor.network_findings()
+    assert finding.is_problem
+    assert "ROS_STATIC_PEERS" in finding.remedy
+
+
+def test_multicast_that_does_not_come_back(monkeypatch):
+    assert multicast_works(0.01) in (True, False)
+    monkeypatch.setattr("turtlewire.cli.network._GROUP", "127.0.0.1")  # no group: joining it fails as without a network
+    assert not multicast_works(0.01)
+
+
+def test_an_empty_domain_costs_no_listening(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    assert "Nobody publishes transforms." in texts(doctor.examine(1000.0))
+
+
+def test_everything_at_once_on_the_wire(run):
+    """All faults of the traffic, from publishers of another process."""
+    opened = open_context()
+    nodes = {name: opened.create_node(name) for name in ("one", "two")}
+    senders = [node.create_publisher("/tf", TF, QoS()) for node in nodes.values()]
+    nodes["one"].create_publisher("/x", STRING, QoS(reliability=Reliability.BEST_EFFORT))
+    nodes["two"].create_subscription("/x", STRING, QoS())
+    program = run(Path(sys.executable).parent / "turtlewire", "doctor", "--listen", "2")
+    end = threading.Event()
+
+    def send():
+        tick = 0
+        while not end.wait(0.02):
+            tick += 1
+            now = time.time_ns()
+            for sender in senders:
+                sender.publish(msg.serialize(transform("world", "shared", now)))
+            senders[0].publish(msg.serialize(transform("odom", "old", now - 10_000_000_000)))
+            senders[0].publish(msg.serialize(transform("odom", "simulated", tick * 20_000_000)))
+            leaping = transform("odom", "leaping", now - (tick % 2) * 100_000_000)
+            leaping.transforms[0].transform.translation.x = 5.0 * (tick % 2)
+            senders[1].publish(msg.serialize(leaping))
+
+    thread = threading.Thread(target=send)
+    thread.start()
+    try:
+        assert program.wait() == 1
+    finally:
+        end.set()
+        thread.join()
+        opened.close()
+    for text in (
+        "PROBLEM: /x: /two gets nothing from /one: it asks for RELIABLE, and BEST_EFFORT is offered.",
+        "PROBLEM: The frame 'shared' is published by /one and /two.",
+        "PROBLEM: The frames form 2 separate trees, with the roots odom, world.",
+        "PROBLEM: Wall time and simulated time are mixed: leaping and simulated.",
+        "PROBLEM: The stamps of 'leaping' jump back, by up to 0.0",
+        "note: The newest transform of 'old' is 10.",
+        "note: The frame 'leaping' leaps by up to 5.0 m from one transform to the next.",
+    ):
+        assert text in program.text, program.text
+    remedies = program.text.splitlines()[1::2]
+    assert all(remedy.startswith("    ") for remedy in remedies)

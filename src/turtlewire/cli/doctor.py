@@ -7,9 +7,10 @@ import sys
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.cli.network import domains_of, multicast_works, udp_ports
 from turtlewire.cli.tf_traffic import TfTraffic, listen_to_transforms
 from turtlewire.errors import WireError
-from turtlewire.wire.environment import Range, discovery
+from turtlewire.wire.environment import Range, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
 
@@ -18,9 +19,10 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo, Graph
 
-__all__ = ["Finding", "examine", "graph_findings", "report", "setup_findings", "tf_findings"]
+__all__ = ["Finding", "examine", "graph_findings", "network_findings", "report", "setup_findings", "tf_findings"]
 
 _STALE_NS = 2_000_000_000
+_ANSWER_NS = 500_000_000  # other hosts get as long as ROS 2's own tools give them
 _WALL_TIME_FROM_NS = 1_000_000_000 * 1_000_000_000  # the year 2001; simulated time begins at zero
 
 
@@ -42,16 +44,17 @@ def examine(listen_s: float) -> list[Finding]:
     """Look at the setup, at the graph, and for ``listen_s`` seconds at the transforms."""
     from turtlewire.wire import open_context
 
-    found = setup_findings(os.environ, sys.path)
+    found = setup_findings(os.environ, sys.path) + network_findings()
     try:
         context = open_context()
     except WireError as error:
         return [*found, Finding(True, str(error), error.hint)]
     try:
         context.create_node("_turtlewire_doctor")
-        context.graph.wait_for(lambda: False, 500_000_000)  # discovery: as long as ROS 2's own tools take
-        context.graph.wait_for(context.graph.is_complete, 2_000_000_000)  # and longer on a busy machine
-        traffic = listen_to_transforms(context, listen_s)
+        if discovery().static_peers or not _only_this_host():
+            context.graph.wait_for(lambda: False, _ANSWER_NS)
+        context.graph.wait_for(context.graph.is_complete, 2_000_000_000)
+        traffic = listen_to_transforms(context, listen_s if _transforms_are_published(context.graph) else 0.0)
         return [*found, *graph_findings(context.graph), *tf_findings(context.graph, traffic)]
     finally:
         context.close()
@@ -87,6 +90,18 @@ def setup_findings(environment: dict[str, str] | os._Environ[str], path: Iterabl
     return found
 
 
+def network_findings() -> list[Finding]:
+    """What keeps this computer from finding others; nothing when it does not look for them."""
+    if _only_this_host() or multicast_works():
+        return []
+    remedy = "Allow UDP to 239.255.0.1 (firewall, VPN, container network), or name the other hosts: ROS_STATIC_PEERS='HOST1;HOST2'."
+    return [Finding(True, "A multicast datagram does not come back: nodes on other hosts will not be found.", remedy)]
+
+
+def _only_this_host() -> bool:
+    return discovery().range in (Range.LOCALHOST, Range.OFF)
+
+
 def graph_findings(graph: Graph) -> list[Finding]:
     """What is wrong among the nodes and topics."""
     names = [fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
@@ -109,9 +124,13 @@ def graph_findings(graph: Graph) -> list[Finding]:
 
 def _nobody() -> Finding:
     chosen = discovery().range
+    others = sorted(domains_of(udp_ports()) - {domain_id()})
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
-    reach = "this host" if chosen in (Range.LOCALHOST, Range.OFF) else "this network"
-    remedy = f"Start one. If there are some: they need the same ROS_DOMAIN_ID (here {domain}); and for nodes on other hosts, "
+    reach = "this host" if _only_this_host() else "this network"
+    remedy = "Start one. "
+    if others:
+        remedy += f"This host has nodes on domain {', '.join(map(str, others))}: export ROS_DOMAIN_ID={others[0]} to see them. "
+    remedy += f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); and for those on other hosts, "
     remedy += f"ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides (here {chosen.value})."
     return Finding(True, f"No node is seen on domain {domain} of {reach}.", remedy)
 
@@ -152,7 +171,7 @@ def _owner(endpoint: EndpointInfo) -> str:
 def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     """What is wrong with the transforms."""
     owners = {end.gid: _owner(end) for end in graph.endpoints()}
-    if not any(end.kind == "publisher" and end.topic in ("/tf", "/tf_static") for end in graph.endpoints()):
+    if not _transforms_are_published(graph):
         return [Finding(False, "Nobody publishes transforms.", "Start a node with a TransformBroadcaster or a StaticTransformBroadcaster.")]
     found = []
     for child, publishers in sorted(traffic.publishers.items()):
@@ -170,6 +189,10 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     return found + _time_findings(traffic)
 
 
+def _transforms_are_published(graph: Graph) -> bool:
+    return any(end.kind == "publisher" and end.topic in ("/tf", "/tf_static") for end in graph.endpoints())
+
+
 def _time_findings(traffic: TfTraffic) -> list[Finding]:
     found = []
     on_wall_time = {child for child, stamp in traffic.newest_ns.items() if stamp >= _WALL_TIME_FROM_NS}
@@ -182,4 +205,16 @@ def _time_findings(traffic: TfTraffic) -> list[Finding]:
         if behind > _STALE_NS:
             text = f"The newest transform of '{child}' is {behind / 1e9:.1f} s old."
             found.append(Finding(False, text, "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."))
+    return found + _jump_findings(traffic)
+
+
+def _jump_findings(traffic: TfTraffic) -> list[Finding]:
+    found = []
+    for child, back_ns in sorted(traffic.back_ns.items()):
+        text = f"The stamps of '{child}' jump back, by up to {back_ns / 1e9:.3f} s."
+        remedy = "Two sources send it, a bag starts anew, or a clock was set: listeners drop such transforms, or clear their buffers."
+        found.append(Finding(True, text, remedy))
+    for child, leap_m in sorted(traffic.leaps_m.items()):
+        text = f"The frame '{child}' leaps by up to {leap_m:.1f} m from one transform to the next."
+        found.append(Finding(False, text, "Either it was set to another place, or two sources disagree about where it is."))
     return found

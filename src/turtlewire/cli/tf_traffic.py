@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 __all__ = ["TfTraffic", "listen_to_transforms"]
 
 _TYPE = "tf2_msgs/msg/TFMessage"
+_JITTER_NS = 1_000_000
+_LEAP_M = 0.5
+_FASTEST_M_S = 100.0
 
 
 class TfTraffic:
@@ -26,6 +30,8 @@ class TfTraffic:
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
         newest_ns: Frame of /tf to its newest stamp.
+        back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter do not count.
+        leaps_m: Frame to its largest step within its parent that was faster than any robot.
         ended_ns: When the listening ended, system time.
     """
 
@@ -33,7 +39,10 @@ class TfTraffic:
         self.parents: dict[str, set[str]] = {}
         self.publishers: dict[str, set[bytes]] = {}
         self.newest_ns: dict[str, int] = {}
+        self.back_ns: dict[str, int] = {}
+        self.leaps_m: dict[str, float] = {}
         self.ended_ns = 0
+        self._last: dict[str, tuple[str, int, Any]] = {}
 
     def note(self, message: Any, publisher: bytes, *, static: bool) -> None:
         """Take over a TFMessage."""
@@ -44,6 +53,16 @@ class TfTraffic:
             if not static:
                 stamp = transform.header.stamp.sec * 1_000_000_000 + transform.header.stamp.nanosec
                 self.newest_ns[child] = max(stamp, self.newest_ns.get(child, 0))
+                self._note_step(child, transform.header.frame_id, stamp, transform.transform.translation)
+
+    def _note_step(self, child: str, parent: str, stamp: int, place: Any) -> None:
+        last_parent, last_stamp, last = self._last.get(child, (parent, stamp, place))
+        self._last[child] = (parent, stamp, place)
+        if last_stamp - stamp > _JITTER_NS:
+            self.back_ns[child] = max(last_stamp - stamp, self.back_ns.get(child, 0))
+        leap = math.dist((place.x, place.y, place.z), (last.x, last.y, last.z))
+        if parent == last_parent and leap > max(_LEAP_M, _FASTEST_M_S * abs(stamp - last_stamp) / 1e9):
+            self.leaps_m[child] = max(leap, self.leaps_m.get(child, 0.0))
 
 
 def listen_to_transforms(context: Context, seconds: float) -> TfTraffic:

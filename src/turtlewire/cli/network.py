@@ -1,0 +1,55 @@
+"""What the doctor looks at below the middleware: sockets of other domains, and multicast."""
+
+from __future__ import annotations
+
+import re
+import socket
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["domains_of", "multicast_works", "udp_ports"]
+
+# How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
+_FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
+#: Of the domains above it, the ports are among those that a system hands out to anybody.
+_LAST_SURE_DOMAIN = 101
+
+_GROUP = "239.255.0.1"  # the one that DDS announces itself to
+
+
+def udp_ports() -> set[int]:
+    """The UDP ports that are in use on this host; empty on systems that do not tell."""
+    ports: set[int] = set()
+    for table in ("/proc/net/udp", "/proc/net/udp6"):
+        try:
+            text = Path(table).read_text(encoding="ascii")
+        except OSError:
+            continue
+        ports |= {int(port, 16) for port in re.findall(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", text, re.MULTILINE)}
+    return ports
+
+
+def domains_of(ports: Iterable[int]) -> set[int]:
+    """The ROS domains that UDP ports belong to."""
+    found = set()
+    for port in ports:
+        domain, offset = divmod(port - _FIRST_PORT, _PORTS_OF_DOMAIN)
+        if 0 <= domain <= _LAST_SURE_DOMAIN and offset >= _FIRST_OF_PARTICIPANTS:
+            found.add(domain)
+    return found
+
+
+def multicast_works(limit_s: float = 1.0) -> bool:
+    """Whether a datagram to the group of DDS comes back to a socket of this host."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        try:
+            receiver.bind(("", 0))
+            receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(_GROUP) + bytes(4))
+            receiver.settimeout(limit_s)
+            sender.sendto(b"turtlewire doctor", (_GROUP, receiver.getsockname()[1]))
+            return receiver.recv(64) == b"turtlewire doctor"
+        except OSError:  # no route, not permitted, or nothing came
+            return False
