@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import signal
+import sys
+
 import pytest
 
 from ros2cli.main import main
@@ -37,11 +40,20 @@ def test_a_signal_is_named(package, capfd):
     assert capfd.readouterr().out == "[ros2run]: Terminated\n"
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_whoever_ends_it_ends_the_executable(run, package, number):
+    package("stay", "#!/bin/sh\necho ready\nexec sleep 1000\n")
+    program = run(sys.executable, "-c", "import sys; from ros2cli.main import main; sys.exit(main(['run', 'p', 'stay']))")
+    program.wait_for("ready")
+    program.process.send_signal(number)
+    assert program.wait() != 0
+    assert program.survivors() == []
+    assert "Traceback" not in program.text
+
+
 def test_python_scripts_run_on_this_interpreter(package, capfd):
     package("which", "#!/nowhere/bin/python3\nimport sys\nprint(sys.executable)\n")
     assert main(["run", "p", "which"]) == 0
-    import sys
-
     assert capfd.readouterr().out.strip() == sys.executable
 
 

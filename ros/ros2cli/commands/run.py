@@ -8,12 +8,13 @@ import os
 import shlex
 import signal
 import subprocess
+import threading
 from typing import TYPE_CHECKING
 
 from ros2cli.completion import executables, packages
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 __all__ = ["add_arguments", "main"]
 
@@ -46,7 +47,7 @@ def main(args: argparse.Namespace) -> int | str:
 
 
 def _run(command: list[str]) -> int:
-    with subprocess.Popen(command) as process:  # noqa: S603  what the user asked for
+    with subprocess.Popen(command) as process, _passed_on(process):  # noqa: S603  what the user asked for
         while process.returncode is None:
             with contextlib.suppress(KeyboardInterrupt):  # the terminal has sent it to the executable as well, which decides
                 process.wait()
@@ -56,6 +57,18 @@ def _run(command: list[str]) -> int:
     elif status > 0:
         print(f"[ros2run]: Process exited with failure {status}")
     return status
+
+
+@contextlib.contextmanager
+def _passed_on(process: subprocess.Popen[bytes]) -> Iterator[None]:
+    """Whoever ends this process means the executable, which would stay behind otherwise."""
+    numbers = (signal.SIGTERM, signal.SIGHUP) if threading.current_thread() is threading.main_thread() else ()
+    before = {number: signal.signal(number, lambda number, _: process.send_signal(number)) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _suggestion(name: str, known: Iterable[str]) -> str:
