@@ -17,8 +17,11 @@ from collections import deque
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.errors import WireError
+
 from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
 from .executor_wait import ExecutorWait
+from .hints import described
 from .running_callbacks import RunningCallbacks
 from .task import Future, Task
 
@@ -86,7 +89,14 @@ class Executor:
 
         Returns:
             False when this executor serves it already.
+
+        Raises:
+            TypeError: It is no node.
         """
+        from .node import Node
+
+        if not isinstance(node, Node):
+            raise TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
         with self._lock:
             if node in self._nodes:
                 return False
@@ -184,7 +194,7 @@ class Executor:
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run callbacks until ``future`` is done, the time is over, or the executor or its context is shut down."""
-        future._add_waiter(self.wake)
+        self._wake_when_done(future)
         deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
         remaining = timeout_sec
         while self._context.ok() and not future.done() and not self._is_shutdown:
@@ -196,8 +206,16 @@ class Executor:
 
     def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Wait for one callback and run it, unless ``future`` is done before."""
-        future._add_waiter(self.wake)
+        self._wake_when_done(future)
         self._spin_once(timeout_sec, future.done)
+
+    def _wake_when_done(self, future: Future) -> None:
+        if isinstance(future, Future):
+            future._add_waiter(self.wake)
+        elif hasattr(future, "add_done_callback"):  # of concurrent.futures, for example
+            future.add_done_callback(lambda _: self.wake())
+        else:
+            raise TypeError(f"Expected a Future, such as call_async() returns, not {described(future)}")
 
     def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None = None) -> None:
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
@@ -237,7 +255,7 @@ class Executor:
         """The next thing to run, its callback group claimed."""
         deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
         expired = False
-        is_patient = bool(self._running.of_this_thread()) and self._response_awaited is None
+        patience = self._patience()
         while True:
             if condition is not None and condition():
                 raise ConditionReachedException
@@ -252,39 +270,18 @@ class Executor:
                 raise TimeoutException
             remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
             expired = remaining == 0
-            if is_patient and remaining is None and self._paused:
-                is_patient = False
-                self._collect(_PATIENCE_NS)
-                if not self._ready:
-                    self._warn_of_nested_spin()
+            if patience is None or remaining is not None or not self._paused:
+                self._collect(remaining)
                 continue
-            self._collect(remaining)
+            self._collect(max(0, patience - time.monotonic_ns()))
+            if not self._ready and time.monotonic_ns() >= patience:
+                patience = None
+                self._warn_of_nested_spin()
 
-    def _serve_responses(self, future: Future, deadline: float | None, is_hopeless: Callable[[set[Entity]], bool]) -> None:
-        """In a callback of this executor: hand responses to their futures, and do nothing else, until ``future`` is done.
-
-        Args:
-            future: What the callback waits for.
-            deadline: On ``time.monotonic``; None: no limit.
-            is_hopeless: Asked with the entities that are held back meanwhile, whether one of them is what the callback waits for.
-
-        Raises:
-            RuntimeError: It is hopeless.
-        """
-        future._add_waiter(self.wake)
-        outer, self._response_awaited = self._response_awaited, future
-        try:
-            while not future.done() and (deadline is None or time.monotonic() < deadline):
-                if is_hopeless(self._paused):
-                    raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
-                remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
-                try:
-                    self._execute(*self._next(remaining, lambda: future.done() or is_hopeless(self._paused)))
-                except (TimeoutException, ConditionReachedException):
-                    continue
-        finally:
-            self._response_awaited = outer
-            self._resume_paused()
+    def _patience(self) -> int | None:
+        """Until when a spin may find nothing to run before that is warned of; None: for ever."""
+        is_nested = bool(self._running.of_this_thread()) and self._response_awaited is None
+        return time.monotonic_ns() + _PATIENCE_NS if is_nested else None
 
     def _warn_of_nested_spin(self) -> None:
         from .logging import get_logger
@@ -369,7 +366,11 @@ class Executor:
             if entity not in self._paused:
                 return
             self._paused.discard(entity)
-            entity._resume(self)
+            try:
+                entity._resume(self)
+            except WireError:
+                if self._context.ok():  # else it was closed by the shutdown
+                    raise
         self.wake()
 
     # Running

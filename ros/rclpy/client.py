@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
 
+from .hints import described, with_hint
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 from .wait_for_response import wait_for_response
@@ -76,7 +77,8 @@ class Client(IntrospectedEndpoint):
         """
         self._check_usable()
         if not isinstance(request, self.srv_type.Request):
-            raise TypeError
+            hint = f"A request of service '{self._wire.service}' is a {self.srv_type.__name__}.Request(), not {described(request)}"
+            raise with_hint(TypeError(), hint)
         future = Future()
         with self._lock:  # the response may be faster than we are: it has to find the future
             sequence_number = self._wire.send_request(serialize(request))

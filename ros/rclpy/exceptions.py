@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._rclpy_pybind11 import InvalidHandle
+from .hints import with_hint
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -108,10 +109,7 @@ class ParameterException(Exception):
 
     def with_hint(self, hint: str) -> Self:
         """Attach ``hint`` and return the same error."""
-        self.hint = hint
-        if hint and hasattr(self, "add_note"):
-            self.add_note(hint)
-        return self
+        return with_hint(self, hint)
 
 
 class ParameterNotDeclaredException(ParameterException):

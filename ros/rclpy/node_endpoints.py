@@ -14,6 +14,7 @@ from .entity import Entity
 from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 from .guard_condition import GuardCondition
+from .hints import described, with_hint
 from .publisher import Publisher
 from .qos import QoSProfile
 from .service import Service
@@ -177,6 +178,7 @@ class NodeEndpoints:
     ) -> Service:
         """A service that the caller owns."""
         check_is_valid_srv_type(srv_type)
+        _check_callable(callback)
         name = self.resolve_service(srv_name)
         wire = self._node.wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
@@ -186,6 +188,8 @@ class NodeEndpoints:
         self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool
     ) -> Timer:
         """See :meth:`rclpy.node.Node.create_timer`."""
+        if callback is not None:
+            _check_callable(callback)
         group = callback_group or self.default_callback_group
         period_ns = int(float(period_sec) * 1_000_000_000)
         return self._own(Timer, Timer(callback, group, period_ns, clock, context=self._node.context, autostart=autostart))
@@ -271,6 +275,8 @@ class NodeEndpoints:
         return expanded if only_expand else self._node.remap_service(expanded)
 
     def _expand(self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]) -> str:
+        if not isinstance(name, str):
+            raise TypeError(f"The name of a topic or service is a str, not {described(name)}")
         fault = names.validate_topic_name(name)
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
@@ -282,6 +288,12 @@ class NodeEndpoints:
         if fault is not None:
             raise error(expanded, fault.message, fault.invalid_index)
         return expanded
+
+
+def _check_callable(callback: Any) -> None:
+    if not callable(callback):
+        error = TypeError(f"'{type(callback).__name__}' object is not callable")
+        raise with_hint(error, "Pass the function itself (self.callback), not what it returns (self.callback())")
 
 
 def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:

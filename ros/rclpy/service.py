@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize, serialize
 
+from .hints import described, with_hint
 from .service_introspection import EventType, IntrospectedEndpoint
 
 if TYPE_CHECKING:
@@ -67,7 +68,11 @@ class Service(IntrospectedEndpoint):
         """
         self._check_usable()
         if not isinstance(response, self.srv_type.Response):
-            raise TypeError
+            hint = (
+                f"The callback of service '{self._wire.service}' has to return its second argument, "
+                f"or another {self.srv_type.__name__}.Response; it returned {described(response)}"
+            )
+            raise with_hint(TypeError(), hint)
         self._wire.send_response(header, serialize(response))
         if self._events is not None:
             self._events.publish(EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .clock_type import ClockType
 from .entity import Entity, Work
 from .exceptions import ROSInterruptException
+from .hints import with_hint
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -142,7 +143,7 @@ class Timer(Entity):
         if self._next_call_ns < now_ns:
             self._skip_missed_periods(now_ns)
         self._reschedule()
-        return (_nothing if self.callback is None else self.callback), ()
+        return (_missing_callback if self.callback is None else self.callback), ()
 
     def _skip_missed_periods(self, now_ns: int) -> None:
         if self._period_ns == 0:
@@ -181,8 +182,9 @@ class Timer(Entity):
             self._jump_handle.unregister()
 
 
-def _nothing() -> None:
-    """What a timer without a callback calls."""
+def _missing_callback() -> None:
+    hint = "A timer has no callback. Pass the function itself (self.tick), not what it returns (self.tick())"
+    raise with_hint(TypeError("'NoneType' object is not callable"), hint)
 
 
 class Rate:

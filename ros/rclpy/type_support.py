@@ -7,6 +7,8 @@ from typing import Any
 from turtlewire import msg
 from turtlewire.wire.base import TypeId
 
+from .hints import described, with_hint
+
 __all__ = ["check_for_type_support", "check_is_valid_msg_type", "check_is_valid_srv_type", "service_type_ids", "type_id"]
 
 _ROS_1_HINT = (
@@ -23,9 +25,8 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     """
     if not isinstance(msg_or_srv_type, type) or not issubclass(msg_or_srv_type, (msg.Message, msg.Service, msg.Action)):
         kind = type(msg_or_srv_type).__name__
-        raise AttributeError(  # noqa: TRY004 - ROS 2's
-            f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}"
-        )
+        error = AttributeError(f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}")
+        raise with_hint(error, f"Expected a class such as std_msgs.msg.String, not {described(msg_or_srv_type)}")
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:

@@ -6,6 +6,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
+from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
 from .service import Service
 
 if TYPE_CHECKING:
@@ -34,12 +35,34 @@ def wait_for_response(future: Future, client: Client, timeout_sec: float | None)
     deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
     executor = None if client._executor is None else client._executor()
     if executor is not None and executor._spinning_thread == threading.get_ident():
-        executor._serve_responses(future, deadline, lambda held_back: _is_served_by(client, held_back))
+        _serve_responses(executor, future, client, deadline)
     else:
         _wait_for_other_thread(future, client, executor, deadline)
     if not future.done():
         raise TimeoutError
     return future.result()
+
+
+def _serve_responses(executor: Executor, future: Future, client: Client, deadline: float | None) -> None:
+    """In a callback of ``executor``: hand responses to their futures, and do nothing else, until ``future`` is done."""
+
+    def is_hopeless() -> bool:
+        return _is_served_by(client, executor._paused)
+
+    future._add_waiter(executor.wake)
+    outer, executor._response_awaited = executor._response_awaited, future
+    try:
+        while not future.done() and (deadline is None or time.monotonic() < deadline):
+            if is_hopeless():
+                raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
+            remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
+            try:
+                executor._execute(*executor._next(remaining, lambda: future.done() or is_hopeless()))
+            except (TimeoutException, ConditionReachedException):
+                continue
+    finally:
+        executor._response_awaited = outer
+        executor._resume_paused()
 
 
 def _is_served_by(client: Client, entities: set[Entity]) -> bool:
@@ -86,8 +109,6 @@ def _wait(done: threading.Event, deadline: float | None, at_most: float | None) 
 
 
 def _raise_if_ended(client: Client, executor: Executor | None) -> None:
-    from .executors import ExternalShutdownException, ShutdownException
-
     if not client._context.ok():
         raise ExternalShutdownException
     if executor is not None and executor._is_shutdown:

@@ -447,21 +447,30 @@ def test_spinning_within_a_callback(node, executor):
     assert sums == [8]
 
 
-def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executor, capfd):
+def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executor, capfd, monkeypatch):
     done = Future()
-    same_group = node.create_guard_condition(lambda: done.set_result("in the same group"))
+    at_once, later = (node.create_guard_condition(lambda: done.set_result("in the same group")) for _ in range(2))
+    warn = executor._warn_of_nested_spin
+    monkeypatch.setattr(executor, "_warn_of_nested_spin", lambda: (warn(), done.set_result("after the warning")))
 
     def wait():
-        same_group.trigger()
-        helping = threading.Timer(1.5, done.set_result, args=("from outside",))
+        at_once.trigger()
+        helping = threading.Timer(0.1, later.trigger)  # what cannot run either does not put the warning off
         helping.start()
         executor.spin_until_future_complete(done)
         helping.join()
 
     node.create_guard_condition(wait).trigger()
     executor.spin_once(timeout_sec=10)
-    assert done.result() == "from outside"
+    assert done.result() == "after the warning"
     assert "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)" in capfd.readouterr().err
+
+
+def test_spinning_until_a_future_of_another_library_is_done(any_executor):
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(threading.get_ident)
+        any_executor.spin_until_future_complete(future, timeout_sec=10)
+    assert future.done()
 
 
 def test_two_threads_cannot_spin_one_executor(executor, spinning):

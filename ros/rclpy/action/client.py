@@ -8,6 +8,7 @@ import weakref
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
+from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
 from rclpy.type_support import check_for_type_support
@@ -172,7 +173,8 @@ class ActionClient(Waitable):
             TypeError: ``goal`` is not a ``Goal`` of the action.
         """
         if not isinstance(goal, self._action_type.Goal):
-            raise TypeError
+            hint = f"A goal of action '{self._action_name}' is a {self._action_type.__name__}.Goal(), not {described(goal)}"
+            raise with_hint(TypeError(), hint)
         request = self._action_type.Impl.SendGoalService.Request(goal=goal, goal_id=goal_uuid or _random_uuid())
         goal_id = bytes(request.goal_id.uuid)
         if feedback_callback is not None:

@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rclpy.executors import await_or_execute
+from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.service import Service
 from rclpy.timer import Timer
@@ -300,7 +301,8 @@ class ActionServer(Waitable):
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         if not isinstance(feedback, self._action_type.Feedback):
-            raise TypeError
+            hint = f"Feedback of action '{self._action_name}' is a {self._action_type.__name__}.Feedback(), not {described(feedback)}"
+            raise with_hint(TypeError(), hint)
         if not self._destroyed:
             self._feedback_publisher.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
 

@@ -1,0 +1,24 @@
+"""Help beside the texts that ROS 2 defines."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+__all__ = ["described", "with_hint"]
+
+_Error = TypeVar("_Error", bound=BaseException)
+
+
+def with_hint(error: _Error, hint: str) -> _Error:
+    """Attach ``hint`` (nothing if empty) and return the same error; tracebacks show it as a note on Python 3.11 and later."""
+    error.hint = hint  # type: ignore[attr-defined]
+    if hint and hasattr(error, "add_note"):
+        error.add_note(hint)
+    return error
+
+
+def described(value: Any) -> str:
+    """What a value is, in words: ``None``, ``the class String``, ``an object of type float``."""
+    if value is None:
+        return "None"
+    return f"the class {value.__qualname__}" if isinstance(value, type) else f"an object of type {type(value).__qualname__}"
