@@ -194,6 +194,12 @@ class Turtle:
         self._teleports: list[tuple[bool, float, float, float]] = []
 
     @property
+    def pose(self) -> Pose:
+        """Where it is and how fast it was told to move."""
+        speed = math.sqrt(self.forward * self.forward + self.lateral * self.lateral)
+        return Pose(self.x, FIELD_SIZE - self.y_down, self.theta, speed, self.turning)
+
+    @property
     def is_plain(self) -> bool:
         """Whether the next tick only drives it: no teleport, no rotation to a goal."""
         return self.rotation is None and not self._teleports
@@ -250,8 +256,7 @@ class Turtle:
         x, y = self.x, self.y_down
         stroke = self._stroke_from(old_x, old_y) if self.pen_on and (x != old_x or y != old_y) else None
         pixel = (math.floor(x * PIXELS_PER_METRE + 0.5), math.floor(y * PIXELS_PER_METRE + 0.5))
-        pose = Pose(x, FIELD_SIZE - y, self.theta, math.sqrt(self.forward * self.forward + self.lateral * self.lateral), self.turning)
-        return TurtleTick(self, pose, teleport_strokes, pixel, stroke, clamped_from, rotation)
+        return TurtleTick(self, self.pose, teleport_strokes, pixel, stroke, clamped_from, rotation)
 
     def _integrate(self) -> None:
         self.theta = theta = normalize_angle(self.theta + self.turning * TICK_S)

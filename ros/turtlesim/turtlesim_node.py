@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from rclpy.publisher import Publisher
     from turtlesim.crowd import Crowd
-    from turtlesim.model import Turtle
+    from turtlesim.model import Pose, Turtle
     from turtlesim.screen import Screen
 
 __all__ = ["TurtlesimNode", "main"]
@@ -166,6 +166,11 @@ class TurtlesimNode(CppNode):
         self.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y_down:f}])")
 
     # Turtles
+
+    def pose_of(self, name: str) -> Pose | None:
+        """Where a turtle is at this moment, for nodes of the same executor; None when there is none of that name."""
+        turtle = self.world.turtles.get(name)
+        return None if turtle is None else turtle.pose
 
     def _add(self, turtle: Turtle) -> None:
         """Announce a turtle of the world; one whose name ROS does not allow leaves the world again, and the error is raised."""

@@ -14,7 +14,7 @@ from rclpy.arguments import Arguments
 from rclpy.executors import SingleThreadedExecutor, TimeoutException
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
-from turtlesim.model import FIELD_SIZE, TICK_NS, Pose
+from turtlesim.model import TICK_NS
 from turtlesim.turtlesim_node import TurtlesimNode
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.publisher import Publisher
+    from turtlesim.model import Pose
     from turtlewire.wire.local.context import LocalContext
 
 __all__ = ["Simulation"]
@@ -128,10 +129,10 @@ class Simulation:
         Raises:
             KeyError: There is no turtle of that name; the text lists those there are.
         """
-        found = self.node.world.turtles.get(turtle)
-        if found is None:
+        pose = self.node.pose_of(turtle)
+        if pose is None:
             raise KeyError(f"no turtle named {turtle!r}; there are: {', '.join(sorted(self.node.world.turtles)) or 'none'}")
-        return Pose(found.x, FIELD_SIZE - found.y_down, found.theta, math.hypot(found.forward, found.lateral), found.turning)
+        return pose
 
     def distance(self, one: str, other: str) -> float:
         """Between two turtles [m]."""

@@ -28,6 +28,21 @@ def place_on_spiral(k, count):
     return MIDDLE + RADIUS * growth * math.cos(angle), MIDDLE + RADIUS * growth * math.sin(angle), angle - math.pi / 2
 
 
+class Mailboxes(Node):
+    """Keeps the newest pose of each turtle. The simulator tells it at 62.5 Hz: it is taken when it is needed, without a callback."""
+
+    def __init__(self):
+        super().__init__("swarm_mailboxes", use_global_arguments=False, start_parameter_services=False, enable_rosout=False)
+        self.boxes = {}
+
+    def newest_pose(self, name):
+        """Return the pose that came since the last call, or None."""
+        if name not in self.boxes:
+            self.boxes[name] = self.create_subscription(Pose, f"/{name}/pose", lambda _: None, 1).handle
+        news = self.boxes[name].take_message(Pose, False)
+        return None if news is None else news[0]
+
+
 class Member:
     """One turtle of the swarm."""
 
@@ -36,16 +51,10 @@ class Member:
         self.place = TransformStamped()
         self.place.header.frame_id = "world"
         self.place.child_frame_id = name
-        # The simulator tells poses at 62.5 Hz; a mailbox that holds the newest one is read when it is needed, and needs no callback.
-        self.mailbox = swarm.mailboxes.create_subscription(Pose, f"/{name}/pose", lambda _: None, 1).handle
         self.commands = swarm.create_publisher(Twist, f"/{name}/cmd_vel", 1)
 
-    def see_place(self, stamp):
-        """Return the transform of this turtle if the simulator has told a new pose."""
-        news = self.mailbox.take_message(Pose, False)
-        if news is None:
-            return None
-        pose = news[0]
+    def put(self, pose, stamp):
+        """Return the transform that says where the turtle is."""
         self.place.header.stamp = stamp
         self.place.transform.translation.x = pose.x
         self.place.transform.translation.y = pose.y
@@ -57,10 +66,11 @@ class Member:
 class Swarm(Node):
     """Spawns the turtles that the parameter `count` asks for, tells TF where they are, and lets each follow the one before."""
 
-    def __init__(self):
+    def __init__(self, newest_pose):
+        """Begin; `newest_pose(name)` gives the pose of a turtle, or None when there is nothing new."""
         super().__init__("swarm")
+        self.newest_pose = newest_pose
         self.count = self.declare_parameter("count", 1000).value
-        self.mailboxes = Node("swarm_mailboxes", use_global_arguments=False, start_parameter_services=False, enable_rosout=False)
         self.tf_buffer = Buffer()
         self.tf_listener = TransformListener(self.tf_buffer, self)
         self.broadcaster = TransformBroadcaster(self)
@@ -71,22 +81,22 @@ class Swarm(Node):
         self.spawner = self.create_client(Spawn, "spawn")
         self.create_timer(PERIOD, self.on_timer)
 
-    def destroy_node(self):
-        self.mailboxes.destroy_node()
-        super().destroy_node()
-
     def on_timer(self):
         self.ticks += 1
         if self.asked == 1 and self.count > 1 and self.spawner.service_is_ready():
             for _ in range(SPAWNING):
                 self.spawn_next()
         group = range(self.ticks % GROUPS, len(self.members), GROUPS)
-        stamp = self.get_clock().now().to_msg()
-        places = [self.members[k].see_place(stamp) for k in group]
-        self.broadcaster.sendTransform([place for place in places if place is not None])
+        self.broadcast([self.members[k] for k in group])
         for k in group:
             if k > 0:
                 self.drive(k)
+
+    def broadcast(self, members):
+        """Tell TF where these turtles are, in one message."""
+        stamp = self.get_clock().now().to_msg()
+        poses = [(member, self.newest_pose(member.name)) for member in members]
+        self.broadcaster.sendTransform([member.put(pose, stamp) for member, pose in poses if pose is not None])
 
     def drive(self, k):
         """Send a turtle to where TF says that the one before it is."""
@@ -119,7 +129,7 @@ class Swarm(Node):
 def main(args=None):
     rclpy.init(args=args)
     try:
-        rclpy.spin(Swarm())
+        rclpy.spin(Swarm(Mailboxes().newest_pose))
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:

@@ -1,4 +1,4 @@
-"""The swarm and its simulator in one process: a thousand poses a tick reach their listener without leaving it."""
+"""The swarm and its simulator in one process, which shares the poses: nobody listens to their topics, so that none is sent."""
 
 import rclpy
 from learning_tf2_py.swarm import Swarm
@@ -9,8 +9,9 @@ from turtlesim.turtlesim_node import TurtlesimNode  # turtlewire's; beside a sim
 def main(args=None):
     rclpy.init(args=args)
     try:
+        simulator = TurtlesimNode()
         executor = SingleThreadedExecutor()
-        for node in (TurtlesimNode(), Swarm()):
+        for node in (simulator, Swarm(simulator.pose_of)):
             executor.add_node(node)
         executor.spin()
     except (KeyboardInterrupt, ExternalShutdownException):
