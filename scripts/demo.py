@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import signal
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing runs yet that would have to be stopped
+
+import argparse
+import math
+import os
 import subprocess
 import sys
 import threading
 import time
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -16,11 +22,14 @@ from typing import TYPE_CHECKING, NoReturn
 from turtlewire.wire import environment
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from turtlewire import Buffer
 
 VENV = Path(sys.prefix)
 COMMAND = ("ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
 LEADER, FOLLOWER = "turtle1", "turtle2"
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def main() -> int:
@@ -28,21 +37,28 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="scripts/demo", description="One turtle follows another: the tutorial's launch file, ready to run."
     )
-    parser.add_argument("--seconds", type=float, help="end by itself after so many seconds")
-    parser.add_argument(
+    mode = parser.add_mutually_exclusive_group()
+    mode.add_argument("--seconds", type=seconds, help="end by itself after so many seconds")
+    mode.add_argument(
         "--check", action="store_true", help="run headless, drive turtle1 through a square, print figures; status 0 if turtle2 followed"
     )
     arguments = parser.parse_args()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
     prepare_environment()
     choose_core()
-    for signum in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(signum, interrupt)
-    if arguments.check:
-        from demo_check import check
+    from demo_check import check
 
-        return check(started)
-    return show(arguments.seconds)
+    for signum in ENDING:
+        signal.signal(signum, interrupt)
+    return check(started) if arguments.check else show(arguments.seconds)
+
+
+def seconds(text: str) -> float:
+    """A time that can be waited for."""
+    value = float(text)
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a time to wait for; give a positive number")
+    return value
 
 
 def prepare_environment() -> None:
@@ -65,6 +81,18 @@ def interrupt(_signum: int, _frame: object) -> NoReturn:
     raise KeyboardInterrupt
 
 
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Let Ctrl-C and its like wait for the end of the block."""
+    came: list[int] = []
+    handlers = {signum: signal.signal(signum, lambda number, _frame: came.append(number)) for signum in ENDING}
+    yield
+    for signum, handler in handlers.items():
+        signal.signal(signum, handler)
+    if came:
+        raise KeyboardInterrupt
+
+
 class Launch:
     """The launched processes. They have a session of their own: Ctrl-C reaches only this process, which then stops them in order.
 
@@ -74,25 +102,40 @@ class Launch:
 
     def __init__(self, output: int | None = None) -> None:
         self.ended = threading.Event()
-        command = [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]]
-        self._process = subprocess.Popen(command, stdout=output, stderr=output, start_new_session=True)
+        self._output = output
+        self._process: subprocess.Popen[bytes] | None = None
         self._waiter = threading.Thread(target=self._wait, name="launch-waiter", daemon=True)
-        self._waiter.start()
+
+    def start(self) -> None:
+        """Start them; `stop` is to be called whatever happens."""
+        command = [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]]
+        with held_back():  # a process that nobody knows of yet could not be stopped
+            self._process = subprocess.Popen(command, stdout=self._output, stderr=self._output, start_new_session=True)
+            self._waiter.start()
 
     def _wait(self) -> None:
-        self._process.wait()
+        if self._process is not None:
+            self._process.wait()
         self.ended.set()
 
     def stop(self) -> int:
-        """Ask them to end, as Ctrl-C does, and kill what has not ended after ten seconds; the launch's exit status."""
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        """Ask them to end, as Ctrl-C does, and kill what has not ended after ten seconds.
+
+        Returns:
+            0, or the exit status of a launch that had ended by itself.
+        """
+        for signum in ENDING:
+            signal.signal(signum, signal.SIG_IGN)
+        if self._process is None:
+            return 0
+        status = self._process.returncode if self.ended.is_set() else 0
         if not self.ended.is_set():
             self._process.send_signal(signal.SIGINT)
         if not self.ended.wait(10.0):
             print("[demo] not all processes ended when they were asked to: killing them", file=sys.stderr)
             os.killpg(self._process.pid, signal.SIGKILL)
         self._waiter.join()
-        return self._process.returncode
+        return status
 
 
 def show(seconds: float | None) -> int:
@@ -101,6 +144,7 @@ def show(seconds: float | None) -> int:
     deadline = time.monotonic() + seconds if seconds is not None else float("inf")
     launch = Launch()
     try:
+        launch.start()
         from turtlesim.screen import desktop_is_there
 
         if desktop_is_there():
@@ -156,4 +200,7 @@ def describe(buffer: Buffer) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)

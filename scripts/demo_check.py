@@ -48,7 +48,8 @@ def check(started: float) -> int:
     Returns:
         The exit status: 0 when turtle2 followed and ended near turtle1.
     """
-    os.environ |= {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    domain, _mark = free_domain()
+    os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -56,6 +57,7 @@ def check(started: float) -> int:
     with log.open("wb") as output:
         launch = Launch(output.fileno())
         try:
+            launch.start()
             with Observer(started) as observer:
                 problem = judge(observer, launch)
                 print(observer.figures(), flush=True)
@@ -88,16 +90,20 @@ def judge(observer: Observer, launch: Launch) -> str:
     return ""
 
 
-def free_domain() -> int:
-    """A domain in which nobody on this computer listens; below 102, the ports stay clear of those that systems hand out."""
+def free_domain() -> tuple[int, socket.socket]:
+    """A domain in which nobody on this computer listens; below 102, the ports stay clear of those that systems hand out.
+
+    The socket occupies the port of a domain's first process: as long as it is open, no other check takes the domain.
+    """
     for offset in range(101):
         domain = 1 + (os.getpid() + offset) % 101
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("", 7410 + 250 * domain))
-            except OSError:
-                continue
-            return domain
+        mark = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            mark.bind(("", 7410 + 250 * domain))
+        except OSError:
+            mark.close()
+            continue
+        return domain, mark
     raise CheckError("all ROS domains from 1 to 101 are in use on this computer")
 
 

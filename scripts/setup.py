@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import json
 import os
@@ -35,16 +36,41 @@ def main(extras: list[str]) -> None:
     """Bring .venv up to date with the sources, with ``extras`` installed besides."""
     if sys.version_info < (3, 10):  # noqa: UP036 -- whatever python3 is on the machine runs this
         raise SetupError(f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed (PYTHON=python3.12 names another)")
+    if not missing(extras)[1]:
+        return
+    lock = wait_for_turn()
+    stamp, wanted = missing(extras)
+    if wanted:
+        bring_up_to_date(stamp, wanted)
+    os.close(lock)
+
+
+def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What was installed last, and what is to be installed instead; nothing when all is there."""
     stamp = read_stamp()
     wanted = {"python": f"{sys.version} in {ROOT}", "sources": fingerprint(), "extras": sorted({*stamp.get("extras", []), *extras})}
-    if stamp == wanted:
-        return
+    return stamp, {} if stamp == wanted else wanted
+
+
+def wait_for_turn() -> int:
+    """Lock this folder, so that two terminals do not set up .venv at once; the descriptor that holds the lock."""
+    descriptor = os.open(ROOT, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        say("another terminal is setting up .venv: waiting for it")
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+    return descriptor
+
+
+def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
+    """Make .venv, or what of it is stale, and note what it holds then."""
     started = time.monotonic()
     if not usable(stamp, wanted):
         say("making .venv here and downloading what it needs (about 15 packages, under a minute); nothing else is touched")
         make_venv()
     else:
-        say("the sources have changed since .venv was set up: bringing it up to date")
+        say("bringing .venv up to date with the sources")
     ensure_pip()
     install(wanted["extras"])
     STAMP.write_text(json.dumps(wanted), encoding="utf-8")
@@ -163,3 +189,6 @@ if __name__ == "__main__":
         main(sys.argv[1:])
     except SetupError as error:
         sys.exit(f"[setup] {error}")
+    except KeyboardInterrupt:
+        say("interrupted; the next run goes on")
+        sys.exit(130)
