@@ -7,6 +7,7 @@ package_name = "learning_tf2_py"
 setup(
     name=package_name,
     version="0.1.0",
+    package_dir={"": "."},  # an editable installation is then a path, not a finder that each Python imports
     packages=find_packages(exclude=["test"]),
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
