@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -38,6 +39,12 @@ os.environ["ROS_DOMAIN_ID"] = free_domain()
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="turtlewire-test-log-")
 os.environ.pop("RMW_IMPLEMENTATION", None)
+
+
+def pytest_unconfigure():
+    """Leave nothing behind."""
+    shutil.rmtree(os.environ["ROS_LOG_DIR"], ignore_errors=True)
+
 
 # The same examples in each run: what fails is due to the change at hand. `scripts/test --hypothesis-profile=fuzz` draws new ones.
 settings.register_profile("turtlewire", deadline=None, derandomize=True)

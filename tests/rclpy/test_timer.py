@@ -163,10 +163,10 @@ def spin_until_shutdown(executor):
 
 
 def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, executor):
+    start = time.monotonic()
     rate = node.create_rate(100)
     spinning = threading.Thread(target=spin_until_shutdown, args=(executor,))
     spinning.start()
-    start = time.monotonic()
     for _ in range(5):
         rate.sleep()
     assert time.monotonic() - start >= 0.035
