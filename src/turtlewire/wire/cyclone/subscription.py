@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.wire.base import EventKind, MessageInfo, Subscription
 from turtlewire.wire.encapsulation import LITTLE_ENDIAN
+from turtlewire.wire.graph import parse_user_data
 from turtlewire.wire.report import call_guarded, warn_once
 
 from . import library as dds
@@ -128,7 +129,18 @@ class CycloneSubscription(Endpoint, Subscription):
             self._user_data.clear()
         self._gids[publisher] = gid
         self._user_data[gid] = user_data
+        self._compare_types(parse_user_data(user_data).get("typehash", ""))
         return gid
+
+    def _compare_types(self, theirs: str) -> None:
+        """DDS matches types by name; a definition with other fields is seen in its hash only (foreign peers announce none)."""
+        ours = self.spec.type_id
+        if theirs and theirs != ours.type_hash:
+            warn_once(
+                f"type {self.topic} {theirs}",
+                f"a peer on {self.topic} has another definition of {ours.name}: its messages may be refused, or read wrongly. "
+                f"Both sides need the same version of {ours.name.partition('/')[0]} (type hash there {theirs}, here {ours.type_hash}).",
+            )
 
     def user_data_of(self, publisher_gid: bytes) -> bytes:
         """What the publisher of a taken message announced of itself; empty when that is not known."""
