@@ -9,13 +9,13 @@ import threading
 from pathlib import Path
 
 import pytest
+
 import rclpy
 from example_interfaces.srv import AddTwoInts
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from std_msgs.msg import ByteMultiArray, String
 from turtlesim.msg import Pose
-
 from turtlewire import msg
 from turtlewire.wire import report
 
