@@ -25,13 +25,23 @@ import pytest
 from hypothesis import settings
 
 
+reservations = []
+
+
 def free_domain():
-    """A domain in which nobody on this computer listens; up to 101, its ports stay clear of those that systems hand out."""
+    """A domain in which nobody on this computer listens; up to 101, its ports stay clear of those that systems hand out.
+
+    Until this process ends, no other test process takes it: a TCP port that DDS does not use stands for the domain.
+    """
     for offset in range(101):
         domain = 1 + (os.getpid() + offset) % 101
+        reservation = socket.socket()
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, contextlib.suppress(OSError):
             probe.bind(("", 7410 + 250 * domain))
+            reservation.bind(("127.0.0.1", 7410 + 250 * domain))
+            reservations.append(reservation)
             return str(domain)
+        reservation.close()
     raise RuntimeError("all ROS domains from 1 to 101 are in use on this computer")
 
 
@@ -44,6 +54,8 @@ os.environ.pop("RMW_IMPLEMENTATION", None)
 def pytest_unconfigure():
     """Leave nothing behind."""
     shutil.rmtree(os.environ["ROS_LOG_DIR"], ignore_errors=True)
+    for reservation in reservations:
+        reservation.close()
 
 
 # The same examples in each run: what fails is due to the change at hand. `scripts/test --hypothesis-profile=fuzz` draws new ones.
@@ -138,6 +150,12 @@ class Program:
         for pipe in (self.process.stdin, self.process.stdout):
             if pipe is not None:
                 pipe.close()
+
+
+@pytest.fixture
+def other_domain():
+    """The number of a domain that is not the one of this process, and in which nobody is."""
+    return int(free_domain())
 
 
 @pytest.fixture

@@ -113,7 +113,7 @@ def test_a_static_peer_must_be_an_address():
 @pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])
 def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
     code = "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
-    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": str(1 + os.getpid() % 101)}
+    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": OWN_DOMAIN}
     done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=True)
     assert (done.stdout, done.stderr) == ("1\n", "")
 

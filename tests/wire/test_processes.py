@@ -149,12 +149,12 @@ def test_a_process_with_discovery_off_is_not_seen(context: Context):
         assert len([endpoint for endpoint in graph.endpoints() if endpoint.topic == "/latched"]) == 1
 
 
-def test_domains_do_not_see_each_other(context: Context):
-    other_domain = open_context(context.domain_id % 101 + 1, middleware="rmw_cyclonedds_cpp")
-    other_domain.create_node("elsewhere").create_publisher("/elsewhere", STRING, QoS())
+def test_domains_do_not_see_each_other(context: Context, other_domain: int):
+    other = open_context(other_domain, middleware="rmw_cyclonedds_cpp")
+    other.create_node("elsewhere").create_publisher("/elsewhere", STRING, QoS())
     with echo_peer():
         graph = context.graph
         assert graph.wait_for(lambda: "/latched" in graph.topic_names_and_types(), LONG)
         assert "/elsewhere" not in graph.topic_names_and_types()
-        assert [node.name for node in other_domain.graph.nodes()] == ["elsewhere"]
-    other_domain.close()
+        assert [node.name for node in other.graph.nodes()] == ["elsewhere"]
+    other.close()
