@@ -24,7 +24,6 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-
 reservations = []
 
 
