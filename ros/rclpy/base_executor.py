@@ -103,7 +103,7 @@ class Executor:
             self._nodes[node] = self._nodes_made
             self._nodes_made += 1
         node.executor = self
-        for entity in node._entities():
+        for entity in node._rclpy_endpoints.entities():
             self._attach(entity, node)
         return True
 
@@ -112,7 +112,7 @@ class Executor:
         with self._lock:
             if self._nodes.pop(node, None) is None:
                 return
-        for entity in node._entities():
+        for entity in node._rclpy_endpoints.entities():
             self._detach(entity)
         node.executor = None
 

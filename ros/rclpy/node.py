@@ -2,6 +2,9 @@
 
 :class:`Node` itself holds no logic: each method hands over to the part that does the work. ``node_endpoints.py`` makes and keeps the
 endpoints, ``node_graph.py`` answers questions about other nodes, ``parameters.py`` keeps the parameters.
+
+Programs derive from it and have attributes of their own: beside those that ROS 2's has (``_logger``, ``_clock`` …), ours begin with two
+underscores, or with ``_rclpy`` where other modules need them.
 """
 
 from __future__ import annotations
@@ -38,12 +41,12 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
+    from turtlewire.wire import base
 
     from .arguments import Arguments
     from .callback_groups import CallbackGroup
     from .clock import Clock
     from .context import Context
-    from .entity import Entity
     from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
     from .parameter import Parameter
@@ -100,24 +103,24 @@ class Node:
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
     ) -> None:
-        self._executor: weakref.ref[Executor] | None = None
-        self._destroyed = False
+        self.__executor: weakref.ref[Executor] | None = None
+        self.__destroyed = False
         self._context = _usable_context(context)
-        self._arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
-        self._name, self._namespace = _names(node_name, namespace or "/", self._arguments)
-        self._wire = self._context.wire.create_node(self._name, self._namespace, self._arguments.enclave)
+        self.__arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
+        self.__name, self.__namespace = _names(node_name, namespace or "/", self.__arguments)
+        self.__wire = self._context.wire.create_node(self.__name, self.__namespace, self.__arguments.enclave)
         self._logger = get_logger(self.get_fully_qualified_name()[1:].replace("/", "."))
         self._clock = ROSClock()
-        self._endpoints = NodeEndpoints(self)
-        self._graph = NodeGraph(self)
-        self._rosout = RosoutPublisher(self._wire, self._logger.name) if enable_rosout else None
+        self._rclpy_endpoints = NodeEndpoints(self, self.__arguments)
+        self.__graph = NodeGraph(self)
+        self.__rosout = RosoutPublisher(self.__wire, self._logger.name) if enable_rosout else None
         self._parameters = NodeParameters(
             node_fqn=self.get_fully_qualified_name(),
-            overrides=self._arguments.parameter_overrides(self.get_fully_qualified_name()),
+            overrides=self.__arguments.parameter_overrides(self.get_fully_qualified_name()),
             constructor_overrides=parameter_overrides,
             allow_undeclared=allow_undeclared_parameters,
             now=self._clock.now,
-            publish_event=self._parameter_event_publisher().publish,
+            publish_event=self.__parameter_event_publisher().publish,
         )
         if automatically_declare_parameters_from_overrides:
             self._parameters.declare_overrides()
@@ -129,9 +132,9 @@ class Node:
         if enable_logger_service:
             from .logging_service import LoggingService
 
-            self._logging_service = LoggingService(self)
+            self.__logging_service = LoggingService(self)
 
-    def _parameter_event_publisher(self) -> Publisher:
+    def __parameter_event_publisher(self) -> Publisher:
         from rcl_interfaces.msg import ParameterEvent
 
         return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
@@ -140,15 +143,15 @@ class Node:
 
     def get_name(self) -> str:
         """Base name, after remapping."""
-        return self._name
+        return self.__name
 
     def get_namespace(self) -> str:
         """Namespace, after remapping."""
-        return self._namespace
+        return self.__namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name, for example ``/robot1/camera``."""
-        return names.fully_qualified_node_name(self._name, self._namespace)
+        return names.fully_qualified_node_name(self.__name, self.__namespace)
 
     def get_clock(self) -> Clock:
         """Its clock: ROS time, which follows ``/clock`` when the parameter ``use_sim_time`` is true."""
@@ -164,19 +167,16 @@ class Node:
         return self._context
 
     @property
-    def wire(self) -> Any:
-        """The middleware's side of it (:class:`turtlewire.wire.base.Node`); raises ``InvalidHandle`` after :meth:`destroy_node`."""
-        self._check_usable()
-        return self._wire
+    def _rclpy_wire(self) -> base.Node:
+        """The middleware's side of it; raises ``InvalidHandle`` after :meth:`destroy_node`."""
+        if self.__destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+        return self.__wire
 
     @property
     def handle(self) -> Handle:
         """Stands for the C object that it has in ROS 2; raises ``InvalidHandle`` after :meth:`destroy_node`."""
-        return Handle(self.wire)
-
-    def _check_usable(self) -> None:
-        if self._destroyed:
-            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+        return Handle(self._rclpy_wire)
 
     def __enter__(self) -> Self:
         return self
@@ -187,7 +187,7 @@ class Node:
     @property
     def executor(self) -> Executor | None:
         """The executor that serves it; setting it moves the node there."""
-        return None if self._executor is None else self._executor()
+        return None if self.__executor is None else self.__executor()
 
     @executor.setter
     def executor(self, new_executor: Executor | None) -> None:
@@ -196,72 +196,61 @@ class Node:
             return
         if current is not None:
             current.remove_node(self)
-        self._executor = None if new_executor is None else weakref.ref(new_executor)
+        self.__executor = None if new_executor is None else weakref.ref(new_executor)
         if new_executor is not None:
             new_executor.add_node(self)
 
     @property
     def default_callback_group(self) -> CallbackGroup:
         """Of entities that are made without one: mutually exclusive."""
-        return self._endpoints.default_callback_group
+        return self._rclpy_endpoints.default_callback_group
 
     @property
     def publishers(self) -> Iterator[Publisher]:
         """Its publishers."""
-        yield from self._endpoints.of(Publisher)
+        yield from self._rclpy_endpoints.of(Publisher)
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
         """Its subscriptions."""
-        yield from self._endpoints.of(Subscription)
+        yield from self._rclpy_endpoints.of(Subscription)
 
     @property
     def clients(self) -> Iterator[Client]:
         """Its service clients."""
-        yield from self._endpoints.of(Client)
+        yield from self._rclpy_endpoints.of(Client)
 
     @property
     def services(self) -> Iterator[Service]:
         """Its services."""
-        yield from self._endpoints.of(Service)
+        yield from self._rclpy_endpoints.of(Service)
 
     @property
     def timers(self) -> Iterator[Timer]:
         """Its timers."""
-        yield from self._endpoints.of(Timer)
+        yield from self._rclpy_endpoints.of(Timer)
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
         """Its guard conditions."""
-        yield from self._endpoints.of(GuardCondition)
+        yield from self._rclpy_endpoints.of(GuardCondition)
 
     @property
     def waitables(self) -> Iterator[Waitable]:
         """Its waitables: actions, and what programs add."""
         from .waitable import Waitable
 
-        yield from self._endpoints.of(Waitable)
-
-    def _entities(self) -> list[Entity]:
-        return self._endpoints.entities()
+        yield from self._rclpy_endpoints.of(Waitable)
 
     # Names
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a topic, remapped unless ``only_expand``."""
-        return self._endpoints.resolve_topic(topic, only_expand=only_expand)
+        return self._rclpy_endpoints.resolve_topic(topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a service, remapped unless ``only_expand``."""
-        return self._endpoints.resolve_service(service, only_expand=only_expand)
-
-    def remap_topic(self, fully_qualified_name: str) -> str:
-        """Apply the command line's rules to a topic."""
-        return self._arguments.remap_topic(fully_qualified_name, self._name, self._namespace)
-
-    def remap_service(self, fully_qualified_name: str) -> str:
-        """Apply the command line's rules to a service."""
-        return self._arguments.remap_service(fully_qualified_name, self._name, self._namespace)
+        return self._rclpy_endpoints.resolve_service(service, only_expand=only_expand)
 
     # Endpoints
 
@@ -292,7 +281,7 @@ class Node:
             TypeError: ``qos_profile`` is neither a profile nor a depth.
             ValueError: The depth is negative.
         """
-        return self._endpoints.create_publisher(
+        return self._rclpy_endpoints.create_publisher(
             msg_type, topic, qos_profile, callback_group, event_callbacks, qos_overriding_options, publisher_class
         )
 
@@ -329,7 +318,7 @@ class Node:
             ValueError: The depth is negative.
             RuntimeError: The callback takes neither one nor two arguments.
         """
-        return self._endpoints.create_subscription(
+        return self._rclpy_endpoints.create_subscription(
             msg_type, topic, callback, qos_profile, callback_group, event_callbacks, qos_overriding_options, raw
         )
 
@@ -352,7 +341,7 @@ class Node:
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        return self._endpoints.create_client(srv_type, srv_name, qos_profile, callback_group)
+        return self._rclpy_endpoints.create_client(srv_type, srv_name, qos_profile, callback_group)
 
     def create_service(
         self,
@@ -375,7 +364,7 @@ class Node:
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        return self._endpoints.create_service(srv_type, srv_name, callback, qos_profile, callback_group)
+        return self._rclpy_endpoints.create_service(srv_type, srv_name, callback, qos_profile, callback_group)
 
     def create_timer(
         self,
@@ -394,7 +383,7 @@ class Node:
             clock: None takes the node's clock.
             autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
         """
-        return self._endpoints.create_timer(timer_period_sec, callback, callback_group, clock or self._clock, autostart)
+        return self._rclpy_endpoints.create_timer(timer_period_sec, callback, callback_group, clock or self._clock, autostart)
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz; another thread has to spin the node.
@@ -402,58 +391,58 @@ class Node:
         Raises:
             ValueError: ``frequency`` is not positive.
         """
-        return self._endpoints.create_rate(frequency, clock or self._clock)
+        return self._rclpy_endpoints.create_rate(frequency, clock or self._clock)
 
     def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None) -> GuardCondition:
         """Something whose ``trigger()`` has ``callback()`` called on the executor."""
-        return self._endpoints.create_guard_condition(callback, callback_group)
+        return self._rclpy_endpoints.create_guard_condition(callback, callback_group)
 
     def add_waitable(self, waitable: Waitable) -> None:
         """Have the executor serve ``waitable``."""
-        self._endpoints.add_waitable(waitable)
+        self._rclpy_endpoints.add_waitable(waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
         """Have the executor serve ``waitable`` no longer."""
-        self._endpoints.remove_waitable(waitable)
+        self._rclpy_endpoints.remove_waitable(waitable)
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Close a publisher; False when it is not of this node."""
-        return self._endpoints.destroy(Publisher, publisher)
+        return self._rclpy_endpoints.destroy(Publisher, publisher)
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
         """Close a subscription; False when it is not of this node."""
-        return self._endpoints.destroy(Subscription, subscription)
+        return self._rclpy_endpoints.destroy(Subscription, subscription)
 
     def destroy_client(self, client: Client) -> bool:
         """Close a client; False when it is not of this node."""
-        return self._endpoints.destroy(Client, client)
+        return self._rclpy_endpoints.destroy(Client, client)
 
     def destroy_service(self, service: Service) -> bool:
         """Close a service; False when it is not of this node."""
-        return self._endpoints.destroy(Service, service)
+        return self._rclpy_endpoints.destroy(Service, service)
 
     def destroy_timer(self, timer: Timer) -> bool:
         """End a timer; False when it is not of this node."""
-        return self._endpoints.destroy(Timer, timer)
+        return self._rclpy_endpoints.destroy(Timer, timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
         """End a guard condition; False when it is not of this node."""
-        return self._endpoints.destroy(GuardCondition, guard)
+        return self._rclpy_endpoints.destroy(GuardCondition, guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """End a rate and its sleeps; False when it is not of this node."""
-        return self._endpoints.destroy(Timer, rate._timer)
+        return self._rclpy_endpoints.destroy(Timer, rate._timer)
 
     def destroy_node(self) -> None:
         """Leave the graph and close all endpoints. Idempotent; works after a shutdown too."""
         executor = self.executor
         if executor is not None:
             executor.remove_node(self)
-        self._endpoints.destroy_all()
-        self._destroyed = True
-        if self._rosout is not None:
-            self._rosout.close()
-        self._wire.close()
+        self._rclpy_endpoints.destroy_all()
+        self.__destroyed = True
+        if self.__rosout is not None:
+            self.__rosout.close()
+        self.__wire.close()
 
     # Parameters
 
@@ -577,75 +566,75 @@ class Node:
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
         """All topics with the names of their types."""
-        return self._graph.topic_names_and_types(no_demangle)
+        return self.__graph.topic_names_and_types(no_demangle)
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
         """All services with the names of their types."""
-        return self._graph.service_names_and_types()
+        return self.__graph.service_names_and_types()
 
     def get_node_names(self) -> list[str]:
         """Base names of all nodes."""
-        return [name for name, _, _ in self._graph.node_names()]
+        return [name for name, _, _ in self.__graph.node_names()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Fully qualified names of all nodes."""
-        return [names.fully_qualified_node_name(name, namespace) for name, namespace, _ in self._graph.node_names()]
+        return [names.fully_qualified_node_name(name, namespace) for name, namespace, _ in self.__graph.node_names()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
-        return [(name, namespace) for name, namespace, _ in self._graph.node_names()]
+        return [(name, namespace) for name, namespace, _ in self.__graph.node_names()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and security enclave of all nodes."""
-        return self._graph.node_names()
+        return self.__graph.node_names()
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> list[tuple[str, list[str]]]:
         """Topics that a node publishes; raises ``NodeNameNonExistentError``."""
-        return self._graph.by_node("publisher", node_name, node_namespace, no_demangle=no_demangle)
+        return self.__graph.by_node("publisher", node_name, node_namespace, no_demangle=no_demangle)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> list[tuple[str, list[str]]]:
         """Topics that a node subscribes to; raises ``NodeNameNonExistentError``."""
-        return self._graph.by_node("subscription", node_name, node_namespace, no_demangle=no_demangle)
+        return self.__graph.by_node("subscription", node_name, node_namespace, no_demangle=no_demangle)
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
         """Services that a node offers; raises ``NodeNameNonExistentError``."""
-        return self._graph.services_by_node("service", node_name, node_namespace)
+        return self.__graph.services_by_node("service", node_name, node_namespace)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
         """Services that a node calls; raises ``NodeNameNonExistentError``."""
-        return self._graph.services_by_node("client", node_name, node_namespace)
+        return self.__graph.services_by_node("client", node_name, node_namespace)
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has."""
-        return self._graph.count_topic("publisher", topic_name)
+        return self.__graph.count_topic("publisher", topic_name)
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
-        return self._graph.count_topic("subscription", topic_name)
+        return self.__graph.count_topic("subscription", topic_name)
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
-        return self._graph.count_service("client", service_name)
+        return self.__graph.count_service("client", service_name)
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
-        return self._graph.count_service("service", service_name)
+        return self.__graph.count_service("service", service_name)
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """What is known of each publisher of a topic."""
-        return self._graph.endpoint_infos("publisher", topic_name, no_mangle=no_mangle)
+        return self.__graph.endpoint_infos("publisher", topic_name, no_mangle=no_mangle)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """What is known of each subscription of a topic."""
-        return self._graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
+        return self.__graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
         """Block until a node is there, at most ``timeout`` seconds (negative: no limit); whether it is."""
-        return self._graph.wait_for_node(fully_qualified_node_name, timeout)
+        return self.__graph.wait_for_node(fully_qualified_node_name, timeout)
 
 
 def _usable_context(context: Context | None) -> Context:

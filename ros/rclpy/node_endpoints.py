@@ -25,6 +25,7 @@ from .type_support import check_is_valid_msg_type, check_is_valid_srv_type, serv
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from .arguments import Arguments
     from .callback_groups import CallbackGroup
     from .clock import Clock
     from .node import Node
@@ -43,8 +44,9 @@ class NodeEndpoints:
         default_callback_group: Of entities that are made without one.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, arguments: Arguments) -> None:
         self._node = node
+        self._arguments = arguments
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -82,7 +84,7 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
-        wire = self._node.wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
+        wire = self._node._rclpy_wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
         return publisher_class(wire, msg_type, profile, self._node.context)
 
     def create_subscription(
@@ -115,7 +117,7 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
-        wire = self._node.wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
+        wire = self._node._rclpy_wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
 
@@ -152,9 +154,9 @@ class NodeEndpoints:
         """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
-        wire = self._node.wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        wire = self._node._rclpy_wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger(), self._node.wire)
+        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger(), self._node._rclpy_wire)
 
     def create_service(
         self,
@@ -180,9 +182,9 @@ class NodeEndpoints:
         check_is_valid_srv_type(srv_type)
         _check_callable(callback)
         name = self.resolve_service(srv_name)
-        wire = self._node.wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        wire = self._node._rclpy_wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
-        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger(), self._node.wire)
+        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger(), self._node._rclpy_wire)
 
     def create_timer(
         self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool
@@ -263,7 +265,9 @@ class NodeEndpoints:
             InvalidTopicNameException: The name breaks the rules.
         """
         expanded = self._expand(topic, InvalidTopicNameException)
-        return expanded if only_expand else self._node.remap_topic(expanded)
+        if only_expand:
+            return expanded
+        return self._arguments.remap_topic(expanded, self._node.get_name(), self._node.get_namespace())
 
     def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a service, remapped unless ``only_expand``.
@@ -272,7 +276,9 @@ class NodeEndpoints:
             InvalidServiceNameException: The name breaks the rules.
         """
         expanded = self._expand(service, InvalidServiceNameException)
-        return expanded if only_expand else self._node.remap_service(expanded)
+        if only_expand:
+            return expanded
+        return self._arguments.remap_service(expanded, self._node.get_name(), self._node.get_namespace())
 
     def _expand(self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]) -> str:
         if not isinstance(name, str):

@@ -30,7 +30,7 @@ class NodeGraph:
 
     @property
     def _graph(self) -> Graph:
-        self._node._check_usable()
+        _ = self._node._rclpy_wire  # a destroyed node must not be asked
         return self._node.context.wire.graph
 
     def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:

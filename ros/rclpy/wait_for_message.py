@@ -34,7 +34,7 @@ def wait_for_message(
     """
     came = Future()
     group = MutuallyExclusiveCallbackGroup()  # the node's own may be held by the callback that waits here
-    subscription = node._endpoints.make_subscription(msg_type, topic, came.set_result, qos_profile, group)
+    subscription = node._rclpy_endpoints.make_subscription(msg_type, topic, came.set_result, qos_profile, group)
     with SingleThreadedExecutor(context=node.context) as executor:
         executor._adopt(subscription)
         try:

@@ -93,7 +93,7 @@ class MessageFilter(SimpleFilter):
         self._stop_listening: Callable[[], None] | None = self._engine.add_change_listener(self._on_data)
         self._jumps = node.get_clock().create_jump_callback(JUMP_BACK, post_callback=self._on_jump)
         self._on_destroy: Callable[[MessageFilter], None] | None = None
-        node._endpoints.keep(self)
+        node._rclpy_endpoints.keep(self)
         if f is not None:
             self.connectInput(f)
 

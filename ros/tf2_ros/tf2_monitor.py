@@ -179,7 +179,7 @@ def _subscribe(node: Node, buffer: Buffer, statistics: Statistics, on_data: Call
             statistics.take(msg.deserialize(message_class, cdr), info)
             on_data()
 
-        node.wire.create_subscription(node.resolve_topic_name(topic), type_id, qos, receive)
+        node._rclpy_wire.create_subscription(node.resolve_topic_name(topic), type_id, qos, receive)
 
 
 def _publisher_name(node: Node, gid: bytes) -> str:

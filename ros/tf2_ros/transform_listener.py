@@ -65,7 +65,7 @@ class TransformListener:
         self._on_destroy: Callable[[TransformListener], None] | None = None
         self._engine = engine.TransformListener(
             buffer.engine,
-            self.node.wire,
+            self.node._rclpy_wire,
             context=self.node.context.wire,
             topic=None if static_only else self.node.resolve_topic_name(tf_topic),
             static_topic=self.node.resolve_topic_name(tf_static_topic),
@@ -77,7 +77,7 @@ class TransformListener:
         self._follow_clock: JumpHandle | None = None
         if isinstance(buffer, Buffer) and buffer.node is None:
             self._follow_clock = self.node.get_clock().create_jump_callback(JUMP_BACK, post_callback=buffer.time_jump_callback)
-        self.node._endpoints.keep(self)
+        self.node._rclpy_endpoints.keep(self)
         self.executor: SingleThreadedExecutor | None = None
         self.dedicated_listener_thread: Thread | None = None
         if spin_thread:

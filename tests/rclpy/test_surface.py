@@ -18,6 +18,8 @@ from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode
+from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 # `module` or `module.Class`, and below it what it has, each with its parameters; `self` and `cls` are left out.
@@ -736,3 +738,20 @@ def test_a_subscription_says_that_nothing_is_filtered(node):
 
     options = ContentFilterOptions(filter_expression="data = %0", expression_parameters=["'x'"])
     assert node.create_subscription(String, "t", print, 1, content_filter_options=options).is_cft_enabled is False
+
+
+# Private attributes that ROS 2's nodes have as well; programs know better than to take these names.
+OF_ROS_2 = {"_callbacks", "_clock", "_context", "_logger", "_managed_entities", "_parameter_service", "_parameters", "_state_machine"}
+OF_ROS_2 |= {"_time_source", "_type_description_service"}
+
+
+@pytest.mark.parametrize("kind", [Node, LifecycleNode])
+def test_a_program_may_have_attributes_of_its_own(context, kind):
+    """Whoever derives from a node may call an attribute or a method as he likes: `_name`, `_graph`, `_executor`, `_register`."""
+    node = kind("tested", context=context, enable_logger_service=True)
+    private = {name for name in (*vars(node), *dir(kind)) if name.startswith("_") and not name.startswith(("__", "_rclpy"))}
+    assert {name for name in private - OF_ROS_2 if not name.startswith(("_Node__", "_LifecycleNodeMixin__"))} == set()
+    public = {name for name in dir(Node) if not name.startswith("_")}
+    listed = {name for place, name, *_ in (row.values for row in functions()) if place == "rclpy.node.Node"}
+    assert public - listed == set(dict(rows(PROPERTIES))["rclpy.node.Node"].replace("=", "").split())
+    node.destroy_node()

@@ -19,7 +19,7 @@ class Composed(Waitable):
         super().__init__(group or node.default_callback_group)
         self.guard = GuardCondition(None, None, node.context)
         self.timer = Timer(None, None, 10_000_000, Clock(), context=node.context, autostart=False)
-        self.subscription = node._endpoints.make_subscription(Int32, "number", lambda _: None, 10, None)
+        self.subscription = node._rclpy_endpoints.make_subscription(Int32, "number", lambda _: None, 10, None)
         self.executed = []
         self.came = None
 

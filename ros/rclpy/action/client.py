@@ -126,7 +126,7 @@ class ActionClient(Waitable):
         self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_service_qos_profile)
         self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile)
         self._result_client = self._make_client(impl.GetResultService, "get_result", result_service_qos_profile)
-        subscribe = node._endpoints.make_subscription
+        subscribe = node._rclpy_endpoints.make_subscription
         name, group = f"{action_name}/_action", self.callback_group
         self._feedback = subscribe(impl.FeedbackMessage, f"{name}/feedback", self._on_feedback, feedback_sub_qos_profile, group)
         self._status = subscribe(impl.GoalStatusMessage, f"{name}/status", self._on_status, status_sub_qos_profile, group)
@@ -134,7 +134,7 @@ class ActionClient(Waitable):
         node.add_waitable(self)
 
     def _make_client(self, service_type: Any, name: str, qos: QoSProfile) -> Client:
-        return self._node._endpoints.make_client(service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group)
+        return self._node._rclpy_endpoints.make_client(service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group)
 
     def server_is_ready(self) -> bool:
         """Whether an action server is there."""

@@ -135,7 +135,7 @@ class ActionServer(Waitable):
         self._goal_service = self._make_service(impl.SendGoalService, "send_goal", self._on_goal, goal_qos)
         self._cancel_service = self._make_service(impl.CancelGoalService, "cancel_goal", self._on_cancel, cancel_qos)
         self._result_service = self._make_service(impl.GetResultService, "get_result", self._on_result, result_qos)
-        endpoints = self._node._endpoints
+        endpoints = self._node._rclpy_endpoints
         self._feedback_publisher = endpoints.make_publisher(impl.FeedbackMessage, f"{self._action_name}/_action/feedback", feedback_qos)
         self._status_publisher = endpoints.make_publisher(impl.GoalStatusMessage, f"{self._action_name}/_action/status", status_qos)
         clock = self._node.get_clock()
@@ -144,7 +144,7 @@ class ActionServer(Waitable):
 
     def _make_service(self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile) -> Service:
         full_name = f"{self._action_name}/_action/{name}"
-        return self._node._endpoints.make_service(service_type, full_name, callback, qos, self.callback_group, _DeferredService)
+        return self._node._rclpy_endpoints.make_service(service_type, full_name, callback, qos, self.callback_group, _DeferredService)
 
     @property
     def action_type(self) -> Any:

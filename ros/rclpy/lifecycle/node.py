@@ -43,24 +43,24 @@ class LifecycleNodeMixin(ManagedEntity):
     def __init__(self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None) -> None:
         self._state_machine = StateMachine()
         self._managed_entities: list[ManagedEntity] = []
-        self._transition_event_publisher: Publisher | None = None
+        self.__transition_event_publisher: Publisher | None = None
         self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
             state: getattr(self, name) for name, state in _CALLBACK_STATES.items()
         }
         if enable_communication_interface:
-            self._offer_services(callback_group)
+            self.__offer_services(callback_group)
 
-    def _offer_services(self, callback_group: CallbackGroup | None) -> None:
+    def __offer_services(self, callback_group: CallbackGroup | None) -> None:
         from lifecycle_msgs import msg, srv
 
         node: Any = self
-        self._transition_event_publisher = node.create_publisher(msg.TransitionEvent, "~/transition_event", 10)
+        self.__transition_event_publisher = node.create_publisher(msg.TransitionEvent, "~/transition_event", 10)
         for srv_type, name, callback in (
-            (srv.ChangeState, "change_state", self._on_change_state),
-            (srv.GetState, "get_state", self._on_get_state),
-            (srv.GetAvailableStates, "get_available_states", self._on_get_available_states),
-            (srv.GetAvailableTransitions, "get_available_transitions", self._on_get_available_transitions),
-            (srv.GetAvailableTransitions, "get_transition_graph", self._on_get_transition_graph),
+            (srv.ChangeState, "change_state", self.__on_change_state),
+            (srv.GetState, "get_state", self.__on_get_state),
+            (srv.GetAvailableStates, "get_available_states", self.__on_get_available_states),
+            (srv.GetAvailableTransitions, "get_available_transitions", self.__on_get_available_transitions),
+            (srv.GetAvailableTransitions, "get_transition_graph", self.__on_get_transition_graph),
         ):
             node.create_service(srv_type, f"~/{name}", callback, callback_group=callback_group)
 
@@ -68,44 +68,44 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def trigger_configure(self) -> TransitionCallbackReturn:
         """Go from unconfigured to inactive; RCLError in another state."""
-        return self._change_state(self._state_machine.by_label("configure"))
+        return self.__change_state(self._state_machine.by_label("configure"))
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
         """Go from inactive to unconfigured; RCLError in another state."""
-        return self._change_state(self._state_machine.by_label("cleanup"))
+        return self.__change_state(self._state_machine.by_label("cleanup"))
 
     def trigger_activate(self) -> TransitionCallbackReturn:
         """Go from inactive to active; RCLError in another state."""
-        return self._change_state(self._state_machine.by_label("activate"))
+        return self.__change_state(self._state_machine.by_label("activate"))
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
         """Go from active to inactive; RCLError in another state."""
-        return self._change_state(self._state_machine.by_label("deactivate"))
+        return self.__change_state(self._state_machine.by_label("deactivate"))
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
         """Go to finalized, from where no way leads on."""
         if self._state_machine.current_state == STATES[4]:
             return _SUCCESS
-        return self._change_state(self._state_machine.by_label("shutdown"))
+        return self.__change_state(self._state_machine.by_label("shutdown"))
 
-    def _change_state(self, transition: Transition) -> TransitionCallbackReturn:
+    def __change_state(self, transition: Transition) -> TransitionCallbackReturn:
         before = self._state_machine.current_state
-        self._enter(transition.goal)
-        outcome = self._run_callback(before)
-        self._enter(self._state_machine.by_label(outcome.to_label()).goal)
+        self.__enter(transition.goal)
+        outcome = self.__run_callback(before)
+        self.__enter(self._state_machine.by_label(outcome.to_label()).goal)
         if outcome is TransitionCallbackReturn.ERROR:
-            self._enter(self._state_machine.by_label(self._run_callback(before).to_label()).goal)
+            self.__enter(self._state_machine.by_label(self.__run_callback(before).to_label()).goal)
         return outcome
 
-    def _enter(self, state: LifecycleState) -> None:
+    def __enter(self, state: LifecycleState) -> None:
         start, self._state_machine.current_state = self._state_machine.current_state, state
-        if self._transition_event_publisher is not None:
+        if self.__transition_event_publisher is not None:
             from lifecycle_msgs.msg import TransitionEvent
 
             event = TransitionEvent(start_state=_state_message(start), goal_state=_state_message(state))
-            self._transition_event_publisher.publish(event)
+            self.__transition_event_publisher.publish(event)
 
-    def _run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
+    def __run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
         state = self._state_machine.current_state
         complain = self.get_logger().error  # type: ignore[attr-defined]
         try:
@@ -122,7 +122,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
     # Callbacks
 
-    def _forward(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+    def __forward(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
         """Tell the managed entities; the first that does not succeed decides."""
         for entity in self._managed_entities:
             outcome: TransitionCallbackReturn = getattr(entity, name)(state)
@@ -132,53 +132,53 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called to configure; programs override it."""
-        return self._forward("on_configure", state)
+        return self.__forward("on_configure", state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called to undo the configuration; programs override it."""
-        return self._forward("on_cleanup", state)
+        return self.__forward("on_cleanup", state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called to shut down; programs override it."""
-        return self._forward("on_shutdown", state)
+        return self.__forward("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called to activate; programs that override it call it as well, it enables the publishers."""
-        return self._forward("on_activate", state)
+        return self.__forward("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called to deactivate; programs that override it call it as well, it silences the publishers."""
-        return self._forward("on_deactivate", state)
+        return self.__forward("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Called after an error; success leads to unconfigured, all else to finalized."""
-        return self._forward("on_error", state)
+        return self.__forward("on_error", state)
 
     def register_on_configure(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_configure`."""
-        return self._register("on_configure", cb)
+        return self.__register("on_configure", cb)
 
     def register_on_cleanup(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_cleanup`."""
-        return self._register("on_cleanup", cb)
+        return self.__register("on_cleanup", cb)
 
     def register_on_shutdown(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_shutdown`."""
-        return self._register("on_shutdown", cb)
+        return self.__register("on_shutdown", cb)
 
     def register_on_activate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_activate`."""
-        return self._register("on_activate", cb)
+        return self.__register("on_activate", cb)
 
     def register_on_deactivate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_deactivate`."""
-        return self._register("on_deactivate", cb)
+        return self.__register("on_deactivate", cb)
 
     def register_on_error(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         """Call ``cb`` instead of :meth:`on_error`."""
-        return self._register("on_error", cb)
+        return self.__register("on_error", cb)
 
-    def _register(self, name: str, callback: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def __register(self, name: str, callback: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
         self._callbacks[_CALLBACK_STATES[name]] = callback
         return True
 
@@ -206,7 +206,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
     # Services
 
-    def _on_change_state(self, request: Any, response: Any) -> Any:
+    def __on_change_state(self, request: Any, response: Any) -> Any:
         wanted = request.transition
         try:
             machine = self._state_machine
@@ -215,22 +215,22 @@ class LifecycleNodeMixin(ManagedEntity):
             self.get_logger().error(str(error))  # type: ignore[attr-defined]
             response.success = False
             return response
-        response.success = self._change_state(transition) is _SUCCESS
+        response.success = self.__change_state(transition) is _SUCCESS
         return response
 
-    def _on_get_state(self, request: Any, response: Any) -> Any:  # noqa: ARG002 - the signature of a service callback
+    def __on_get_state(self, request: Any, response: Any) -> Any:  # noqa: ARG002 - the signature of a service callback
         response.current_state = _state_message(self._state_machine.current_state)
         return response
 
-    def _on_get_available_states(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+    def __on_get_available_states(self, request: Any, response: Any) -> Any:  # noqa: ARG002
         response.available_states = [_state_message(state) for state in STATES.values()]
         return response
 
-    def _on_get_available_transitions(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+    def __on_get_available_transitions(self, request: Any, response: Any) -> Any:  # noqa: ARG002
         response.available_transitions = [_description(transition) for transition in self._state_machine.available_transitions]
         return response
 
-    def _on_get_transition_graph(self, request: Any, response: Any) -> Any:  # noqa: ARG002
+    def __on_get_transition_graph(self, request: Any, response: Any) -> Any:  # noqa: ARG002
         response.available_transitions = [_description(transition) for transition in TRANSITIONS]
         return response
 
