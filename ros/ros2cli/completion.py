@@ -11,7 +11,9 @@ if TYPE_CHECKING:
 __all__ = [
     "action_names",
     "action_types",
+    "arguments_of_executable",
     "executables",
+    "frame_names",
     "interface_packages",
     "interfaces",
     "managed_node_names",
@@ -22,6 +24,11 @@ __all__ = [
     "topic_names",
     "topic_types",
 ]
+
+
+# Transforms are published at 10 Hz and more, static ones are kept for late joiners; nobody waits longer for a TAB.
+_LISTEN_S = 0.5
+_TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
 
 def packages(**_: Any) -> list[str]:
@@ -72,6 +79,25 @@ def action_names(**_: Any) -> list[str]:
 def node_names(**_: Any) -> list[str]:
     """Full names of the nodes there are now."""
     return _ask("node_names")
+
+
+def frame_names(**_: Any) -> list[str]:
+    """Names of the frames that are published now."""
+    from turtlewire.cli.tf_traffic import listen_to_transforms
+    from turtlewire.wire import open_context
+
+    context = open_context()
+    try:
+        parents = listen_to_transforms(context, _LISTEN_S).parents
+    finally:
+        context.close()
+    return sorted(parents.keys() | {parent for of_child in parents.values() for parent in of_child})
+
+
+def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """What may follow the name of an executable; known for those of tf2_ros that take frames."""
+    executable = (parsed_args.package_name, parsed_args.executable_name)
+    return frame_names() if executable in _TAKES_FRAMES else []
 
 
 def topic_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

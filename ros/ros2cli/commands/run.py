@@ -11,7 +11,7 @@ import subprocess
 import threading
 from typing import TYPE_CHECKING
 
-from ros2cli.completion import executables, packages
+from ros2cli.completion import arguments_of_executable, executables, packages
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -26,7 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     package.completer = packages  # type: ignore[attr-defined]
     executable = parser.add_argument("executable_name", help="Name of the executable")
     executable.completer = executables  # type: ignore[attr-defined]
-    parser.add_argument("argv", nargs=argparse.REMAINDER, help="Arguments for the executable")
+    argv = parser.add_argument("argv", nargs=argparse.REMAINDER, help="Arguments for the executable")
+    argv.completer = arguments_of_executable  # type: ignore[attr-defined]
 
 
 def main(args: argparse.Namespace) -> int | str:

@@ -6,6 +6,6 @@ fi
 . "$_turtlewire_root/local_setup.zsh"
 unset _turtlewire_root
 if [[ -o interactive ]] && command -v register-python-argcomplete > /dev/null; then
-    autoload -U bashcompinit && bashcompinit
+    (( $+functions[compdef] )) || { autoload -U compinit && compinit -u }
     eval "$(register-python-argcomplete ros2)" # completion by TAB
 fi

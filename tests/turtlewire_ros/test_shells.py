@@ -1,0 +1,96 @@
+"""The shell files: fish gets the same environment as bash, and bash, zsh and fish complete words, topics, nodes and frames."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from turtlewire import msg
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS
+
+FILES = Path(__file__).parents[2] / "ros/turtlewire_ros/environment"
+
+needs_fish = pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
+
+
+@pytest.fixture
+def prefix(tmp_path):
+    for path in FILES.iterdir():
+        shutil.copy(path, tmp_path)
+    return tmp_path.resolve()
+
+
+def fish(home, script, *options, **variables):
+    environment = {"HOME": str(home / "home"), "PATH": "/usr/bin:/bin", **variables}
+    done = subprocess.run(["fish", *options, "-c", script], env=environment, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stderr == ""
+    return done.stdout.splitlines()
+
+
+@needs_fish
+@pytest.mark.parametrize("name", ["setup.fish", "local_setup.fish"])
+def test_the_environment_is_set_once(prefix, name):
+    names = ("AMENT_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_HOME", "ROS_LOG_DIR")
+    script = f"source {prefix}/{name}; source {prefix}/{name}; printenv {'; printenv '.join(names)}"
+    home, logs = f"{prefix}/share/turtlewire/ros_home", f"{prefix}/home/.ros/log"
+    assert fish(prefix, script) == [str(prefix), "jazzy", "2", "3", home, logs]
+    assert fish(prefix, script, AMENT_PREFIX_PATH="/a:/b")[0] == f"{prefix}:/a:/b"
+
+
+@needs_fish
+def test_a_users_own_rosdep_cache_is_left_alone(prefix):
+    cache = prefix / "home/.ros/rosdep/sources.cache"
+    cache.mkdir(parents=True)
+    (cache / "index").touch()
+    assert fish(prefix, f'source {prefix}/setup.fish; echo "[$ROS_HOME]"') == ["[]"]
+
+
+SHELLS = {"bash": ("--norc", "-i"), "zsh": ("-f", "-i"), "fish": ("--no-config", "-i")}
+
+
+@pytest.fixture
+def graph():
+    """A node with a topic, and a transform."""
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="some_frame_x")
+    transform.header.frame_id = "world"
+    context = open_context()
+    node = context.create_node("some_node_x")
+    node.create_publisher("/some/topic_x", TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String")), QoS())
+    tf = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
+    latched = node.create_publisher("/tf_static", tf, QoS(durability=Durability.TRANSIENT_LOCAL))
+    latched.publish(msg.serialize(msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[transform])))
+    yield
+    context.close()
+
+
+@pytest.mark.usefixtures("graph")
+@pytest.mark.parametrize("shell", SHELLS)
+def test_tab_completes_words_topics_nodes_and_frames(prefix, run, shell):
+    if shutil.which(shell) is None:
+        pytest.skip(f"needs {shell}")
+    ros2 = prefix / "bin/ros2"
+    ros2.parent.mkdir()
+    ros2.write_text(f"#!{sys.executable}\n# PYTHON_ARGCOMPLETE_OK\nimport sys\nfrom ros2cli.main import main\nsys.exit(main())\n")
+    ros2.chmod(0o755)
+    path = os.pathsep.join((str(ros2.parent), str(Path(sys.executable).parent), "/usr/bin", "/bin"))
+    environment = {"HOME": str(prefix), "PATH": path, "TERM": "xterm", "PS1": "> "}
+    terminal = run(shutil.which(shell), *SHELLS[shell], terminal=True, environment=environment)
+    terminal.type(f"source {prefix}/setup.{shell}; echo sour''ced\n")
+    terminal.wait_for("sourced")
+    terminal.type("ros2 topic typ\t /some/topic_x\n")
+    terminal.wait_for("std_msgs/msg/String")
+    terminal.type("ros2 topic type /some/to\t\n")
+    terminal.wait_for("std_msgs/msg/String", count=2)
+    terminal.type("ros2 node info /some_no\t\n")
+    terminal.wait_for("/some_node_x")
+    terminal.type("ros2 run --prefix echo tf2_ros tf2_echo some_fra\t\n")
+    terminal.wait_for("tf2_echo some_frame_x")
+    terminal.type("exit\n")
+    assert terminal.wait() == 0
