@@ -402,8 +402,10 @@ void add_buffer_type(nb::module_& module) {
           [](nb::handle self) { return nb::module_::import_("turtlewire.tf.notebook").attr("buffer_svg")(self); },
           "The tree of frames as SVG, for notebooks.")
       .def("add_change_listener", &add_change_listener, "listener"_a,
-           "Has `listener()` called after data came in, without any lock: on the thread that brought it or, for data that\n"
-           "the wire's receiving thread stored by itself, on the wire's reader thread, once for all that came meanwhile.\n\n"
+           "Has `listener()` called after data came in, without any lock: on the thread that brought it or, for data "
+           "that\n"
+           "the wire's receiving thread stored by itself, on the wire's reader thread, once for all that came "
+           "meanwhile.\n\n"
            "Returns:\n"
            "    A function that removes the listener again.")
       .def("_remove_change_listener", &remove_change_listener, "listener"_a)
