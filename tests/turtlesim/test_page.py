@@ -2,156 +2,20 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import math
-import os
-import queue
-import shutil
-import socket
-import threading
 import time
-from pathlib import Path
 
 import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from turtlesim import page_commands
-from turtlesim.model import TICK_NS, World
-from turtlesim.screen import Scene, Screen
-from turtlesim.transform_view import TransformView
 from turtlewire import msg
 from turtlewire.tf import listener
-from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 
-CHROMIUM = shutil.which("chromium")
-BROWSER_FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-GOLDEN_PICTURE = Path(__file__).parent.parent / "golden" / "page" / "field.png"
-#: Mean difference of all colour channels of two PNG files, both scaled to 200 x 200, so that fonts do not matter.
-DIFFERENCE_OF_PICTURES = """async (pictures) => {
-    const [a, b] = await Promise.all(pictures.map(async (png) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${png}`;
-        await image.decode();
-        const ctx = new OffscreenCanvas(200, 200).getContext('2d');
-        ctx.drawImage(image, 0, 0, 200, 200);
-        return ctx.getImageData(0, 0, 200, 200).data;
-    }));
-    return a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
-}"""
 BLUE = (69, 86, 255)
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium in PATH (Debian: apt install chromium)")
-
-
-class Simulator:
-    """The model, stepped in real time in a thread of its own, and its screen."""
-
-    def __init__(self) -> None:
-        self.world = World()
-        self.turtle1 = self.world.spawn_centred()
-        self.background = BLUE
-        self.missing: tuple[str, ...] = ()
-        self.commands: list[page_commands.Command] = []
-        self._queue: queue.SimpleQueue = queue.SimpleQueue()
-        self.wire = open_context(middleware="local")
-        self.screen = Screen(self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns))
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run)
-        self._thread.start()
-
-    def close(self) -> None:
-        self._stopping.set()
-        self._thread.join()
-        self.screen.close()
-        self.wire.close()
-
-    def _scene(self) -> Scene:
-        return Scene("/sim", tuple(sorted(self.world.turtles)), self.background, self.missing)
-
-    def _run(self) -> None:
-        start = time.monotonic()
-        tick = 0
-        while not self._stopping.wait(max(0.0, start + tick * 0.016 - time.monotonic())):
-            while not self._queue.empty():
-                self._obey(self._queue.get())
-            self.screen.set_scene(self._scene())
-            self.screen.show(self.world.step(tick * TICK_NS))
-            tick += 1
-
-    def _obey(self, command: page_commands.Command) -> None:
-        self.commands.append(command)
-        if isinstance(command, page_commands.Drive):
-            self.world.turtles[command.turtle].drive(command.linear, 0.0, command.angular)
-        elif isinstance(command, page_commands.Rotate):
-            self.world.turtles[command.turtle].rotate_to(command.theta)
-        elif isinstance(command, page_commands.Spawn):
-            self.world.spawn(*command)
-        elif isinstance(command, page_commands.Teleport):
-            self.world.turtles[command.turtle].teleport_absolute(*command[1:])
-        elif isinstance(command, page_commands.Clear):
-            self.screen.clear()
-        elif isinstance(command, page_commands.Reset):
-            self.world.reset()
-            self.turtle1 = self.world.spawn_centred()
-            self.screen.clear()
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-@pytest.fixture
-def simulator(monkeypatch):
-    monkeypatch.setenv("TURTLEWIRE_PORT", str(free_port()))
-    simulator = Simulator()
-    yield simulator
-    simulator.close()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=BROWSER_FLAGS)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def open_page(browser):
-    """Opens pages; fails the test when one reports an error."""
-    contexts, errors = [], []
-
-    def open_page(url: str, **options):
-        context = browser.new_context(**{"viewport": {"width": 1200, "height": 800}, **options})
-        contexts.append(context)
-        page = context.new_page()
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("request", lambda request: errors.append(request.url) if not request.url.startswith((url, "blob:", "data:")) else None)
-        page.goto(url)
-        page.wait_for_function(
-            "() => document.querySelector('#connection').dataset.state === 'live' && document.querySelector('#roster tr')"
-        )
-        return page
-
-    yield open_page
-    for context in contexts:
-        context.close()
-    assert errors == []
 
 
 def wait_for_text(page, selector: str, text: str) -> None:
@@ -276,19 +140,16 @@ def test_two_browsers_show_the_same_world(simulator, open_page):
         wait_for_text(page, "#announcer", "turtle2 appeared")
 
 
-def test_a_lost_simulator_is_said_and_found_again(simulator, open_page):
+def test_a_lost_simulator_is_said_and_found_again(simulator, make_simulator, open_page):
     page = open_page(simulator.screen.url)
     simulator.close()
     wait_for_text(page, "#connection", "connection lost, trying again")
-    again = Simulator()
-    try:
-        again.turtle1.teleport_absolute(2.0, 3.0, 0.0)
-        again.world.spawn(9.0, 9.0, 0.0, "newcomer")
-        wait_for_text(page, "#connection", "live")
-        wait_for_text(page, "#roster", "newcomer")
-        wait_for_pixel(page, "turtles", 2.0, 3.0, is_opaque)
-    finally:
-        again.close()
+    again = make_simulator(port=simulator.screen.url.split(":")[-1].strip("/"))
+    again.turtle1.teleport_absolute(2.0, 3.0, 0.0)
+    again.world.spawn(9.0, 9.0, 0.0, "newcomer")
+    wait_for_text(page, "#connection", "live")
+    wait_for_text(page, "#roster", "newcomer")
+    wait_for_pixel(page, "turtles", 2.0, 3.0, is_opaque)
 
 
 def test_a_missing_turtle_is_offered(simulator, open_page):
@@ -358,24 +219,6 @@ def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
     assert pixel(page, "turtles", middle, middle)[3] == 0
 
 
-def test_the_picture_is_what_is_seen(simulator, open_page):
-    """The field with two turtles and a drawing, against a picture that was looked at."""
-    simulator.world.spawn(4.0, 2.0, 1.0, "turtle2")
-    page = open_page(simulator.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500})
-    simulator.turtle1.teleport_absolute(8.0, 3.0, 2.0)
-    simulator.turtle1.teleport_absolute(8.0, 9.0, 2.0)
-    wait_for_pixel(page, "ground", 8.0, 6.0, lambda colour: not is_ground(colour))
-    wait_for_pixel(page, "turtles", 8.0, 9.0, is_opaque)
-    with page.expect_download() as download:
-        page.click("#picture")
-    assert download.value.suggested_filename.startswith("turtlesim-20")
-    picture = Path(download.value.path()).read_bytes()
-    if "TURTLEWIRE_WRITE_GOLDEN" in os.environ:
-        GOLDEN_PICTURE.write_bytes(picture)
-    difference = page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in (picture, GOLDEN_PICTURE.read_bytes())])
-    assert difference < 0.3  # of 255, on average; a missing turtle makes 0.6
-
-
 def publish_transform(simulator, parent: str, child: str, stamp_ns: int, x: float, y: float) -> None:
     if not hasattr(simulator, "tf"):
         type_id = TypeId(listener.TYPE_NAME, msg.type_hash(listener.TYPE_NAME))
@@ -418,17 +261,6 @@ def test_the_background_follows_the_parameters(simulator, open_page):
     wait_for_pixel(page, "ground", 2.5, 2.5, lambda colour: math.dist(colour[:3], (200, 30, 30)) < 45)
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(360, "light"), (360, "dark"), (1200, "light"), (1200, "dark")])
-def test_every_width_and_scheme_fits(simulator, open_page, width, scheme):
-    page = open_page(simulator.screen.url, viewport={"width": width, "height": 740}, color_scheme=scheme)
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
-    box = page.locator("#turtles").bounding_box()
-    assert box["width"] == pytest.approx(box["height"], abs=1)
-    assert box["width"] >= 300
-    paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
-    assert (sum(map(int, paper[4:-1].split(","))) < 3 * 128) == (scheme == "dark")
-
-
 def test_a_screen_reader_finds_its_way(simulator, open_page):
     page = open_page(simulator.screen.url)
     page.get_by_role("status").get_by_text("live").wait_for()
@@ -438,24 +270,21 @@ def test_a_screen_reader_finds_its_way(simulator, open_page):
         assert page.get_by_role("button", name=name).is_visible()
 
 
-def test_a_foreign_page_is_refused(simulator, open_page):
+def test_a_foreign_page_is_refused(simulator, make_simulator, open_page):
     live = simulator.screen.url.replace("http", "ws") + "live"
     with pytest.raises(InvalidStatus) as refused, connect(live, origin="http://evil.example"):
         pass
     assert refused.value.response.status_code == 403
-    stranger = Simulator()  # another page of this machine: same host, other port
-    try:
-        page = open_page(stranger.screen.url)
-        outcome = """url => new Promise((resolve) => {
-            const socket = new WebSocket(url);
-            socket.onopen = () => resolve('open');
-            socket.onerror = () => resolve('refused');
-        })"""
-        assert page.evaluate(outcome, stranger.screen.url.replace("http", "ws") + "live") == "open"
-        assert page.evaluate("fetch('/live').then((answer) => answer.status)") == 426
-        assert page.evaluate(outcome, live) == "refused"
-    finally:
-        stranger.close()
+    stranger = make_simulator()  # another page of this machine: same host, other port
+    page = open_page(stranger.screen.url)
+    outcome = """url => new Promise((resolve) => {
+        const socket = new WebSocket(url);
+        socket.onopen = () => resolve('open');
+        socket.onerror = () => resolve('refused');
+    })"""
+    assert page.evaluate(outcome, stranger.screen.url.replace("http", "ws") + "live") == "open"
+    assert page.evaluate("fetch('/live').then((answer) => answer.status)") == 426
+    assert page.evaluate(outcome, live) == "refused"
 
 
 def test_what_a_page_sends_wrong_is_answered(simulator):

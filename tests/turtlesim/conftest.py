@@ -1,0 +1,138 @@
+"""The model with its screen, without ROS, and the page of it in a real browser."""
+
+from __future__ import annotations
+
+import queue
+import shutil
+import threading
+import time
+
+import pytest
+
+from turtlesim import page_commands
+from turtlesim.model import TICK_NS, World
+from turtlesim.screen import Scene, Screen
+from turtlesim.transform_view import TransformView
+from turtlewire.wire import open_context
+
+CHROMIUM = shutil.which("chromium")
+BROWSER_FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+BLUE = (69, 86, 255)
+
+
+class Simulator:
+    """The model, stepped in real time in a thread of its own, and its screen."""
+
+    def __init__(self) -> None:
+        self.world = World()
+        self.turtle1 = self.world.spawn_centred()
+        self.background = BLUE
+        self.missing: tuple[str, ...] = ()
+        self.commands: list[page_commands.Command] = []
+        self._queue: queue.SimpleQueue = queue.SimpleQueue()
+        self.wire = open_context(middleware="local")
+        self.screen = Screen(self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns))
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._stopping.set()
+        self._thread.join()
+        self.screen.close()
+        self.wire.close()
+
+    def _scene(self) -> Scene:
+        return Scene("/sim", tuple(sorted(self.world.turtles)), self.background, self.missing)
+
+    def _run(self) -> None:
+        start = time.monotonic()
+        tick = 0
+        while not self._stopping.wait(max(0.0, start + tick * 0.016 - time.monotonic())):
+            while not self._queue.empty():
+                self._obey(self._queue.get())
+            self.screen.set_scene(self._scene())
+            self.screen.show(self.world.step(tick * TICK_NS))
+            tick += 1
+
+    def _obey(self, command: page_commands.Command) -> None:
+        self.commands.append(command)
+        if isinstance(command, page_commands.Drive):
+            self.world.turtles[command.turtle].drive(command.linear, 0.0, command.angular)
+        elif isinstance(command, page_commands.Rotate):
+            self.world.turtles[command.turtle].rotate_to(command.theta)
+        elif isinstance(command, page_commands.Spawn):
+            self.world.spawn(*command)
+        elif isinstance(command, page_commands.Teleport):
+            self.world.turtles[command.turtle].teleport_absolute(*command[1:])
+        elif isinstance(command, page_commands.Clear):
+            self.screen.clear()
+        elif isinstance(command, page_commands.Reset):
+            self.world.reset()
+            self.turtle1 = self.world.spawn_centred()
+            self.screen.clear()
+
+
+@pytest.fixture
+def make_simulator(monkeypatch):
+    """Starts simulators, each at a port of its own; one that follows another may take its port again."""
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    simulators = []
+
+    def make_simulator(port: str = "0") -> Simulator:
+        monkeypatch.setenv("TURTLEWIRE_PORT", port)
+        simulators.append(Simulator())
+        return simulators[-1]
+
+    yield make_simulator
+    for simulator in simulators:
+        simulator.close()
+
+
+@pytest.fixture
+def simulator(make_simulator):
+    return make_simulator()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=BROWSER_FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_page(browser):
+    """Opens pages; fails the test when one reports an error."""
+    contexts, errors = [], []
+
+    def open_page(url: str, **options):
+        context = browser.new_context(**{"viewport": {"width": 1200, "height": 800}, **options})
+        contexts.append(context)
+        page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("request", lambda request: errors.append(request.url) if not request.url.startswith((url, "blob:", "data:")) else None)
+        page.goto(url)
+        page.wait_for_function(
+            "() => document.querySelector('#connection').dataset.state === 'live' && document.querySelector('#roster tr')"
+        )
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert errors == []

@@ -1,0 +1,113 @@
+"""What the page looks like, against pictures and boxes that were looked at; ``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
+
+Fonts differ from one machine to the next, so pictures are compared after they were made small, boxes with a tolerance.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+GOLDEN = Path(__file__).parent.parent / "golden" / "page"
+WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
+#: Mean difference of all colour channels of two PNG files, both scaled to a width of 200.
+DIFFERENCE_OF_PICTURES = """async (pictures) => {
+    const [a, b] = await Promise.all(pictures.map(async (png) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${png}`;
+        await image.decode();
+        const height = Math.round((200 * image.height) / image.width);
+        const ctx = new OffscreenCanvas(200, height).getContext('2d');
+        ctx.drawImage(image, 0, 0, 200, height);
+        return ctx.getImageData(0, 0, 200, height).data;
+    }));
+    if (a.length !== b.length) return Infinity;
+    return a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
+}"""
+PARTS = {
+    "h1": "the page's title",
+    "#connection": "the state of the connection",
+    "#turtles": "the field",
+    "#tools": "follow and picture",
+    "#roster": "names and velocities",
+    "#pad": "the arrows",
+    "#compass": "the headings",
+    ".actions": "what is done to the world",
+    "#tree": "the frames",
+}
+#: Left, right, top, bottom of each part in CSS pixels.
+BOXES = """(parts) => Object.fromEntries(parts.map((part) => {
+    const { left, right, top, bottom } = document.querySelector(part).getBoundingClientRect();
+    return [part, [left, right, top, bottom].map(Math.round)];
+}))"""
+SIZES = {"desktop": (1200, 800), "phone": (360, 740)}
+
+
+def difference(page, name: str, picture: bytes) -> float:
+    """How far a picture is from the golden one of that name, of 255, on average."""
+    if WRITES:
+        (GOLDEN / name).write_bytes(picture)
+    return page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())])
+
+
+def pose_is_shown(page, text: str) -> None:
+    page.wait_for_function("(text) => document.querySelector('#roster').textContent.includes(text)", arg=text)
+
+
+def after_two_frames(page) -> None:
+    """Wait until what the page knows is painted."""
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+@pytest.fixture
+def scene(simulator):
+    """Two turtles and a drawing."""
+    simulator.world.spawn(4.0, 2.0, 1.0, "turtle2")
+    simulator.turtle1.teleport_absolute(8.0, 3.0, 2.0)
+    simulator.turtle1.teleport_absolute(8.0, 9.0, 2.0)
+    return simulator
+
+
+def test_the_picture_is_what_is_seen(scene, open_page):
+    page = open_page(scene.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500})
+    pose_is_shown(page, "9.00")
+    after_two_frames(page)
+    with page.expect_download() as download:
+        page.click("#picture")
+    assert download.value.suggested_filename.startswith("turtlesim-20")
+    assert difference(page, "field.png", Path(download.value.path()).read_bytes()) < 0.3  # a missing turtle makes 0.6
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", SIZES)
+def test_every_size_and_scheme(scene, open_page, size, scheme):
+    width, height = SIZES[size]
+    options = {"viewport": {"width": width, "height": height}, "device_scale_factor": 0.5}
+    page = open_page(scene.screen.url, color_scheme=scheme, reduced_motion="reduce", **options)
+    pose_is_shown(page, "9.00")
+    page.wait_for_function("document.querySelector('#words').textContent.includes('turtle2')")
+    after_two_frames(page)
+    assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < {"desktop": 2.0, "phone": 5.0}[size]  # light is 90 from dark
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    check_boxes(size, page.evaluate(BOXES, list(PARTS)))
+
+
+def check_boxes(size: str, boxes: dict[str, list[int]]) -> None:
+    """Each part where it was, as wide and as high as it was, but for a line of text more or less in a part above it."""
+    file = GOLDEN / f"{size}-boxes.json"
+    if WRITES:
+        file.write_text(json.dumps(boxes, indent=1) + "\n")
+    golden = json.loads(file.read_text())
+    assert boxes.keys() == golden.keys()
+    for part, (left, right, top, bottom) in boxes.items():
+        old_left, old_right, old_top, old_bottom = golden[part]
+        assert (left, right) == (pytest.approx(old_left, abs=16), pytest.approx(old_right, abs=16)), PARTS[part]
+        assert top == pytest.approx(old_top, abs=60), PARTS[part]
+        assert bottom - top == pytest.approx(old_bottom - old_top, abs=16), PARTS[part]
+    left, right, top, bottom = boxes["#turtles"]
+    assert right - left == pytest.approx(bottom - top, abs=1)
+    assert right - left >= 300
