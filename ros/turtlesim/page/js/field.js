@@ -44,11 +44,10 @@ export class Field {
   }
 
   addStrokes(strokes, restart) {
-    const before = restart ? 0 : this.#trails.count;
     if (restart) this.#trails.clear();
-    this.#trails.append(strokes);
-    if (restart || this.#trails.count < before) this.#repaint();
-    else if (strokes.count) this.#trails.draw(this.#ground, this.#ground.canvas.width, before);
+    const first = this.#trails.append(strokes);
+    if (restart) this.#repaint();
+    else if (strokes.count) this.#trails.draw(this.#ground, this.#ground.canvas.width, first);
   }
 
   /**

@@ -13,14 +13,17 @@ export class Trails {
     this.count = 0;
   }
 
+  /** Add lines; the oldest are forgotten when there are too many. Returns the number of the first new line. */
   append(strokes) {
     if (this.count + strokes.count > MOST_LINES) this.#forgetHalf();
-    this.#reserve(this.count + strokes.count);
+    const first = this.count;
+    this.#reserve(first + strokes.count);
     for (let k = 0; k < strokes.count; k += 1) {
       this.#pens[this.count] = strokes.pens[5 * k];
       this.#points.set(strokes.points.subarray(5 * k + 1, 5 * k + 5), 4 * this.count);
       this.count += 1;
     }
+    return first;
   }
 
   /** Draw the lines from number `first` on into a square of `size` device pixels; neighbours of one pen become one path. */
