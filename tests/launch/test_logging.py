@@ -92,3 +92,18 @@ def test_the_log_folder_cannot_be_made(ros2_launch, tmp_path):
     assert launch.wait() == 1
     assert "Traceback" not in launch.text
     assert str(tmp_path / "file") in launch.text
+
+
+@pytest.mark.parametrize(("no_color", "level"), [("", "\033[33mWARNING\033[0m"), ("1", "WARNING")])
+def test_colours_on_a_terminal(ros2_launch, no_color, level):
+    content = """
+from launch import LaunchDescription
+from launch.logging import get_logger
+
+def generate_launch_description():
+    get_logger("mine").warning("careful")
+    return LaunchDescription([])
+"""
+    launch = ros2_launch(content, terminal=True, environment={"NO_COLOR": no_color})
+    assert launch.wait() == 0
+    assert f"[{level}] [mine]: careful" in launch.text

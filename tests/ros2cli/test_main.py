@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
 
 import pytest
 
 from ros2cli import main as ros2cli_main
 from ros2cli.commands import COMMANDS
 from ros2cli.main import main, make_parser
+from turtlewire import msg
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
 
 
 def test_every_command_and_verb_can_be_loaded(capsys):
@@ -113,3 +118,43 @@ def test_words_of_a_completion_are_taken_from_the_shell(monkeypatch):
     monkeypatch.setenv("_ARGCOMPLETE", "1")
     monkeypatch.setenv("COMP_LINE", "ros2 topic ec")
     assert ros2cli_main._words_to_complete() == ["topic", "ec"]
+
+
+@pytest.mark.parametrize("where", ["ros2cli.main.make_parser", "turtlewire_ros.guard.foreign_package"])
+def test_an_early_interrupt_leaves_no_traceback(monkeypatch, where):
+    from turtlewire_ros import guard
+
+    def interrupt(*_arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(where, interrupt)
+    monkeypatch.setattr(sys, "argv", ["ros2", "topic", "list"])
+    assert guard.main() == 2
+
+
+@pytest.mark.parametrize(("verb", "lines"), [("echo", 2), ("hz", 1), ("bw", 2)])
+def test_a_reader_of_messages_that_ends_early_is_no_error(verb, lines):
+    context = open_context()
+    try:
+        kind = TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String"))
+        publisher = context.create_node("talker").create_publisher("/chatter", kind, QoS())
+        end = threading.Event()
+        message = msg.serialize(msg.get_message("std_msgs/msg/String")(data="hello"))
+
+        def talk():
+            while not end.wait(0.02):
+                publisher.publish(message)
+
+        talker = threading.Thread(target=talk)
+        talker.start()
+        program = f"from ros2cli.main import main; import sys; sys.exit(main(['topic', '{verb}', '/chatter']))"
+        command = f'{sys.executable} -c "{program}" | head -{lines}'
+        try:
+            result = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+        finally:
+            end.set()
+            talker.join()
+    finally:
+        context.close()
+    assert len(result.stdout.splitlines()) == lines
+    assert result.stderr == ""

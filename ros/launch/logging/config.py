@@ -54,7 +54,7 @@ class _Formatter(logging.Formatter):
         return self._fmt is not None and "created" in self._fmt
 
 
-class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg] -- takes no argument in Python 3.10
+class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes no argument in Python 3.10
     """Writes to stdout. When nobody reads there any more, the process ends as it would by SIGTERM: a launch stops what it runs."""
 
     def __init__(self) -> None:
@@ -128,7 +128,7 @@ class LaunchConfig:
         if self._screen_handler is None:
             self._screen_handler = _ScreenHandler()
             layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
-            self._screen_handler.setFormatter(_Formatter(layout, colored=sys.stdout.isatty()))
+            self._screen_handler.setFormatter(_Formatter(layout, colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR")))
         return self._screen_handler
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:

@@ -56,7 +56,7 @@ class _Console:
         self._fd = _STDOUT_FD if _flag("RCUTILS_LOGGING_USE_STDOUT") else _STDERR_FD
         _flag("RCUTILS_LOGGING_BUFFERED_STREAM")  # each line is one write anyway; a wrong value is still told
         coloured = _flag("RCUTILS_COLORIZED_OUTPUT")
-        self._coloured = os.isatty(self._fd) if coloured is None else coloured
+        self._coloured = os.isatty(self._fd) and not os.environ.get("NO_COLOR") if coloured is None else coloured
 
     def write(self, line: str, severity: int) -> None:
         if self._coloured:
