@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import string
 import sys
@@ -106,9 +107,12 @@ def _old_style(words: list[str]) -> Placement:
 
 def _float(word: str, name: str) -> float:
     try:
-        return float(word)
+        number = float(word)
     except ValueError:
         raise ArgumentsError(f"Failed to parse {name} argument as float") from None
+    if not math.isfinite(number):
+        raise ArgumentsError(f"{name} is {word}: no listener takes a transform whose numbers are not finite")
+    return number
 
 
 def _checked(placement: Placement) -> Placement:
@@ -116,6 +120,8 @@ def _checked(placement: Placement) -> Placement:
         raise ArgumentsError("Frame id must not be empty")
     if not placement.child_frame_id:
         raise ArgumentsError("Child frame id must not be empty")
+    if not any(placement.rotation):
+        raise ArgumentsError("A quaternion of zeros is no rotation, and every listener refuses it")
     return placement
 
 

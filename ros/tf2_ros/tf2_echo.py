@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import sys
@@ -18,10 +17,13 @@ from tf_transformations import euler_from_quaternion
 from turtlewire.errors import TransformException
 
 from .buffer import Buffer
+from .command_line import Parser, count, digits, frame_id
 from .pipes import leave_pipe
 from .transform_listener import TransformListener
 
 if TYPE_CHECKING:
+    import argparse
+
     from geometry_msgs.msg import TransformStamped
 
 __all__ = ["as_json", "describe", "in_words", "main"]
@@ -54,19 +56,13 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> Any:
-        self.print_usage(sys.stderr)
-        self.exit(1, f"{self.prog}: {message}\n")
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="tf2_echo", description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.")
-    parser.add_argument("source_frame", help="the frame that looks")
-    parser.add_argument("target_frame", help="the frame that is looked at")
+    parser = Parser(prog="tf2_echo", description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.")
+    parser.add_argument("source_frame", type=frame_id, help="the frame that looks")
+    parser.add_argument("target_frame", type=frame_id, help="the frame that is looked at")
     parser.add_argument("rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)")
-    parser.add_argument("-p", "--precision", type=int, default=3, help="digits after the point (default: %(default)s)")
-    parser.add_argument("-n", "--limit", type=int, default=0, help="end after so many transforms")
+    parser.add_argument("-p", "--precision", type=digits, default=3, help="digits after the point (default: %(default)s)")
+    parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many transforms")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees only")
     parser.add_argument("--distance", action="store_true", help="the distance too")
     parser.add_argument("--json", action="store_true", help="one JSON object in a line for each transform")
@@ -78,7 +74,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     rclpy.get_default_context().on_shutdown(stopped.set)
     TransformListener(buffer, node, spin_thread=True)  # spun for the sake of a simulated clock
     source, target = options.source_frame, options.target_frame
-    count = 0
+    printed = 0
     while not stopped.is_set():
         known, reason = buffer.can_transform(source, target, Time(), Duration(seconds=1), return_debug_tuple=True)
         if known:
@@ -92,8 +88,8 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
             print(f"Exception thrown:{error}\nThe current list of frames is:\n{buffer.all_frames_as_string()}", flush=True)  # noqa: T201
         else:
             print(as_json(transform) if options.json else describe(transform, options), flush=True)  # noqa: T201
-            count += 1
-        if count == options.limit > 0 or stopped.wait(period_s):
+            printed += 1
+        if printed == options.limit > 0 or stopped.wait(period_s):
             return
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import threading
@@ -18,10 +17,12 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NA
 from turtlewire.wire.base import TypeId
 
 from .buffer import Buffer
+from .command_line import Parser, count, frame_id, seconds
 from .pipes import leave_pipe
 from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable
 
     from turtlewire.wire.base import MessageInfo
@@ -144,10 +145,10 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="tf2_monitor", description="Tell how late and how often transforms come, and from whom.")
-    parser.add_argument("frames", nargs="*", metavar="FRAME", help="the two frames whose chain to watch; none for all")
-    parser.add_argument("--period", type=float, default=10.0, help="seconds between reports (default: %(default)s)")
-    parser.add_argument("-n", "--limit", type=int, default=0, help="end after so many reports")
+    parser = Parser(prog="tf2_monitor", description="Tell how late and how often transforms come, and from whom.")
+    parser.add_argument("frames", nargs="*", type=frame_id, metavar="FRAME", help="the two frames whose chain to watch; none for all")
+    parser.add_argument("--period", type=seconds, default=10.0, help="seconds between reports (default: %(default)s)")
+    parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many reports")
     parser.add_argument("--json", action="store_true", help="one JSON object in a line for each report")
     return parser
 
@@ -161,11 +162,11 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
     _subscribe(node, buffer, statistics, lambda: _note_chain(options.frames, buffer, net, clock))
     if not options.json:
         print(f"Gathering data on {'all frames' if not options.frames else 'the chain'} for {options.period:g} seconds...", flush=True)  # noqa: T201
-    count = 0
+    reports = 0
     while not stopped.wait(options.period):
         print(_report(options, buffer, statistics, net), flush=True)  # noqa: T201 -- the report
-        count += 1
-        if count == options.limit:
+        reports += 1
+        if reports == options.limit:
             return
 
 

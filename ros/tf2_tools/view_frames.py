@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import sys
 import time
 from typing import TYPE_CHECKING, Any
 
 import rclpy
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.task import Future
@@ -101,7 +103,7 @@ def _parse(args: Sequence[str]) -> Any:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Listen, then write the files. The exit status: 1 if they cannot be written, 130 after Ctrl-C."""
+    """Listen, then write the files. The exit status: 1 if they cannot be written or a topic has no valid name, 130 after Ctrl-C."""
     wanted = _parse(remove_ros_args(args)[1:])
     rclpy.init(args=args)
     try:
@@ -117,6 +119,9 @@ def main(args: list[str] | None = None) -> int:
                 return 1
     except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
+    except InvalidTopicNameException as error:
+        print(error, file=sys.stderr)  # noqa: T201
+        return 1
     except BrokenPipeError:
         return leave_pipe()
     finally:

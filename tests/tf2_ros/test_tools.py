@@ -19,7 +19,7 @@ from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
-from tf2_ros import Buffer, BufferClient, TransformListener, tf2_echo, tf2_monitor
+from tf2_ros import Buffer, BufferClient, TransformListener, command_line, tf2_echo, tf2_monitor
 from tf2_ros import static_transform_publisher as publisher
 from turtlewire import msg, wire
 from turtlewire.tf.listener import QOS, TYPE_NAME
@@ -167,6 +167,8 @@ def test_both_styles_of_arguments():
         ("--frame-id a --child-frame-id b --x one", "Failed to parse --x argument as float"),
         ("--frame-id a --child-frame-id b --qx 1 --yaw 1", "Cannot specify both quaternion and Euler rotations"),
         ("--frame-id a --child-frame-id b more", "Extra unparsed arguments on command-line"),
+        ("--frame-id a --child-frame-id b --yaw inf", "--yaw is inf: no listener takes a transform whose numbers are not finite"),
+        ("--frame-id a --child-frame-id b --qw 0", "A quaternion of zeros is no rotation, and every listener refuses it"),
         ("1 2 3", "Extra unparsed arguments on command-line"),
         ("1 2 3 0 0 0 a b --x 1", "Cannot specify both new-style (flags) and old-style (arguments)"),
         ("1 2 3 x 0 0 a b", "Failed to parse yaw argument as float"),
@@ -175,6 +177,19 @@ def test_both_styles_of_arguments():
 def test_wrong_arguments_are_named(words, text, capsys):
     assert publisher.main(["static_transform_publisher", *words.split()]) == 1
     assert f"error parsing command line arguments: {text}\nusage: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [
+        ("-1.0", "buffer_size is -1.0; it can be 0 to 1000000000 seconds"),
+        ("10", "expecting type 'DOUBLE'\nYAML reads a double with a point in it: -p buffer_size:=10.0"),
+    ],
+)
+def test_a_buffer_server_refuses_sizes(size, text, tool):
+    status, _, err = finish(tool("buffer_server", "--ros-args", "-p", f"buffer_size:={size}"))
+    assert status == 1
+    assert text in err
 
 
 def test_help_is_no_error(capsys):
@@ -218,6 +233,9 @@ def test_echo_says_what_it_waits_for(tool):
         ("world", 1, "usage: tf2_echo"),
         ("world robot fast", 2, "Failed to convert rate argument 'fast' to a floating-point number"),
         ("world robot 0", 3, "must be > 0.0"),
+        ("/world robot", 1, "in tf2 frame_ids cannot start with a '/': say 'world' instead of '/world'"),
+        ("world robot --limit -1", 1, "'-1' is not a whole number, 0 or more"),
+        ("world robot --precision 18", 1, "'18' is not a whole number from 0 to 17"),
     ],
 )
 def test_echo_refuses(words, status, text, capsys):
@@ -227,6 +245,33 @@ def test_echo_refuses(words, status, text, capsys):
         found = end.code
     assert found == status
     assert text in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ("robot", "give two frames, or none for all"),
+        ("robot world here", "give two frames, or none for all"),
+        ("/robot world", "in tf2 frame_ids cannot start with a '/'"),
+        ("--period 0", "'0' is no number of seconds above 0"),
+        ("--period nan", "'nan' is no number of seconds above 0"),
+        ("--period soon", "'soon' is no number of seconds above 0"),
+        ("--limit x", "'x' is not a whole number, 0 or more"),
+    ],
+)
+def test_monitor_refuses(words, text, capsys):
+    try:
+        status = tf2_monitor.main(["tf2_monitor", *words.split()])
+    except SystemExit as end:
+        status = end.code
+    assert status == 1
+    assert text in capsys.readouterr().err
+
+
+def test_frame_ids_on_the_command_line():
+    assert command_line.frame_id("a/b") == "a/b"
+    with pytest.raises(argparse.ArgumentTypeError, match="cannot be empty"):
+        command_line.frame_id("")
 
 
 def test_a_place_in_words(stamped):

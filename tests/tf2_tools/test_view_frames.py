@@ -127,6 +127,13 @@ def test_no_time_to_wait(wrong, tmp_path):
     assert f"argument -t/--wait-time: '{wrong}' is no number of seconds" in run.stderr
 
 
+def test_a_topic_that_is_none(tmp_path):
+    run = view_frames("-t", "0", "--tf_topic", "no topic", cwd=tmp_path)
+    assert run.returncode == 1
+    assert "Invalid topic name" in run.stderr
+    assert "Traceback" not in run.stderr
+
+
 def test_a_loop_is_told_and_written(monkeypatch, tmp_path, capfd):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     rclpy.init(args=[])
