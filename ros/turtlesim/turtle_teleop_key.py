@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import select
+import signal
 import sys
 import threading
 from typing import TYPE_CHECKING, NamedTuple
@@ -153,6 +154,8 @@ def main(args: list[str] | None = None) -> int:
         return 1
     rclpy.init(args=args)
     rclpy.get_default_context().on_shutdown(keyboard.stop)
+    for signum in (signal.SIGHUP, signal.SIGQUIT):  # rclpy knows the others; these would leave the terminal as it is
+        signal.signal(signum, lambda *_: keyboard.stop())
     node = TeleopTurtle()
     spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
     spinner.start()

@@ -178,13 +178,21 @@ def test_the_page_rotates_the_turtle_by_its_action(ear):
     assert "Traceback" not in simulator.output
 
 
+TELEOP_MAIN = "import sys; from turtlesim.turtle_teleop_key import main; sys.exit(main())"
+TELEOP_BROKEN = f"""
+from turtlesim.turtle_teleop_key import TeleopTurtle
+
+TeleopTurtle.press = lambda self, key: 1 / 0
+{TELEOP_MAIN}
+"""
+
+
 class Terminal:
     """A pseudo-terminal with teleop on it."""
 
-    def __init__(self) -> None:
+    def __init__(self, code: str = TELEOP_MAIN) -> None:
         self.master, slave = pty.openpty()
         self.before = termios.tcgetattr(self.master)
-        code = "import sys; from turtlesim.turtle_teleop_key import main; sys.exit(main())"
         self.popen = subprocess.Popen([sys.executable, "-c", code], stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
         self._slave = slave
         self.output = ""
@@ -208,8 +216,8 @@ def terminal():
 
 
 def test_teleop_does_what_the_original_did(ear, terminal):
-    """Every key of the capture, on a real simulator: the same commands, and the same heading at the end of each rotation."""
-    simulator = Process("turtlesim.turtlesim_node", "--headless")
+    """Every key of the capture, on a real simulator that hurries: the same commands, and the same heading after each rotation."""
+    simulator = Process("turtlesim.turtlesim_node", "--headless", "--speed", "4")
     poses = ear.listen(Pose, "/turtle1/pose")
     commands = ear.listen(Twist, "/turtle1/cmd_vel")
     banner, *events = TELEOP["events"]
@@ -238,13 +246,26 @@ def test_teleop_does_what_the_original_did(ear, terminal):
     assert simulator.output.count("Rotation goal completed successfully") == 8
 
 
-@pytest.mark.parametrize(("end", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 0)])
-def test_the_terminal_is_put_back_after_a_signal(terminal, end, code):
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
+def test_the_terminal_is_put_back_after_a_signal(terminal, end):
     terminal.read_until("to quit.\r\n")
+    assert termios.tcgetattr(terminal.master) != terminal.before
     terminal.popen.send_signal(end)
-    assert terminal.popen.wait(20) == code
+    assert terminal.popen.wait(20) == 0
     assert termios.tcgetattr(terminal.master) == terminal.before
     assert "Traceback" not in terminal.output
+
+
+def test_the_terminal_is_put_back_after_a_fault_of_ours():
+    terminal = Terminal(TELEOP_BROKEN)
+    try:
+        terminal.read_until("to quit.\r\n")
+        os.write(terminal.master, b"g")
+        terminal.read_until("ZeroDivisionError")
+        assert terminal.popen.wait(20) == 1
+        assert termios.tcgetattr(terminal.master) == terminal.before
+    finally:
+        terminal.close()
 
 
 def test_teleop_without_a_terminal_says_so():
