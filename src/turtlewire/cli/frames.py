@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.frame_tree import FrameTree
 
-__all__ = ["Picture", "show_frames", "take_picture"]
+__all__ = ["Picture", "forget_former_time", "show_frames", "take_picture"]
 
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
@@ -157,14 +157,33 @@ def show_frames(*, once: bool, as_json: bool, period_s: float) -> int:
         The exit status: 1 when there were no transforms to print once.
     """
     live = sys.stdout.isatty() and not as_json and not once
-    buffer = Buffer()
+    buffer, before = Buffer(), dict[str, tuple[int, int]]()
     with TransformListener(buffer):
         while True:
             threading.Event().wait(period_s)  # nothing sets it: Ctrl-C ends the wait
+            before = forget_former_time(buffer, before)
             picture = take_picture(buffer, time.time_ns())
             _print(picture.as_json() if as_json else _screen(picture, live=live))
             if once:
                 return 0 if picture.rows else 1
+
+
+def forget_former_time(buffer: Buffer, before: dict[str, tuple[int, int]]) -> dict[str, tuple[int, int]]:
+    """Clear the buffer when a link brings nothing but what is too old for it, as after a simulation or a bag began anew.
+
+    Args:
+        buffer: The buffer.
+        before: What the call before returned; empty for the first.
+
+    Returns:
+        For each link, how many samples were too old for it, and its newest stamp.
+    """
+    newest = {link.child_frame: link.newest_ns for link in inspection.links(buffer)}
+    refused = {frame: each.counts.get("old_data", 0) for frame, each in inspection.refusals(buffer).items()}
+    now = {frame: (refused.get(frame, 0), stamp) for frame, stamp in newest.items()}
+    if any(now[frame][0] > before[frame][0] and now[frame][1] == before[frame][1] for frame in now.keys() & before.keys()):
+        buffer.clear()
+    return now
 
 
 def _screen(picture: Picture, *, live: bool) -> str:
