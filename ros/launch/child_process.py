@@ -77,7 +77,7 @@ class ChildProcess:
                 os.close(terminal)
         for fd, (controller, _) in terminals.items():
             await _read_terminal(loop, controller, protocol.stream(fd))
-        return cls(cast("asyncio.SubprocessTransport", transport), protocol)
+        return cls(transport, protocol)
 
     @property
     def pid(self) -> int:

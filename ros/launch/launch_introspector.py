@@ -53,7 +53,7 @@ def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
     lines = []
     for entity in entities:
         if is_a(entity, Action):
-            lines += format_action(entity)  # type: ignore[arg-type]
+            lines += format_action(entity)
         else:
             lines += [str(entity), *_indented(format_entities(entity.describe_sub_entities()))]
     return lines

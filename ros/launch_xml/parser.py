@@ -28,7 +28,7 @@ class _Builder(ET.TreeBuilder):
 
     def start(self, tag: str, attributes: dict[str, str], /) -> ET.Element:
         element = super().start(tag, attributes)
-        element.line = self.parser.CurrentLineNumber
+        element.line = self.parser.CurrentLineNumber  # type: ignore[attr-defined]  # it is an _Element
         return element
 
 
@@ -49,7 +49,7 @@ class Parser(BaseParser):
         parser = DefusedXMLParser(target=builder, forbid_dtd=True)
         builder.parser = parser.parser
         try:
-            root = parse(file, parser=parser).getroot()
+            root: Any = parse(file, parser=parser).getroot()
         except ET.ParseError as error:
             path = file if isinstance(file, str) else getattr(file, "name", "")
             error.filename, error.lineno = os.path.basename(path), error.position[0]

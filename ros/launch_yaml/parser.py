@@ -81,7 +81,7 @@ def _tree(file: io.TextIOBase) -> Any:
             raise
         mark = error.problem_mark
         name = os.path.basename(str(getattr(file, "name", mark.name)))
-        raise SyntaxError(error.problem, (name, mark.line + 1, mark.column + 1, None)) from error
+        raise SyntaxError(str(error.problem), (name, mark.line + 1, mark.column + 1, None)) from error
 
 
 def _size(node: Any, known: dict[int, int | None]) -> int:

@@ -157,14 +157,16 @@ def _numbers(array: ArrayLike, count: int, what: str) -> list[float]:
     numbers = np.asarray(array, dtype=np.float64)
     if numbers.shape != (count,):
         raise ValueError(f"{what} has the shape ({count},), got {numbers.shape}")
-    return numbers.tolist()
+    listed: list[float] = numbers.tolist()
+    return listed
 
 
 def _rows(array: ArrayLike, count: int, what: str) -> list[list[float]]:
     rows = np.asarray(array, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != count:
         raise ValueError(f"{what} have the shape (N, {count}), got {rows.shape}")
-    return rows.tolist()
+    listed: list[list[float]] = rows.tolist()
+    return listed
 
 
 def _pose_numbers(pose: Pose) -> tuple[float, ...]:

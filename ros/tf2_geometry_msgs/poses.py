@@ -41,7 +41,7 @@ __all__ = [
 def do_transform_pose(pose: Pose, transform: TransformStamped | Any) -> Pose:
     """A pose in the frame of a transform; its quaternion gets unit length and w >= 0."""
     if hasattr(pose, "pose"):
-        raise _wrong_pose("do_transform_pose", "Pose", pose, "do_transform_pose_stamped" if type(pose) is PoseStamped else "its .pose")
+        raise _wrong_pose("do_transform_pose", "Pose", pose, "do_transform_pose_stamped" if isinstance(pose, PoseStamped) else "its .pose")
     return _moved(pose, Motion(transform))
 
 

@@ -51,9 +51,9 @@ def do_transform_point(point: _P, transform: TransformStamped | Any) -> _P:
     """
     if hasattr(point, "point"):
         x, y, z = Motion(transform).point(point.point)
-        return PointStamped(header=header_of(transform), point=Point(x=x, y=y, z=z))
+        return PointStamped(header=header_of(transform), point=Point(x=x, y=y, z=z))  # type: ignore[return-value]
     x, y, z = Motion(transform).point(point)
-    return Point(x=x, y=y, z=z)
+    return Point(x=x, y=y, z=z)  # type: ignore[return-value]
 
 
 def do_transform_vector3(vector3: _V, transform: TransformStamped | Any) -> _V:
@@ -68,9 +68,9 @@ def do_transform_vector3(vector3: _V, transform: TransformStamped | Any) -> _V:
     """
     if hasattr(vector3, "vector"):
         x, y, z = Motion(transform).vector(vector3.vector)
-        return Vector3Stamped(header=header_of(transform), vector=Vector3(x=x, y=y, z=z))
+        return Vector3Stamped(header=header_of(transform), vector=Vector3(x=x, y=y, z=z))  # type: ignore[return-value]
     x, y, z = Motion(transform).vector(vector3)
-    return Vector3(x=x, y=y, z=z)
+    return Vector3(x=x, y=y, z=z)  # type: ignore[return-value]
 
 
 def do_transform_point32(point32: Point32, transform: TransformStamped | Any) -> Point32:

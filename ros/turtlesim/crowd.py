@@ -98,7 +98,9 @@ def _take_commands(turtles: Sequence[Turtle], now_ns: int) -> None:
 
 def _state(turtles: Sequence[Turtle]) -> Sequence[NDArray[np.float64]]:
     """Heading, three commanded velocities and place, an array each."""
-    return np.array([(t.theta, t.forward, t.lateral, t.turning, t.x, t.y_down) for t in turtles], dtype=np.float64).T.copy()  # type: ignore[return-value]
+    rows: Sequence[NDArray[np.float64]]
+    rows = np.array([(t.theta, t.forward, t.lateral, t.turning, t.x, t.y_down) for t in turtles], dtype=np.float64).T.copy()
+    return rows
 
 
 def _clamp(x: NDArray[np.float64], y: NDArray[np.float64]) -> list[tuple[float, float]]:

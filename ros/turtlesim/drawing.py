@@ -28,13 +28,13 @@ class _Entry(NamedTuple):
 
     Attributes:
         end: How many strokes there have been up to the last of these.
-        count: How many these are.
+        size: How many these are.
         records: Their records.
         origin: The one stroke and its turtle's name; None for those of a crowd, which are never joined.
     """
 
     end: int
-    count: int
+    size: int
     records: bytes
     origin: tuple[str, Stroke] | None
 
@@ -96,7 +96,7 @@ class Drawing:
         self._recent.append(_Entry(self._next, count, records, origin))
         while self._recent and self._held > (_OLDER if self._recent[0].origin is None else _RECENT):
             entry = self._recent.popleft()
-            self._held -= entry.count
+            self._held -= entry.size
             if entry.origin is not None:
                 self._age(*entry.origin)
 

@@ -93,8 +93,8 @@ class ExecuteLocal(Action):
         self._sigkill_timeout = _seconds(sigkill_timeout, "sigkill_timeout")
         self._emulate_tty = emulate_tty
         override = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
-        output = override or output
-        self._output = dict(output) if hasattr(output, "items") else normalize_to_list_of_substitutions(output)
+        chosen: Any = override or output
+        self._output = dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
         self._output_format = output_format
         self._cached_output = cached_output
         self._log_cmd = log_cmd

@@ -6,7 +6,7 @@ import itertools
 import os
 import re
 import shlex
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -140,7 +140,7 @@ class Executable:
 def _variables(
     env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType],
 ) -> list[tuple[list[Substitution], list[Substitution]]]:
-    pairs = env.items() if hasattr(env, "items") else env
+    pairs: Any = env.items() if hasattr(env, "items") else env
     return [(normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value)) for name, value in pairs]
 
 

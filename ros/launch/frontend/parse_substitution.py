@@ -75,7 +75,7 @@ class _Reader:
         while self._at < len(self._text) and (self._text[self._at].isalnum() or self._text[self._at] in "-_"):
             self._at += 1
         name = self._text[name_start : self._at]
-        arguments = []
+        arguments: list[list[Substitution]] = []
         while True:
             self._skip_blanks()
             if self._at >= len(self._text):

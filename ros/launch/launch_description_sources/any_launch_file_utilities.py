@@ -11,6 +11,8 @@ from launch.launch_description_sources.frontend_launch_file_utilities import get
 from launch.launch_description_sources.python_launch_file_utilities import get_launch_description_from_python_launch_file
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from launch.launch_description import LaunchDescription
 
 __all__ = ["get_launch_description_from_any_launch_file"]
@@ -26,7 +28,10 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     if not os.path.isfile(launch_file_path):
         raise ValueError(f"file not found: [Errno 2] No such file or directory: '{launch_file_path}'")
     extension = os.path.splitext(launch_file_path)[1]
-    loaders = [get_launch_description_from_frontend_launch_file, get_launch_description_from_python_launch_file]
+    loaders: list[Callable[[str], LaunchDescription]] = [
+        get_launch_description_from_frontend_launch_file,
+        get_launch_description_from_python_launch_file,
+    ]
     if not Parser.is_extension_valid(extension):
         loaders.reverse()
     errors: list[BaseException] = []

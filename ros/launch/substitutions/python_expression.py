@@ -32,7 +32,7 @@ class PythonExpression(Substitution):
 
     def __init__(self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)) -> None:
         self._expression = normalize_to_list_of_substitutions(expression)
-        modules = [python_modules] if isinstance(python_modules, (str, Substitution)) else python_modules
+        modules: Any = [python_modules] if isinstance(python_modules, (str, Substitution)) else python_modules
         self._modules = [normalize_to_list_of_substitutions(module) for module in modules]
 
     @classmethod

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any
+from typing import Any, TypeGuard, TypeVar
 
 __all__ = ["ensure_argument_type", "is_a", "is_a_subclass"]
 
+_T = TypeVar("_T")
 
-def is_a(obj: Any, entity_type: type) -> bool:
+
+def is_a(obj: Any, entity_type: type[_T]) -> TypeGuard[_T]:
     """Whether ``obj`` is an instance of the type."""
     return isinstance(obj, entity_type)
 

@@ -49,7 +49,8 @@ class LifecycleNode(Node):
     def _is_mine(self, event: Event) -> bool:
         return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self)
 
-    def _on_change_state(self, event: ChangeState, context: LaunchContext) -> None:
+    def _on_change_state(self, event: Event, context: LaunchContext) -> None:
+        assert isinstance(event, ChangeState)
         assert context.asyncio_loop is not None
         change = change_state(context, self.node_name, event.transition_id)
         context.add_completion_future(context.asyncio_loop.create_task(change))

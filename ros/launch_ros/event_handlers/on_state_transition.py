@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import EventHandler
 from launch_ros.events.lifecycle import StateTransition
@@ -46,8 +46,7 @@ class OnStateTransition(EventHandler):
     def _is_wanted(self, event: Event) -> bool:
         if not isinstance(event, StateTransition):
             return False
-        change = cast("StateTransition", event)
-        return all(wanted is None or getattr(change, name) == wanted for name, wanted in self._wanted.items())
+        return all(wanted is None or getattr(event, name) == wanted for name, wanted in self._wanted.items())
 
     @property
     def matcher_description(self) -> str:

@@ -6,7 +6,7 @@ import json
 import math
 import os
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from rclpy.publisher import Publisher
     from turtlesim.model import Pose
-    from turtlewire.wire.local.context import LocalContext
 
 __all__ = ["Simulation"]
 
@@ -181,7 +180,7 @@ class Simulation:
             self._executor._run(*ready)
         raise RuntimeError(f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s and did not come to rest")
 
-    def _replace_reader(self, wire: LocalContext) -> None:
+    def _replace_reader(self, wire: Any) -> None:
         wire.reader.close()
         wire.reader = self._reader
 
