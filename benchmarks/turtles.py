@@ -1,0 +1,94 @@
+"""What a turtle costs: the simulator and the swarm of learning_tf2_py in one process, on the wire, as `swarm.launch.py` starts them."""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from benchmarks.figures import Figure, Row
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+TITLE = "Turtles: a swarm that follows one another through TF, CPU for each turtle and tick of 16 ms"
+COUNTS = (10, 100, 1000)
+ROUNDS = 5
+SECONDS = 1.0
+PACKAGE = Path(__file__).parent.parent / "ros2_ws" / "src" / "learning_tf2_py"
+
+
+def rows() -> Iterator[Row]:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "101", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    environment["PYTHONPATH"] = os.pathsep.join(filter(None, (str(PACKAGE), environment.get("PYTHONPATH"))))
+    for count in COUNTS:
+        command = [sys.executable, "-m", __name__, str(count)]
+        measured = json.loads(subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True).stdout)
+        yield Row(f"{count} turtles, the simulator alone", figure(measured["simulator"]))
+        budget = "<= 16 us (one core)" if count == max(COUNTS) else ""
+        yield Row(f"{count} turtles, all of the process", figure(measured["process"]), budget=budget)
+        yield Row(f"{count} turtles, ticks per second", figure(measured["rate"], "Hz"), budget="62.5 Hz")
+        yield Row(f"{count} turtles, spawned one by one through the service", figure(measured["spawning"]))
+
+
+def figure(runs: list[float], unit: str = "ns") -> Figure:
+    return Figure(min(runs), statistics.median(runs), unit)
+
+
+def measure(count: int) -> dict[str, list[float]]:
+    from learning_tf2_py.swarm import Swarm
+
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+    from turtlesim.turtlesim_node import TurtlesimNode
+
+    rclpy.init(args=["--ros-args", "-p", f"count:={count}", "--log-level", "warn"])
+    simulator, executor = TurtlesimNode(headless=True), SingleThreadedExecutor()
+    clock = Stopwatch(simulator)
+    swarm = Swarm(simulator.pose_of)
+    for node in (simulator, swarm):
+        executor.add_node(node)
+    start = time.monotonic_ns()
+    while len(swarm.members) < count:
+        executor.spin_once()
+    results: dict[str, list[float]] = {"simulator": [], "process": [], "rate": [], "spawning": [(time.monotonic_ns() - start) / count]}
+    spin(executor, 2 * SECONDS)  # the garbage of the beginning, and the first commands
+    for _ in range(ROUNDS):
+        ticks, tick_ns, cpu, wall = clock.ticks, clock.cpu_ns, time.process_time_ns(), time.monotonic()
+        spin(executor, SECONDS)
+        ticks = clock.ticks - ticks
+        results["simulator"].append((clock.cpu_ns - tick_ns) / ticks / count)
+        results["process"].append((time.process_time_ns() - cpu) / ticks / count)
+        results["rate"].append(ticks / (time.monotonic() - wall))
+    return results
+
+
+class Stopwatch:
+    """Counts the ticks of a simulator and their CPU time."""
+
+    def __init__(self, simulator: Any) -> None:
+        self.ticks = self.cpu_ns = 0
+        self._tick = simulator._tick
+        simulator._tick = self.tick
+
+    def tick(self, now_ns: int) -> None:
+        start = time.thread_time_ns()
+        self._tick(now_ns)
+        self.cpu_ns += time.thread_time_ns() - start
+        self.ticks += 1
+
+
+def spin(executor: Any, seconds: float) -> None:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        executor.spin_once()
+
+
+if __name__ == "__main__":
+    print(json.dumps(measure(int(sys.argv[1]))), flush=True)
+    os._exit(0)  # a thousand turtles take seconds to leave one by one, which is not what is measured
