@@ -110,7 +110,10 @@ class Launch:
         """Start them; `stop` is to be called whatever happens."""
         command = [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]]
         with held_back():  # a process that nobody knows of yet could not be stopped
-            self._process = subprocess.Popen(command, stdout=self._output, stderr=self._output, start_new_session=True)
+            # without a terminal as its input, the launch tells its processes to end itself, instead of leaving that to the terminal
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._output, start_new_session=True
+            )
             self._waiter.start()
 
     def _wait(self) -> None:

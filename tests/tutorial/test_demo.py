@@ -36,17 +36,22 @@ def is_running(pid):
         return False
 
 
-def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run):
+@pytest.mark.parametrize("terminal", [True, False])
+def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, terminal):
     environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
-    demo = run(sys.executable, DEMO, environment=environment)
+    demo = run(sys.executable, DEMO, environment=environment, terminal=terminal)
     domain = os.environ["ROS_DOMAIN_ID"]
     demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
     demo.wait_for("ros2 run turtlesim turtle_teleop_key")
     demo.wait_for(r"The field is shown at http://127\.0\.0\.1:\d+/")
     demo.wait_for(r"\[demo\] turtle2 follows turtle1, \d+\.\d\d m away", count=2)
-    os.kill(demo.process.pid, signal.SIGINT)
+    if terminal:
+        demo.type("\x03")
+    else:
+        os.kill(demo.process.pid, signal.SIGINT)
     assert demo.wait() == 0
     assert "Traceback" not in demo.text
+    assert "SIGTERM" not in demo.text  # they were asked at once, and did not need a second word
     pids = re.findall(r"process started with pid \[(\d+)\]", demo.text)
     assert len(pids) == 4
     assert not any(is_running(pid) for pid in pids)
