@@ -24,6 +24,8 @@ IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
 #: What a person presses: key, and how many frames pass before the next one.
 KEYS = [("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 6), ("ArrowRight", 4), ("ArrowUp", 8)]
 FRAME_MS = 160
+#: The frame at which the still is taken: turtle1 has just gone ahead, turtle2 comes after it.
+STILL = 22
 CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync"]
 
 
@@ -58,13 +60,16 @@ def take_pictures(address: str) -> None:
     """Drive in the page, and save what it shows."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS)
-        page, small_page = (browser.new_page(viewport={"width": 1080, "height": 780}, device_scale_factor=scale) for scale in (1, 0.4))
+        page, small_page = (browser.new_page(viewport={"width": 1160, "height": 860}, device_scale_factor=scale) for scale in (1, 0.4))
         for opened in (page, small_page):
             opened.goto(address)
             opened.get_by_text("turtle2").first.wait_for()
-        frames = list(drive(small_page))
         IMAGES.mkdir(exist_ok=True)
-        (IMAGES / "demo.png").write_bytes(page.screenshot())
+        frames = []
+        for frame in drive(small_page):
+            frames.append(frame)
+            if len(frames) == STILL:
+                (IMAGES / "demo.png").write_bytes(page.screenshot())
         (IMAGES / "demo-animated.png").write_bytes(animated_png(frames, FRAME_MS))
         browser.close()
 
