@@ -1,7 +1,7 @@
 """Messages of geometry_msgs in another frame, as ROS 2's package of this name, and what only its C++ side had.
 
 Importing it makes ``tf2_ros.Buffer.transform`` take these stamped types: points, vectors, quaternions, poses, arrays of poses, paths,
-poses with covariance, twists (with covariance), velocities, wrenches, polygons and transforms.
+poses with covariance, odometry, twists (with covariance), velocities, wrenches, polygons and transforms.
 
 The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they, and NumPy, are loaded when they are first used.
 """
@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from tf2_geometry_msgs.poses import (
+    do_transform_odometry,
     do_transform_path,
     do_transform_pose,
     do_transform_pose_array,
@@ -76,6 +77,7 @@ __all__ = [
     "array_from_quaternion",
     "array_from_transform",
     "array_from_vector3",
+    "do_transform_odometry",
     "do_transform_path",
     "do_transform_point",
     "do_transform_point32",

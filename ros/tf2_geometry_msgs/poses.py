@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import (
@@ -16,7 +17,7 @@ from geometry_msgs.msg import (
     TransformStamped,
     Vector3,
 )
-from nav_msgs.msg import Path
+from nav_msgs.msg import Odometry, Path
 from tf2_geometry_msgs.headers import copy_of, header_of
 from tf2_geometry_msgs.motion import Motion
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "do_transform_odometry",
     "do_transform_path",
     "do_transform_pose",
     "do_transform_pose_array",
@@ -89,6 +91,15 @@ def do_transform_pose_with_covariance(pose: PoseWithCovariance, transform: Trans
 def do_transform_pose_with_covariance_stamped(pose: PoseWithCovarianceStamped, transform: TransformStamped) -> PoseWithCovarianceStamped:
     """An uncertain pose in the frame of a transform that is certain, with stamp and frame of the transform."""
     return PoseWithCovarianceStamped(header=header_of(transform), pose=do_transform_pose_with_covariance(pose.pose, transform))
+
+
+def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Odometry:
+    """Where a body is, in the frame of a transform, with stamp and frame of that.
+
+    Its twist is one in the axes of ``child_frame_id``, the body, and stays as it is.
+    """
+    pose = do_transform_pose_with_covariance(odometry.pose, transform)
+    return Odometry(header=header_of(transform), child_frame_id=odometry.child_frame_id, pose=pose, twist=copy.deepcopy(odometry.twist))
 
 
 def do_transform_transform(inner: Transform, transform: TransformStamped | Any) -> Transform:

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import tf2_ros
 from geometry_msgs import msg as geometry
-from nav_msgs.msg import Path
+from nav_msgs.msg import Odometry, Path
 from tf2_geometry_msgs import poses, twists, vectors
 
 __all__ = ["from_msg_msg", "register", "to_msg_msg"]
@@ -38,6 +38,7 @@ def register() -> None:
         (geometry.PoseWithCovarianceStamped, poses.do_transform_pose_with_covariance_stamped),
         (geometry.TransformStamped, poses.do_transform_transform_stamped),
         (Path, poses.do_transform_path),
+        (Odometry, poses.do_transform_odometry),
         (geometry.TwistStamped, twists.do_transform_twist_stamped),
         (geometry.TwistWithCovarianceStamped, twists.do_transform_twist_with_covariance_stamped),
         (geometry.VelocityStamped, twists.do_transform_velocity_stamped),

@@ -65,7 +65,8 @@ def quaternion_slerp(
         spin: Additional half turns on the way.
         shortestpath: Go the shorter way round.
     """
-    start, end = unit_vector(quat0[:4]), unit_vector(quat1[:4])
+    start: NDArray[np.float64] = unit_vector(quat0[:4])
+    end: NDArray[np.float64] = unit_vector(quat1[:4])
     cosine = float(start @ end)
     if fraction == 0.0 or abs(abs(cosine) - 1.0) < EPSILON:
         return start
@@ -105,7 +106,8 @@ def superimposition_matrix(v0: ArrayLike, v1: ArrayLike, scaling: bool = False, 
 def _rotation_by_svd(points: NDArray[np.float64], goals: NDArray[np.float64]) -> NDArray[np.float64]:
     left, _, right = np.linalg.svd(goals @ points.T)
     handedness = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    return left @ handedness @ right
+    rotation: NDArray[np.float64] = left @ handedness @ right
+    return rotation
 
 
 def _rotation_by_quaternion(points: NDArray[np.float64], goals: NDArray[np.float64]) -> NDArray[np.float64]:

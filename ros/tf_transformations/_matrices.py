@@ -50,7 +50,8 @@ def _fixed_point(matrix: ArrayLike) -> Matrix:
     vectors = _eigenvectors(matrix, 1.0)
     if not vectors:
         raise ValueError("no eigenvector corresponding to eigenvalue 1")
-    return vectors[-1] / vectors[-1][3]
+    point: Matrix = vectors[-1] / vectors[-1][3]
+    return point
 
 
 def identity_matrix() -> Matrix:
@@ -270,7 +271,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Matrix, list[float], tuple[floa
         rotation, triangle = -rotation, -triangle
     scale = np.diag(triangle).copy()
     shear = [triangle[0, 1] / scale[1], triangle[0, 2] / scale[2], triangle[1, 2] / scale[2]]
-    return scale, shear, euler_from_rotation(rotation), affine[:3, 3], perspective
+    return scale, shear, euler_from_rotation(rotation.tolist()), affine[:3, 3], perspective
 
 
 def compose_matrix(
@@ -286,13 +287,15 @@ def compose_matrix(
         xy, xz, yz = shear
         linear = np.array([[1.0, xy, xz], [0.0, 1.0, yz], [0.0, 0.0, 1.0]]) @ linear
     if angles is not None:
-        linear = euler_matrix(*angles)[:3, :3] @ linear
+        roll, pitch, yaw = angles
+        linear = euler_matrix(roll, pitch, yaw)[:3, :3] @ linear
     matrix = _affine(linear, TRANSLATION_IDENTITY if translate is None else translate)
     if perspective is not None:
         projection = np.identity(4)
         projection[3] = perspective
         matrix = projection @ matrix
-    return matrix / matrix[3, 3]
+    normalized: Matrix = matrix / matrix[3, 3]
+    return normalized
 
 
 def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
@@ -344,7 +347,7 @@ def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion
     if trace > 0.0:
         s = 2.0 * math.sqrt(1.0 + trace)
         x, y, z = (rotation[2][1] - rotation[1][2]) / s, (rotation[0][2] - rotation[2][0]) / s, (rotation[1][0] - rotation[0][1]) / s
-        return x, y, z, s / 4.0
+        return x + 0.0, y + 0.0, z + 0.0, s / 4.0  # no negative zeros
     i = max(range(3), key=lambda axis: rotation[axis][axis])
     j, k = (i + 1) % 3, (i + 2) % 3
     s = 2.0 * math.sqrt(1.0 + rotation[i][i] - rotation[j][j] - rotation[k][k])
@@ -354,12 +357,12 @@ def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion
     vector[k] = (rotation[k][i] + rotation[i][k]) / s
     w = (rotation[k][j] - rotation[j][k]) / s
     sign = -1.0 if w < 0.0 else 1.0
-    return sign * vector[0], sign * vector[1], sign * vector[2], sign * w
+    return sign * vector[0] + 0.0, sign * vector[1] + 0.0, sign * vector[2] + 0.0, sign * w + 0.0
 
 
 def inverse_matrix(matrix: ArrayLike) -> Any:
     """The matrix that undoes ``matrix``; any square one."""
-    return np.linalg.inv(matrix)
+    return np.linalg.inv(np.asarray(matrix))
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Matrix:

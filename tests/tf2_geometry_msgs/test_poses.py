@@ -20,7 +20,7 @@ from geometry_msgs.msg import (
     Transform,
     TransformStamped,
 )
-from nav_msgs.msg import Path
+from nav_msgs.msg import Odometry, Path
 
 HALF = np.sqrt(0.5)
 SEED = 7
@@ -78,6 +78,19 @@ def test_poses_of_a_path_get_the_frame_and_keep_their_stamps(quarter_turn):
     assert moved.header == quarter_turn.message.header
     assert [pose.header.frame_id for pose in moved.poses] == ["target", "target"]
     assert [pose.header.stamp.sec for pose in moved.poses] == [0, 77]
+
+
+def test_odometry_moves_its_pose_and_keeps_its_twist(some_world):
+    odometry = Odometry(child_frame_id="body")
+    odometry.pose.pose.position.x = odometry.twist.twist.linear.x = 2.0
+    odometry.pose.covariance = [float(i) for i in range(36)]
+    before = copy.deepcopy(odometry)
+    moved = tf2.do_transform_odometry(odometry, some_world.message)
+    assert odometry == before
+    assert moved.pose == tf2.do_transform_pose_with_covariance(odometry.pose, some_world.message)
+    assert moved.twist == odometry.twist
+    assert moved.twist is not odometry.twist
+    assert (moved.header.frame_id, moved.child_frame_id) == (some_world.message.header.frame_id, "body")
 
 
 def test_a_path_through_several_frames_needs_several_transforms(quarter_turn):

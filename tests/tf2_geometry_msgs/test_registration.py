@@ -10,7 +10,7 @@ import pytest
 import tf2_geometry_msgs as tf2
 import tf2_ros
 from geometry_msgs import msg as geometry
-from nav_msgs.msg import Path
+from nav_msgs.msg import Odometry, Path
 from rclpy.duration import Duration
 from rclpy.time import Time
 
@@ -29,6 +29,7 @@ STAMPED = [
     geometry.VelocityStamped,
     geometry.WrenchStamped,
     Path,
+    Odometry,
 ]
 
 
@@ -83,7 +84,7 @@ def test_importing_it_is_light():
 
 
 def test_the_package_lists_what_it_has():
-    assert len(tf2.__all__) == len(set(tf2.__all__)) == 48
+    assert len(tf2.__all__) == len(set(tf2.__all__)) == 49
     for name in tf2.__all__:
         assert callable(getattr(tf2, name))
         assert getattr(tf2, name).__doc__

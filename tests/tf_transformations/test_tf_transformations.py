@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 import math
 import subprocess
@@ -45,6 +46,66 @@ def test_every_public_name_exists_and_has_a_docstring():
     assert set(tft.__all__) <= set(dir(tft))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = tft.nothing
+
+
+#: The functions as ROS has had them since its first transformations module; 1.1.1 has added none.
+SIGNATURES = """
+arcball_constrain_to_axis(point, axis)
+arcball_map_to_sphere(point, center, radius)
+arcball_nearest_axis(point, axes)
+clip_matrix(left, right, bottom, top, near, far, perspective=False)
+compose_matrix(scale=None, shear=None, angles=None, translate=None, perspective=None)
+concatenate_matrices(*matrices)
+decompose_matrix(matrix)
+euler_from_matrix(matrix, axes='sxyz')
+euler_from_quaternion(quaternion, axes='sxyz')
+euler_matrix(ai, aj, ak, axes='sxyz')
+identity_matrix()
+inverse_matrix(matrix)
+is_same_transform(matrix0, matrix1)
+orthogonalization_matrix(lengths, angles)
+projection_from_matrix(matrix, pseudo=False)
+projection_matrix(point, normal, direction=None, perspective=None, pseudo=False)
+quaternion_about_axis(angle, axis)
+quaternion_conjugate(quaternion)
+quaternion_from_euler(ai, aj, ak, axes='sxyz')
+quaternion_from_matrix(matrix)
+quaternion_inverse(quaternion)
+quaternion_matrix(quaternion)
+quaternion_multiply(quaternion1, quaternion0)
+quaternion_slerp(quat0, quat1, fraction, spin=0, shortestpath=True)
+random_quaternion(rand=None)
+random_rotation_matrix(rand=None)
+random_vector(size)
+reflection_from_matrix(matrix)
+reflection_matrix(point, normal)
+rotation_from_matrix(matrix)
+rotation_matrix(angle, direction, point=None)
+scale_from_matrix(matrix)
+scale_matrix(factor, origin=None, direction=None)
+shear_from_matrix(matrix)
+shear_matrix(angle, direction, point, normal)
+superimposition_matrix(v0, v1, scaling=False, usesvd=True)
+translation_from_matrix(matrix)
+translation_matrix(direction)
+unit_vector(data, axis=None, out=None)
+vector_norm(data, axis=None, out=None)
+"""
+
+
+def test_arguments_and_defaults():
+    functions = [name for name in tft.__all__ if callable(getattr(tft, name)) and name != "Arcball"]
+    bare = inspect.Parameter.empty
+    found = []
+    for name in functions:
+        signature = inspect.signature(getattr(tft, name))
+        parameters = [parameter.replace(annotation=bare) for parameter in signature.parameters.values()]
+        found.append(f"{name}{signature.replace(parameters=parameters, return_annotation=bare)}")
+    assert found == SIGNATURES.split("\n")[1:-1]
+
+
+def test_an_identity_has_no_negative_zeros():
+    assert str(tft.quaternion_from_matrix(np.identity(4))) == "(0.0, 0.0, 0.0, 1.0)"
 
 
 def test_the_broadcaster_s_function_needs_no_numpy():
