@@ -78,7 +78,8 @@ def action_names(**_: Any) -> list[str]:
 
 def node_names(**_: Any) -> list[str]:
     """Full names of the nodes there are now."""
-    return _ask("node_names")
+    names: list[str] = _ask("node_names")
+    return names
 
 
 def frame_names(**_: Any) -> list[str]:

@@ -126,7 +126,7 @@ def _status(args: argparse.Namespace) -> int:
     try:
         status: int | str | None = module.main(args)
     except BrokenPipeError:  # the reader of a pipe has enough
-        sys.stdout = None  # type: ignore[assignment]
+        sys.stdout = None
         return 1
     except RuntimeError as error:
         status = _told(error)

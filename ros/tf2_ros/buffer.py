@@ -156,7 +156,8 @@ class Buffer(BufferCore, BufferInterface):
         Raises:
             TransformException: As :meth:`lookup_transform`, when the time is over, or when the answer cannot come any more.
         """
-        return await self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
+        transform: TransformStamped = await self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
+        return transform
 
     async def lookup_transform_full_async(
         self,
@@ -169,7 +170,9 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration | Any = None,
     ) -> TransformStamped:
         """:meth:`lookup_transform_full` for ``async def`` callbacks and asyncio; waits as :meth:`lookup_transform_async`."""
-        return await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame, timeout=timeout)
+        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        transform: TransformStamped = await self.wait_for_transform_full_async(*asked, timeout=timeout)
+        return transform
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None) -> Future:
         """A future whose result will be the transform, once it is known. Cancel it when it is not wanted any more.

@@ -175,7 +175,8 @@ def _transform(response: Any) -> TransformStamped:
         raise exception_for(result.error)
     if response.status != _SUCCEEDED:  # a server of ROS 2 in C++ says nothing else when the time is over
         raise TimeoutException("The BufferServer gave up: the transform was not available in time.")
-    return result.transform
+    transform: TransformStamped = result.transform
+    return transform
 
 
 def _wait(future: Future, seconds: float) -> Any:

@@ -148,7 +148,7 @@ class MessageFilter(SimpleFilter):
             self._waiting.append(waiting)
             if self._queue_size and len(self._waiting) > self._queue_size:
                 dropped = self._waiting.popleft()
-            elif len(self._waiting) == 1 and self._timer is not None:
+            elif len(self._waiting) == 1 and self._timer is not None and self._timeout_ns is not None:
                 self._timer.timer_period_ns = self._timeout_ns
                 self._timer.reset()
         if dropped is not None:
@@ -201,6 +201,8 @@ class MessageFilter(SimpleFilter):
         return all(self._engine.can_transform(target, waiting.source, stamp) for target in self._targets for stamp in stamps)
 
     def _is_too_old(self, waiting: _Waiting) -> bool:
+        if self._engine.cache_time_ns is None:
+            return False
         oldest = waiting.stamp_ns + self._engine.cache_time_ns
         try:
             return any(oldest < self._engine.latest_common_time(target, waiting.source) for target in self._targets)

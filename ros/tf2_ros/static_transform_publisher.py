@@ -93,7 +93,8 @@ def _new_style(flags: dict[str, str]) -> Placement:
     if any(flag in flags for flag in _QUATERNION):
         rotation = (number["--qx"], number["--qy"], number["--qz"], number["--qw"] if "--qw" in flags else 1.0)
     else:
-        rotation = quaternion_from_euler(*(number[flag] for flag in _EULER))
+        roll, pitch, yaw = (number[flag] for flag in _EULER)
+        rotation = quaternion_from_euler(roll, pitch, yaw)
     translation = (number["--x"], number["--y"], number["--z"])
     return Placement(translation, rotation, flags.get("--frame-id", ""), flags.get("--child-frame-id", ""))
 

@@ -76,7 +76,8 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     source, target = options.source_frame, options.target_frame
     printed = 0
     while not stopped.is_set():
-        known, reason = buffer.can_transform(source, target, Time(), Duration(seconds=1), return_debug_tuple=True)
+        answer: Any = buffer.can_transform(source, target, Time(), Duration(seconds=1), return_debug_tuple=True)
+        known, reason = answer
         if known:
             break
         node.get_logger().info(f"Waiting for transform {source} ->  {target}: {reason}")

@@ -60,8 +60,8 @@ class TransformListener:
         static_only: bool = False,
     ) -> None:
         self.buffer = buffer
-        self._own_node = _make_node() if node is None else None
-        self.node: Node = self._own_node if node is None else node
+        self.node: Node = _make_node() if node is None else node
+        self._own_node = self.node if node is None else None
         self._on_destroy: Callable[[TransformListener], None] | None = None
         self._engine = engine.TransformListener(
             buffer.engine,
