@@ -67,7 +67,7 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
     """Make .venv, or what of it is stale, and note what it holds then."""
     started = time.monotonic()
     if not usable(stamp, wanted):
-        say("making .venv here and downloading what it needs (about 15 packages, under a minute); nothing else is touched")
+        say("making .venv here and downloading what it needs (about 55 packages, under a minute); nothing else is touched")
         make_venv()
     else:
         say("bringing .venv up to date with the sources")
