@@ -90,7 +90,13 @@ class _Feed:
         for member in self._members:
             self._store(member.store, cdr, publisher)
         if self.intake is not None:
-            self.intake.name(info.publisher_gid, publisher)
+            self._tell_name(self.intake, info.publisher_gid)
+
+    def _tell_name(self, intake: Intake, gid: bytes) -> None:
+        told = None
+        while told != self._publishers[gid]:  # the graph may learn it at this moment, on another thread
+            told = self._publishers[gid]
+            intake.name(gid, told)
 
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:
