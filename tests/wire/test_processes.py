@@ -15,6 +15,7 @@ from turtlewire.wire.base import Context, TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 ECHO = Path(__file__).parent / "peers" / "echo.py"
+GIANT = Path(__file__).parent / "peers" / "giant.py"
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
@@ -105,6 +106,26 @@ def test_a_killed_peer_disappears_after_its_lease(context: Context):
         assert graph.wait_for(lambda: "/latched" in graph.topic_names_and_types(), LONG)
         peer.kill()
         assert graph.wait_for(lambda: graph.nodes() == [] and "/latched" not in graph.topic_names_and_types(), LONG)
+
+
+def test_a_peer_killed_in_the_middle_of_a_message_harms_nobody(context: Context):
+    """Whole messages arrive, or none; and what others send arrives too."""
+    subscription = context.create_node("here").create_subscription("/giant", STRING, QoS(depth=10))
+    for _ in range(3):
+        with subprocess.Popen([sys.executable, GIANT], stdout=subprocess.PIPE, text=True) as peer:
+            assert peer.stdout is not None
+            assert peer.stdout.readline() == "sending\n"
+            peer.kill()
+        assert peer.returncode == -9
+    other = open_context(middleware="rmw_cyclonedds_cpp")
+    publisher = other.create_node("other").create_publisher("/giant", STRING, QoS())
+    assert other.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
+    publisher.publish(message(7))
+    sizes = []
+    while len(message(7)) not in sizes:
+        sizes += [len(data) for data, _ in take_all(context, subscription, 1)]
+    assert set(sizes) <= {len(message(7)), 50_000_004}
+    other.close()
 
 
 def test_a_peer_that_leaves_is_gone_at_once(context: Context):

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 pytestmark = [
     pytest.mark.slow,
@@ -111,6 +111,70 @@ def test_nobody_from_outside_gets_in_by_default():
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=""))
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"))
         assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
+
+
+class Asker:
+    """The peer ``asker.py`` on the host ``here``."""
+
+    def __init__(self, errors: Path, **environment: str) -> None:
+        with errors.open("w") as file:
+            self.process = subprocess.Popen(
+                command("here", "asker.py"),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=file,
+                text=True,
+                env=os.environ | environment,
+            )
+
+    def ask(self, text: str) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.write(text + "\n")
+        self.process.stdin.flush()
+
+    def wait_for(self, line: str) -> None:
+        assert self.process.stdout is not None
+        for said in self.process.stdout:
+            if said == line + "\n":
+                return
+        raise AssertionError(f"it ended before it said {line!r}")
+
+
+@pytest.fixture
+def link() -> Iterator[Callable[[str], None]]:
+    """Takes the cable at the host ``here`` down and up."""
+    yield lambda state: ip("-n", namespace("here"), "link", "set", "tw-here", state)
+    ip("-n", namespace("here"), "link", "set", "tw-here", "up")
+
+
+@pytest.mark.usefixtures("hosts")
+@pytest.mark.parametrize("lease", ["20s", "2s"], ids=["shorter than the lease", "longer than the lease"])
+def test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive(link, lease: str, tmp_path: Path):
+    environment = {
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
+        "CYCLONEDDS_URI": f"<Discovery><LeaseDuration>{lease}</LeaseDuration></Discovery>",
+    }
+    with echo_there(**environment):
+        asker = Asker(tmp_path / "errors", **environment)
+        asker.wait_for("peers 1 1")
+        asker.ask("before")
+        asker.wait_for("before")
+        link("down")
+        asker.ask("meanwhile")
+        if lease == "2s":
+            asker.wait_for("peers 0 0")
+            link("up")
+            asker.wait_for("peers 1 1")
+        else:
+            link("up")
+            asker.wait_for("meanwhile")
+        asker.ask("after")
+        asker.wait_for("after")
+        asker.process.communicate()
+    assert asker.process.returncode == 0
+    errors = (tmp_path / "errors").read_text().splitlines()
+    assert len(errors) == 1, errors
+    assert "the network does not let us send to" in errors[0]
 
 
 @pytest.fixture

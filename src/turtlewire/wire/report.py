@@ -11,16 +11,20 @@ if TYPE_CHECKING:
 
     from .base import MessageInfo
 
-__all__ = ["call_guarded", "warn_once"]
+__all__ = ["call_guarded", "warn", "warn_once"]
 
 _said: set[str] = set()
 
 
 def warn_once(key: str, text: str) -> None:
     """Write ``text`` as a ROS 2 warning, unless something was said under ``key`` before in this process."""
-    if key in _said:
-        return
-    _said.add(key)
+    if key not in _said:
+        _said.add(key)
+        warn(text)
+
+
+def warn(text: str) -> None:
+    """Write ``text`` as a ROS 2 warning."""
     seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
     sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {text}\n")
     sys.stderr.flush()

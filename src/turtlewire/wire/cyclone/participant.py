@@ -6,13 +6,14 @@ import ctypes
 import os
 import threading
 
-from turtlewire.errors import WireError
+from turtlewire.errors import TurtlewireError, WireError
 from turtlewire.wire import names
 from turtlewire.wire.environment import discovery
 from turtlewire.wire.graph import format_user_data
 
 from . import library as dds
 from .configuration import domain_configuration
+from .log import CycloneLog
 from .ports import max_processes, processes_on_host
 
 __all__ = ["Participant"]
@@ -31,15 +32,26 @@ class _Domains:
         self._lock = threading.Lock()
         self._users: dict[int, int] = {}
         self._handles: dict[int, int] = {}
+        self._log: CycloneLog | None = None
 
     def join(self, domain_id: int) -> None:
         """Make the domain, unless it is there."""
         with self._lock:
             if not self._users.get(domain_id):
-                handle = dds.create_domain(domain_id, domain_configuration(domain_id, discovery()).encode())
-                if handle != dds.RETCODE_PRECONDITION_NOT_MET:  # somebody else in this process made it: it is theirs
-                    self._handles[domain_id] = _checked(handle, domain_id)
+                self._create(domain_id)
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
+
+    def _create(self, domain_id: int) -> None:
+        if self._log is None:
+            self._log = CycloneLog()
+        with self._log.capturing():
+            handle = dds.create_domain(domain_id, domain_configuration(domain_id, discovery()).encode())
+        if handle == dds.RETCODE_PRECONDITION_NOT_MET:  # somebody else in this process made it: it is theirs
+            return
+        if handle < 0:
+            raise _failure(handle, domain_id, self._log.unread())
+        self._handles[domain_id] = handle
+        self._log.start()
 
     def leave(self, domain_id: int) -> None:
         """End the domain if nobody else is in it."""
@@ -47,19 +59,20 @@ class _Domains:
             self._users[domain_id] -= 1
             if not self._users[domain_id] and domain_id in self._handles:
                 dds.delete(self._handles.pop(domain_id))
+                if not self._handles and self._log is not None:
+                    self._log.stop()
 
 
-def _checked(handle: int, domain_id: int) -> int:
-    """The handle of a new domain, or the error with what may have caused it; Cyclone has written its own line on stderr."""
-    if handle >= 0:
-        return handle
-    error = WireError(f"join domain {domain_id}: Cyclone DDS says {dds.return_code_text(handle).decode()}")
+def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
+    """Why a domain could not be made: what Cyclone said, and what may have caused it."""
+    reason = "; ".join(said) or dds.return_code_text(code).decode()
+    error = WireError(f"join domain {domain_id}: Cyclone DDS says {reason}")
     processes, limit = processes_on_host(domain_id), max_processes(domain_id)
     if processes is not None and processes >= limit:
-        raise error.with_hint(f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain.")
+        return error.with_hint(f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain.")
     if os.environ.get("CYCLONEDDS_URI"):
-        raise error.with_hint("CYCLONEDDS_URI is set: see Cyclone's line above for what is wrong with it, or unset it.")
-    raise error
+        return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
+    return error
 
 
 _domains = _Domains()
