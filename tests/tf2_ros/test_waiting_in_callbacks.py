@@ -6,7 +6,7 @@ import threading
 from typing import NamedTuple
 
 import pytest
-from hypothesis import event, given, settings
+from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
 from example_interfaces.srv import AddTwoInts
@@ -153,9 +153,7 @@ class Run:
         assert self.done.done(), f"answered: {self.answers}"
 
 
-@settings(max_examples=80)
-@given(schedules(), st.sampled_from([None, "robot"]))
-def test_waiting_never_hangs_and_answers_right(schedule, static):
+def check(schedule, static):
     context = Context()
     context.init(args=[])
     try:
@@ -169,3 +167,21 @@ def test_waiting_never_hangs_and_answers_right(schedule, static):
             assert isinstance(run.answers[i], TransformException)
         else:
             assert run.answers[i] == pytest.approx(wanted, abs=1e-9)
+
+
+@settings(max_examples=80)
+@given(schedules(), st.sampled_from([None, "robot"]))
+def test_waiting_never_hangs_and_answers_right(schedule, static):
+    check(schedule, static)
+
+
+@pytest.fixture
+def _cyclone(monkeypatch, _local_middleware):
+    monkeypatch.delenv("RMW_IMPLEMENTATION")
+
+
+@pytest.mark.usefixtures("_cyclone")
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(schedules(), st.sampled_from([None, "robot"]))
+def test_nor_does_it_on_the_real_wire(schedule, static):
+    check(schedule, static)
