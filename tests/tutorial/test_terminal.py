@@ -134,6 +134,14 @@ ros2 run p n
 """
 
 
+def test_the_how_to_page_has_the_commands():
+    page = (ROOT / "docs/how-to/terminal.md").read_text()
+    here = Path(__file__).read_text()
+    for command in ("rosdep install -i", "colcon build", "source install", "ros2 launch learning_tf2_py", "ros2 run turtlesim"):
+        (line,) = [line for line in page.splitlines() if line.startswith(command)]
+        assert f'"{line}"' in here
+
+
 def test_a_new_package_is_built_and_edited_without_another_build(bash):
     shell = bash(PACKAGE)
     assert shell.wait(120) == 0, shell.text
