@@ -9,6 +9,7 @@ export class Camera {
   left = 0;
   top = 0;
   #lastTime = null;
+  #still = matchMedia("(prefers-reduced-motion: reduce)");
 
   get follows() {
     return this.zoom !== 1;
@@ -24,7 +25,7 @@ export class Camera {
   look(x, y, size, now) {
     const range = size * (this.zoom - 1);
     const aim = (at) => Math.min(range, Math.max(0, at * this.zoom - size / 2));
-    const step = this.#lastTime === null ? 1 : 1 - Math.exp(-SETTLE_PER_MS * (now - this.#lastTime));
+    const step = this.#lastTime === null || this.#still.matches ? 1 : 1 - Math.exp(-SETTLE_PER_MS * (now - this.#lastTime));
     this.left += step * (aim(x) - this.left);
     this.top += step * (aim(y) - this.top);
     this.#lastTime = now;
