@@ -20,7 +20,7 @@ _LOCAL_HEARTBEAT_INTERVAL = "200 ms"
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
 #: would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
-_ADDRESS = re.compile(r"[A-Za-z0-9.:_%\[\]-]+")
+_ADDRESS = r"[A-Za-z0-9.:_%\[\]-]+"
 
 
 def domain_configuration(domain_id: int, discovery: Discovery) -> str:
@@ -72,7 +72,7 @@ def _peers(discovery: Discovery) -> str:
 
 
 def _checked(address: str) -> str:
-    if not _ADDRESS.fullmatch(address):
+    if not re.fullmatch(_ADDRESS, address):
         error = WireError(f"ROS_STATIC_PEERS: {address!r} is not an address")
         raise error.with_hint("Write host names or IP addresses, separated by ';'.")
     return address

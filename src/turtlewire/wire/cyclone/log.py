@@ -24,14 +24,15 @@ __all__ = ["CycloneLog", "explain"]
 
 #: What is about the same is said once in this time.
 _SILENCE_S = 60.0
-_HEAD = re.compile(r"[\d.]+ \[\w*\] +\S+: ")
-_REFUSED = re.compile(r"ddsi_udp_conn_write to udp/(.+):\d+ failed")
+# patterns, compiled when there is something to say
+_HEAD = r"[\d.]+ \[\w*\] +\S+: "
+_REFUSED = r"ddsi_udp_conn_write to udp/(.+):\d+ failed"
 _STDERR = {"linux": "stderr", "darwin": "__stderrp"}
 
 
 def explain(line: str) -> str:
     """A line of Cyclone's, without its time and thread, as a sentence of ours."""
-    refused = _REFUSED.match(line)
+    refused = re.match(_REFUSED, line)
     if refused:
         return f"the network does not let us send to {refused.group(1)}: is the link down? Reliable messages are sent again once it is up."
     return f"Cyclone DDS says: {line}"
@@ -115,4 +116,4 @@ class CycloneLog:
 
 
 def _text_of(line: bytes) -> str:
-    return _HEAD.sub("", line.decode("utf-8", "replace").strip(), count=1)
+    return re.sub(_HEAD, "", line.decode("utf-8", "replace").strip(), count=1)
