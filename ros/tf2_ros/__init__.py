@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from tf2_py import (
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from .buffer_client import BufferClient
     from .buffer_server import BufferServer
     from .message_filter import FilterFailureReason, MessageFilter
+
+if "IPython" in sys.modules:
+    from . import notebook as notebook
 
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",

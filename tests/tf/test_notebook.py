@@ -66,3 +66,33 @@ def test_any_distance_fits(buffer, translation):
 def test_pictures_are_loaded_when_they_are_asked_for():
     program = "import sys, turtlewire; turtlewire.Buffer(); print('turtlewire.tf.notebook' in sys.modules, 'numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout.split() == ["False", "False"]
+
+
+def test_a_message_shows_what_a_transform_shows_in_a_notebook_alone():
+    program = """
+import sys, types
+if {notebook}:
+    sys.modules["IPython"] = types.ModuleType("IPython")
+from tf2_ros import Buffer
+from rclpy.time import Time
+buffer = Buffer()
+buffer.engine.set_transform("world", "turtle1", 10**9, (3.0, 4.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+message = buffer.lookup_transform("world", "turtle1", Time())
+if {notebook}:
+    assert message._repr_html_() == buffer.engine.lookup_transform("world", "turtle1")._repr_html_()
+    message.transform.rotation.w = 0.0
+    assert message._repr_html_() is None
+else:
+    assert not hasattr(message, "_repr_html_")
+"""
+    for notebook in (True, False):
+        subprocess.run([sys.executable, "-c", program.format(notebook=notebook)], check=True)
+
+
+@pytest.mark.parametrize("translation", [(math.inf, 0.0, 0.0), (0.0, -math.inf, math.inf)])
+def test_an_endless_distance_is_told_in_numbers(buffer, translation):
+    """tf2 takes it, so a cell must show it."""
+    buffer.set_transform("world", "robot", 0, translation, (0.0, 0.0, 0.0, 1.0), static=True)
+    html = buffer.lookup_transform("world", "robot")._repr_html_()
+    assert "nan" in html or "inf" in html
+    assert "<svg" not in html

@@ -54,7 +54,7 @@ def buffer_svg(buffer: Buffer) -> str:
 
 
 def transform_html(transform: Stamped) -> str:
-    """A transform in numbers, and the axes of its two frames as a picture."""
+    """A transform in numbers, and the axes of its two frames as a picture, if there is room for them on a page."""
     target, source = escape(transform.frame_id), escape(transform.child_frame_id)
     roll, pitch, yaw = (f"{math.degrees(angle):.2f}" for angle in conversions.euler_from_quaternion(transform.rotation))
     rows = {
@@ -65,10 +65,11 @@ def transform_html(transform: Stamped) -> str:
         "stamp": f"{transform.stamp_ns} ns" if transform.stamp_ns else "0 (static)",
     }
     cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows.items())
+    picture = svg_from_drawing(_axes_of_both(transform)) if all(map(math.isfinite, transform.translation)) else ""
     return (
         '<div style="display:flex;align-items:center;gap:1em">'
         f"<table><caption>Where <b>{source}</b> is, seen from <b>{target}</b></caption>{cells}</table>"
-        f"{svg_from_drawing(_axes_of_both(transform))}</div>"
+        f"{picture}</div>"
     )
 
 

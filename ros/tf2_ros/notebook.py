@@ -1,0 +1,31 @@
+"""A ``TransformStamped`` at the end of a notebook's cell shows its numbers and a small picture."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geometry_msgs.msg import TransformStamped
+
+__all__ = ["transform_html"]
+
+
+class _Pose(NamedTuple):
+    frame_id: str
+    child_frame_id: str
+    stamp_ns: int
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+
+
+def transform_html(message: TransformStamped) -> str | None:
+    """The numbers of a transform and the axes of its two frames; None, and a notebook shows the plain text, when it has no rotation."""
+    from turtlewire.tf import notebook
+
+    t, q, stamp = message.transform.translation, message.transform.rotation, message.header.stamp
+    if not any((q.x, q.y, q.z, q.w)):
+        return None
+    stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+    return notebook.transform_html(_Pose(message.header.frame_id, message.child_frame_id, stamp_ns, (t.x, t.y, t.z), (q.x, q.y, q.z, q.w)))
+
+
+TransformStamped._repr_html_ = transform_html  # type: ignore[attr-defined]
