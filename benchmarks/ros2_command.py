@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
 
 TITLE = "ros2: wall time of a command"
 ROUNDS = 15
+LAUNCHES = 5
+DEMO = Path(__file__).parent.parent / "examples" / "one_process.launch.py"
 
 ROS2 = ["-c", "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"]
 
@@ -47,6 +51,7 @@ def rows() -> Iterator[Row]:
         yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
         yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
         yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))
+        yield Row("ros2 launch: the demo in one process, to turtle2's spawn", demo_started(environment))
         with node(environment):
             yield Row("ros2 topic list, beside a node", measured(environment, [*ROS2, "topic", "list"], "/chatter"))
 
@@ -55,6 +60,20 @@ def measured(environment: dict[str, str], words: list[str], expected: str) -> Fi
     """Wall time of a command whose output has to hold a text; the first run fills the cache of compiled modules."""
     spent = [run(environment, words, expected) for _ in range(ROUNDS + 1)][1:]
     return Figure(min(spent), statistics.median(spent))
+
+
+def demo_started(environment: dict[str, str]) -> Figure:
+    """Wall time until the follow demo has spawned turtle2."""
+    spent = []
+    quiet = {**environment, "TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "ROS_LOG_DIR": environment["PYTHONPYCACHEPREFIX"]}
+    for _ in range(LAUNCHES + 1):
+        begin = time.perf_counter_ns()
+        with subprocess.Popen([sys.executable, *ROS2, "launch", str(DEMO)], env=quiet, stdout=subprocess.PIPE, text=True) as launch:
+            for line in launch.stdout:
+                if "Spawning turtle [turtle2]" in line:
+                    spent.append(time.perf_counter_ns() - begin)
+                    launch.send_signal(signal.SIGINT)
+    return Figure(min(spent[1:]), statistics.median(spent[1:]))
 
 
 def run(environment: dict[str, str], words: list[str], expected: str) -> int:
