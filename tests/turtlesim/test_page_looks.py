@@ -96,6 +96,29 @@ def test_every_size_and_scheme(scene, open_page, size, scheme):
     check_boxes(size, page.evaluate(BOXES, list(PARTS)))
 
 
+@pytest.mark.parametrize("width", [360, 1200])
+def test_long_names_and_many_turtles_fit(simulator, open_page, width):
+    for k in range(30):
+        simulator.world.spawn(1.0 + k / 4, 2.0, 0.5, f"a_turtle_with_a_very_long_name_indeed_{k}")
+    simulator.missing = ("a_turtle_with_a_very_long_name_that_somebody_waits_for",)
+    page = open_page(simulator.screen.url, viewport={"width": width, "height": 800})
+    page.wait_for_selector("#hint button")
+    page.evaluate("""async () => {
+        const { FramesPanel } = await import('/js/frames_panel.js');
+        const name = (k) => `a_frame_with_a_very_long_name_as_${k}_optical_link`;
+        const frames = [0, 1, 2, 3].map((k) => [name(k + 1), name(k), 10, k]);
+        const relation = { error: `"${name(1)}" passed to lookupTransform argument source_frame does not exist. `, hint: name(2) };
+        new FramesPanel(() => null).show({ frames, target: name(0), source: name(1), relation });
+    }""")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    aside, header = (page.locator(part).bounding_box() for part in ("aside", "header"))
+    assert aside["x"] + aside["width"] <= header["x"] + header["width"]
+    assert page.inner_text("#more") == "and 19 more"
+    assert page.locator("#tree li[data-kind=stale]").count() == 2
+    red = page.evaluate("getComputedStyle(document.querySelector('#tree li[data-kind=stale] > small')).color")
+    assert red == "rgb(194, 51, 77)"
+
+
 def check_boxes(size: str, boxes: dict[str, list[int]]) -> None:
     """Each part where it was, as wide and as high as it was, but for a line of text more or less in a part above it."""
     file = GOLDEN / f"{size}-boxes.json"

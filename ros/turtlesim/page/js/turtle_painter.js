@@ -6,6 +6,7 @@ import { drawTurtle } from "./turtle_art.js";
 const SPRITE_METRES = 1.3;
 const STRIDES = 12;
 const MOST_NAMES = 60;
+const LONGEST_LABEL = 18;
 const CROWD = 100; // more turtles than this do not swing, and turn in steps
 const HEADINGS = 48;
 const FULL_TURN = 2 * Math.PI;
@@ -93,7 +94,8 @@ function ring(ctx, [x, y], scale) {
 }
 
 /** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
-function label(ctx, name, [x, y], scale) {
+function label(ctx, fullName, [x, y], scale) {
+  const name = fullName.length > LONGEST_LABEL ? `${fullName.slice(0, LONGEST_LABEL - 1)}…` : fullName;
   const size = ctx.canvas.width;
   const font = Math.max(11 * devicePixelRatio, size / 45);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
