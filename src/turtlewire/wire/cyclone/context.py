@@ -52,6 +52,11 @@ class CycloneContext(Context):
                 self._graph = CycloneGraph(self.participant, self.announcer, self.reader)
             return self._graph
 
+    @property
+    def closing(self) -> bool:
+        """Whether :meth:`close` was called."""
+        return self._closed
+
     def graph_changed(self) -> None:
         """On the reader thread: something that a graph predicate may ask is another one now."""
         if self._graph is not None:

@@ -123,5 +123,6 @@ class CycloneNode(Node):
         with self._lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:
+            endpoint.ends_with_participant = self.context.closing
             endpoint.close()
         self.context.remove_node(self, self._record)

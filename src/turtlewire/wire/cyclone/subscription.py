@@ -163,6 +163,7 @@ class CycloneSubscription(Endpoint, Subscription):
         super().close()
 
     def _delete(self) -> None:
+        self.ends_with_participant = self.ends_with_participant and self.inlet is None  # which must end after the reader
         super()._delete()
         if self.inlet is not None:
             self.inlet.close()
