@@ -156,8 +156,7 @@ class Buffer(BufferCore, BufferInterface):
         Raises:
             TransformException: As :meth:`lookup_transform`, when the time is over, or when the answer cannot come any more.
         """
-        transform: TransformStamped = await self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
-        return transform
+        return await _outcome(self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout))
 
     async def lookup_transform_full_async(
         self,
@@ -171,8 +170,7 @@ class Buffer(BufferCore, BufferInterface):
     ) -> TransformStamped:
         """:meth:`lookup_transform_full` for ``async def`` callbacks and asyncio; waits as :meth:`lookup_transform_async`."""
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        transform: TransformStamped = await self.wait_for_transform_full_async(*asked, timeout=timeout)
-        return transform
+        return await _outcome(self.wait_for_transform_full_async(*asked, timeout=timeout))
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None) -> Future:
         """A future whose result will be the transform, once it is known. Cancel it when it is not wanted any more.
@@ -227,6 +225,14 @@ class _Question(NamedTuple):
             return False
         latest = any(leg.stamp_ns == 0 for leg in self.legs if (leg.target, leg.source) == (error.target_frame, error.source_frame))
         return not latest and error.requested_ns < error.newest_ns - keep_ns
+
+
+async def _outcome(future: Future) -> TransformStamped:
+    try:
+        transform: TransformStamped = await future
+    finally:
+        future.cancel()  # of effect when whoever waits has been cancelled himself
+    return transform
 
 
 def _limit(timeout: Duration | Any) -> int | None:

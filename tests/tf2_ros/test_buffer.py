@@ -341,6 +341,22 @@ def test_a_cancelled_future_is_forgotten(buffer):
     assert buffer._futures._stop_listening is None
 
 
+def test_a_cancelled_task_waits_no_longer(buffer, stamped):
+    async def give_up():
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(buffer.lookup_transform_async("world", "robot", Time()), 0.01)
+        task = asyncio.create_task(buffer.lookup_transform_full_async("world", Time(), "robot", Time(), "world"))
+        await asyncio.sleep(0)
+        assert len(buffer._futures._waiting) == 1
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        assert buffer._futures._waiting == []
+
+    asyncio.run(give_up())
+    buffer.set_transform(stamped(), "me")
+
+
 def test_deadlines_come_in_order_and_leave_no_thread():
     from tf2_ros.deadlines import Deadlines
 
