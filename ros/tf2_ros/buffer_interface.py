@@ -40,6 +40,7 @@ _REGISTERED_BY = {
         "geometry_msgs/Vector3Stamped",
         "geometry_msgs/VelocityStamped",
         "geometry_msgs/WrenchStamped",
+        "nav_msgs/Odometry",
         "nav_msgs/Path",
     },
     "tf2_sensor_msgs": {"sensor_msgs/PointCloud2"},
