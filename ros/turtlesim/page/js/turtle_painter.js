@@ -95,7 +95,7 @@ function ring(ctx, [x, y], scale) {
 
 /** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
 function label(ctx, fullName, [x, y], scale) {
-  const name = fullName.length > LONGEST_LABEL ? `${fullName.slice(0, LONGEST_LABEL - 1)}…` : fullName;
+  const name = fullName.length > LONGEST_LABEL ? `${fullName.slice(0, LONGEST_LABEL / 2)}…${fullName.slice(1 - LONGEST_LABEL / 2)}` : fullName;
   const size = ctx.canvas.width;
   const font = Math.max(11 * devicePixelRatio, size / 45);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
