@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
@@ -132,20 +133,19 @@ def lookup_velocity(
     latest = _attempt(lambda: self._tree.latest_common_time(observation_frame, tracking_frame))
     newest = latest if isinstance(latest, int) else 0
     axes, fixed = reference_frame or observation_frame, point_frame or tracking_frame
-    for i, stamp in enumerate(times):
-        t = stamp or newest
+
+    def measure(t: int) -> tuple[float, ...]:
         end = min(t + interval_ns // 2, newest) if t <= newest else t
+        last = _bare(self, observation_frame, tracking_frame, end)
+        first = _bare(self, observation_frame, tracking_frame, end - interval_ns)
+        turn = _bare(self, axes, observation_frame, t)[3:]
+        at = compose(_bare(self, tracking_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
+        linear, angular = _mean_velocity(first, last, at, interval_ns / 1e9)
+        return (*rotate(turn, linear), *rotate(turn, angular))
 
-        def measure(t: int = t, end: int = end) -> tuple[float, ...]:
-            last = _bare(self, observation_frame, tracking_frame, end)
-            first = _bare(self, observation_frame, tracking_frame, end - interval_ns)
-            turn = _bare(self, axes, observation_frame, t)[3:]
-            at = compose(_bare(self, tracking_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
-            linear, angular = _mean_velocity(first, last, at, interval_ns / 1e9)
-            return (*rotate(turn, linear), *rotate(turn, angular))
-
+    for i, stamp in enumerate(times):
         with self._changed:
-            row = _with_status(self, measure, status, i)
+            row = _with_status(self, partial(measure, stamp or newest), status, i)
         target = result if single else result[i]
         target[:] = math.nan if row is None else row
     return result
