@@ -4,46 +4,19 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string_view.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "../core/intake.hpp"
 #include "buffer.hpp"
+#include "cyclone.hpp"
 
 namespace turtlewire::python {
 namespace {
 
 using namespace nb::literals;
-
-// What we call of Cyclone DDS 11. Python looks it up, in the very library that it uses itself.
-struct SampleInfo {  // dds_sample_info_t
-  std::uint32_t sample_state, view_state, instance_state;
-  bool valid_data;
-  std::int64_t source_timestamp;
-  std::uint64_t instance_handle, publication_handle;
-  std::uint32_t disposed_generation_count, no_writers_generation_count;
-  std::uint32_t sample_rank, generation_rank, absolute_generation_rank;
-};
-using Entity = std::int32_t;
-using Take = std::int32_t (*)(Entity reader, void** samples, std::uint32_t count, SampleInfo* infos,
-                              std::uint32_t states);
-using SizeOf = std::uint32_t (*)(const void* sample);
-using CopyOf = void (*)(const void* sample, std::size_t offset, std::size_t size, void* bytes);
-using Release = void (*)(void* sample);
-using Trigger = std::int32_t (*)(Entity guard, bool triggered);
-
-constexpr std::uint32_t kAnyState = 127;
-constexpr std::size_t kBatch = 32;
-
-struct Cyclone {
-  Take take = nullptr;
-  SizeOf size_of = nullptr;
-  CopyOf copy_of = nullptr;
-  Release release = nullptr;
-  Trigger trigger = nullptr;
-};
 
 class IntakeObject {
  public:
@@ -51,10 +24,8 @@ class IntakeObject {
 
   Intake core;
 
-  void connect(const std::array<std::uintptr_t, 5>& functions, Entity guard) {
-    cyclone_ = {reinterpret_cast<Take>(functions[0]), reinterpret_cast<SizeOf>(functions[1]),
-                reinterpret_cast<CopyOf>(functions[2]), reinterpret_cast<Release>(functions[3]),
-                reinterpret_cast<Trigger>(functions[4])};
+  void connect(const Addresses& functions, Entity guard) {
+    cyclone_ = Cyclone(functions);
     guard_ = guard;
   }
 
@@ -79,24 +50,21 @@ class IntakeObject {
 
  private:
   void take_all(Entity reader) noexcept {
-    std::array<void*, kBatch> samples;
-    std::array<SampleInfo, kBatch> infos;
-    std::int32_t count = 0;
     bool wanted = false;
-    do {
-      count = cyclone_.take(reader, samples.data(), kBatch, infos.data(), kAnyState);
-      for (std::int32_t i = 0; i < count; ++i) {
-        if (infos[i].valid_data) wanted |= receive(samples[i], infos[i]);
-        cyclone_.release(samples[i]);
+    for (bool more = true; more;) {
+      const Samples samples(cyclone_, reader, Samples::kMost);
+      more = samples.size() == Samples::kMost;
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples.info(i).valid_data) wanted |= receive(samples, i);
       }
-    } while (count == kBatch);
+    }
     if (wanted) cyclone_.trigger(guard_, true);
   }
 
-  bool receive(const void* sample, const SampleInfo& info) noexcept try {
-    bytes_.resize(cyclone_.size_of(sample));
-    cyclone_.copy_of(sample, 0, bytes_.size(), bytes_.data());
-    return core.receive(info.publication_handle, info.source_timestamp, bytes_);
+  bool receive(const Samples& samples, std::size_t i) noexcept try {
+    bytes_.resize(samples.bytes(i));
+    samples.copy(i, bytes_.size(), bytes_.data());
+    return core.receive(samples.info(i).publication_handle, samples.info(i).source_timestamp, bytes_);
   } catch (const std::bad_alloc&) {
     return false;  // the message is lost
   }
@@ -134,6 +102,27 @@ PyType_Slot slots[] = {
     {0, nullptr},
 };
 
+// Messages of a reader, as take() above returns them.
+nb::list take_messages(const Cyclone& cyclone, Entity reader, std::int64_t most) {
+  nb::list list;
+  for (bool more = true; more && most > 0;) {
+    const std::uint32_t wanted = static_cast<std::uint32_t>(std::min<std::int64_t>(most, Samples::kMost));
+    const Samples samples(cyclone, reader, wanted);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const SampleInfo& info = samples.info(i);
+      if (!info.valid_data) continue;
+      const std::size_t size = samples.bytes(i);
+      const auto bytes = nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
+      if (!bytes.is_valid()) throw nb::python_error();
+      samples.copy(i, size, PyBytes_AS_STRING(bytes.ptr()));
+      list.append(nb::make_tuple(bytes, info.publication_handle, info.source_timestamp));
+    }
+    more = samples.size() == wanted;
+    most -= wanted;
+  }
+  return list;
+}
+
 }  // namespace
 
 void add_intake_type(nb::module_& module) {
@@ -165,7 +154,7 @@ void add_intake_type(nb::module_& module) {
            "Calls the change listeners of the buffers, if data came for any of them since the last time.")
       .def(
           "connect",
-          [](nb::handle_t<IntakeObject> self, const std::array<std::uintptr_t, 5>& functions, Entity guard) {
+          [](nb::handle_t<IntakeObject> self, const Addresses& functions, Entity guard) {
             auto* intake = nb::inst_ptr<IntakeObject>(self);
             intake->connect(functions, guard);
             return std::pair(reinterpret_cast<std::uintptr_t>(&IntakeObject::on_data),
@@ -179,6 +168,13 @@ void add_intake_type(nb::module_& module) {
           "    guard: The guard condition to be triggered when there is something to take or listeners to call.\n\n"
           "Returns:\n"
           "    What is called when data is available, and its argument; this object must outlive the reader.");
+  nb::class_<Cyclone>(module, "Taker",
+                      "Takes messages of readers of Cyclone DDS, with the GIL held.\n\n"
+                      "Args:\n"
+                      "    functions: As for Intake.connect.")
+      .def(nb::init<const Addresses&>(), "functions"_a)
+      .def("take", &take_messages, "reader"_a, "limit"_a,
+           "At most `limit` messages, as Intake.take returns them; none when the reader has gone.");
 }
 
 }  // namespace turtlewire::python

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import TYPE_CHECKING
 
 from . import library as dds
+from .taking import NATIVE_FUNCTIONS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire._native import Intake
 
 __all__ = ["Inlet"]
-
-_FUNCTIONS = (dds.take_serdata, dds.serdata_size, dds.serdata_to_bytes, dds.serdata_unref, dds.set_guard_condition)
 
 
 class Inlet:
@@ -29,8 +25,7 @@ class Inlet:
     def __init__(self, participant: int, intake: Intake) -> None:
         self.intake = intake
         self.guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
-        first, second, third, fourth, fifth = (_address(function) for function in _FUNCTIONS)
-        callback, argument = intake.connect((first, second, third, fourth, fifth), self.guard)
+        callback, argument = intake.connect(NATIVE_FUNCTIONS, self.guard)
         self.listener = dds.create_listener(argument)
         dds.lset_data_available(self.listener, callback)
 
@@ -44,9 +39,3 @@ class Inlet:
         """To be called when the reader has been deleted: then no thread is in the native code any more."""
         dds.delete_listener(self.listener)
         dds.delete(self.guard)
-
-
-def _address(function: Callable[..., object]) -> int:
-    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type] # a function of ctypes
-    assert address is not None
-    return address

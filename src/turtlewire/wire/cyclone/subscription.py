@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import time
 from typing import TYPE_CHECKING, ClassVar
 
@@ -15,6 +14,7 @@ from . import library as dds
 from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_liveliness_changed, read_matched
 from .inlet import Inlet
 from .qos import dds_qos, read_user_data
+from .taking import take_messages
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -55,8 +55,6 @@ class CycloneSubscription(Endpoint, Subscription):
         self._condition = 0
         self._gids: dict[int, bytes] = {}
         self._user_data: dict[bytes, bytes] = {}
-        self._serdata = (ctypes.c_void_p * _BATCH)()
-        self._infos = (dds.SampleInfo * _BATCH)()
         topic = participant.topic(spec.dds_topic, spec.type_id.name)
         self.inlet = None if intake is None else Inlet(participant.handle, intake)
         listener = None if self.inlet is None else self.inlet.listener
@@ -76,44 +74,26 @@ class CycloneSubscription(Endpoint, Subscription):
 
     def take(self, limit: int = _BATCH) -> list[tuple[bytes, MessageInfo]]:
         """See :meth:`Subscription.take`."""
-        taken: list[tuple[bytes, MessageInfo]] = []
         with self._lock:
-            while limit > 0 and not self._closed:
-                wanted = min(limit, _BATCH)
-                count = dds.take_serdata(self.handle, self._serdata, wanted, self._infos, dds.ANY_STATE)
-                taken += self._messages(count)
-                limit -= wanted
-                if count < wanted:
-                    break
-        return taken
+            return [] if self._closed else self._messages_of(take_messages(self.handle, limit))
 
-    def _messages(self, count: int) -> list[tuple[bytes, MessageInfo]]:
-        """Copy the first ``count`` samples out of the buffers."""
-        messages = []
-        now = time.time_ns()
-        for index in range(count):
-            serdata, info = self._serdata[index], self._infos[index]
-            if info.valid_data:
-                size = dds.serdata_size(serdata)
-                data = bytes(size)  # new, and nobody else's yet: filled in place
-                dds.serdata_to_bytes(serdata, 0, size, data)
-                if self._is_readable(data):
-                    publisher = info.publication_handle
-                    gid = self._gids.get(publisher) or self._gid_of(publisher)
-                    messages.append((data, MessageInfo(info.source_timestamp, now, gid)))
-            dds.serdata_unref(serdata)
-        return messages
+    def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
+        """What an intake kept back, readable or not; None when that was nothing. Their publishers are introduced to the intake."""
+        kept = inlet.rest()
+        messages = self._messages_of(kept)
+        for _, publisher, _ in kept:
+            if publisher in self._gids:
+                inlet.intake.introduce(publisher, self._gids[publisher])
+        return messages if kept else None
 
-    def messages_of(self, kept: list[tuple[bytes, int, int]], intake: Intake) -> list[tuple[bytes, MessageInfo]]:
-        """What an intake kept back, as :meth:`take` returns it; their publishers are introduced to the intake."""
-        messages = []
+    def _messages_of(self, taken: list[tuple[bytes, int, int]]) -> list[tuple[bytes, MessageInfo]]:
+        """Those that are readable."""
         now = time.time_ns()
-        for data, publisher, sent in kept:
-            if self._is_readable(data):
-                gid = self._gids.get(publisher) or self._gid_of(publisher)
-                intake.introduce(publisher, gid)
-                messages.append((data, MessageInfo(sent, now, gid)))
-        return messages
+        return [
+            (data, MessageInfo(sent, now, self._gids.get(publisher) or self._gid_of(publisher)))
+            for data, publisher, sent in taken
+            if data[:2] == LITTLE_ENDIAN or self._refuse(data)
+        ]
 
     def _gid_of(self, publisher: int) -> bytes:
         endpoint = dds.matched_publication_data(self.handle, publisher)
@@ -146,9 +126,7 @@ class CycloneSubscription(Endpoint, Subscription):
         """What the publisher of a taken message announced of itself; empty when that is not known."""
         return self._user_data.get(publisher_gid, b"")
 
-    def _is_readable(self, data: bytes) -> bool:
-        if data[:2] == LITTLE_ENDIAN:
-            return True
+    def _refuse(self, data: bytes) -> bool:
         warn_once(f"header {self.topic}", f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)")
         return False
 
@@ -187,8 +165,8 @@ def deliver_rest_to(
     """:func:`deliver_to` of a subscription with an intake: what the reader thread calls when the inlet's guard is triggered."""
 
     def deliver() -> None:
-        while not subscription.closed and (kept := inlet.rest()):
-            for message in subscription.messages_of(kept, inlet.intake):
+        while not subscription.closed and (rest := subscription.take_rest(inlet)) is not None:
+            for message in rest:
                 if subscription.closed:
                     return
                 call_guarded(on_message, message, subscription.topic)
