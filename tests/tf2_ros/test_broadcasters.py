@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import random
 
 import pytest
 
+from rclpy.context import Context
 from rclpy.duration import Duration
+from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
@@ -123,6 +126,51 @@ def test_none_is_lost_over_a_thousand_joins_with_updates_and_restarts(make_node,
             assert {child: x_of(buffer, child) for child in expected} == expected
             assert set(buffer._getFrameStrings()) == ({"world", *expected} if expected else set())
             joined.destroy_node()
+
+
+@contextlib.contextmanager
+def open_node(name):
+    """A node on a participant of its own, as in another process."""
+    context = Context()
+    context.init(args=[])
+    node = Node(name, context=context, enable_rosout=False, start_parameter_services=False)
+    try:
+        yield node
+    finally:
+        node.destroy_node()
+        context.try_shutdown()
+
+
+@pytest.mark.parametrize("enough_joins", [100, pytest.param(1000, marks=pytest.mark.slow)])
+def test_nor_is_any_lost_on_the_wire(enough_joins, monkeypatch, stamped):
+    """The same among participants of Cyclone DDS, each with frames of its own."""
+    monkeypatch.delenv("RMW_IMPLEMENTATION")
+    chance = random.Random(20261121)
+    broadcasters, expected, owner = {}, {}, {}
+    joins = step = 0
+    with contextlib.ExitStack() as opened:
+        while joins < enough_joins:
+            step += 1
+            name = f"broadcaster{chance.randrange(4)}"
+            action = chance.random()
+            if action < 0.02 and name in broadcasters:
+                broadcasters.pop(name)[0].close()
+                expected = {child: x for child, x in expected.items() if owner[child] != name}
+            elif action < 0.3:
+                if name not in broadcasters:
+                    node = opened.enter_context(life := contextlib.ExitStack()).enter_context(open_node(name))
+                    broadcasters[name] = (life, StaticTransformBroadcaster(node))
+                children = [f"{name}_frame{chance.randrange(6)}" for _ in range(chance.randrange(1, 4))]
+                broadcasters[name][1].sendTransform([stamped(child=child, x=float(step)) for child in children])
+                expected |= dict.fromkeys(children, float(step))
+                owner |= dict.fromkeys(children, name)
+            else:
+                joins += 1
+                with open_node("joined") as node:
+                    buffer = Buffer()
+                    TransformListener(buffer, node)
+                    assert {child: x_of(buffer, child) for child in expected} == expected
+                    assert set(buffer._getFrameStrings()) == ({"world", *expected} if expected else set())
 
 
 def test_a_destroyed_broadcaster_says_so(node, stamped):
