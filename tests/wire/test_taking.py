@@ -1,0 +1,66 @@
+"""Both ways of taking messages out of a Cyclone reader, by native code and through ctypes, give the same."""
+
+from __future__ import annotations
+
+import pytest
+
+from turtlewire import wire
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.cyclone import taking
+from turtlewire.wire.qos import History, QoS
+
+STRING = TypeId("std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18")
+LONG_NS = 30_000_000_000
+
+
+def cdr(number, size):
+    text = str(number).encode().ljust(size, b".") + b"\0"
+    return b"\0\1\0\0" + len(text).to_bytes(4, "little") + text
+
+
+WAYS = {"ctypes": taking.take_with_ctypes}
+if taking.take_messages is not taking.take_with_ctypes:
+    WAYS["native"] = taking.take_messages
+
+
+@pytest.fixture
+def pair():
+    context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+    node = context.create_node("node")
+    qos = QoS(history=History.KEEP_ALL)
+    publisher, subscription = node.create_publisher("/texts", STRING, qos), node.create_subscription("/texts", STRING, qos)
+    assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG_NS)
+    yield publisher, subscription
+    context.close()
+
+
+@pytest.mark.parametrize("take", list(WAYS.values()), ids=list(WAYS))
+@pytest.mark.parametrize("limit", [1, 31, 32, 33, 64, 1000])
+def test_messages_come_whole_in_order_and_no_more_than_asked_for(pair, take, limit):
+    publisher, subscription = pair
+    sent = [cdr(number, size=1 << number % 17) for number in range(70)]
+    for message in sent:
+        publisher.publish(message)
+    taken, sizes = [], []
+    while some := take(subscription.handle, limit):
+        taken += some
+        sizes.append(len(some))
+    assert [data[: len(message)] for message, (data, _, _) in zip(sent, taken, strict=True)] == sent
+    assert len({publisher for _, publisher, _ in taken}) == 1
+    stamps = [stamp for _, _, stamp in taken]
+    assert stamps == sorted(stamps)
+    assert max(sizes) <= limit
+    assert all(size == limit for size in sizes[:-1])
+
+
+@pytest.mark.parametrize("take", list(WAYS.values()), ids=list(WAYS))
+def test_there_is_nothing_in_an_empty_or_closed_reader(pair, take):
+    publisher, subscription = pair
+    assert take(subscription.handle, 10) == []
+    publisher.publish(cdr(1, 1))
+    assert take(subscription.handle, 0) == []
+    assert len(take(subscription.handle, 10)) == 1
+    publisher.publish(cdr(2, 1))
+    subscription.close()
+    assert take(subscription.handle, 10) == []
+    assert subscription.take() == []
