@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import json
 import math
 import re
 import time
 
 import pytest
+from websockets.sync.client import connect
 
 import rclpy
 from action_msgs.msg import GoalStatus
@@ -28,8 +31,8 @@ MIDDLE = 5.544444561004639
 class World:
     """A simulator, a node that talks to it, and what it hears."""
 
-    def __init__(self, **options) -> None:
-        self.sim = TurtlesimNode(headless=True, **options)
+    def __init__(self, *, headless: bool = True, **options) -> None:
+        self.sim = TurtlesimNode(headless=headless, **options)
         self.user = Node("user")
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.sim)
@@ -247,6 +250,25 @@ def test_parameters_have_the_original_defaults_and_ranges(world):
     assert not result.successful
 
 
+def test_the_page_shows_the_background_live(make_world, monkeypatch):
+    monkeypatch.setenv("TURTLEWIRE_PORT", "0")
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    world = make_world(headless=False)
+    with connect(world.sim._screen.url.replace("http", "ws") + "live", close_timeout=0.2) as page:
+        assert json.loads(page.recv(timeout=20))["background"] == [69, 86, 255]
+        world.sim.set_parameters([Parameter("background_r", value=200)])
+        scenes: list[str] = []
+
+        def look() -> bool:
+            with contextlib.suppress(TimeoutError):
+                while True:
+                    scenes.extend(message for message in [page.recv(timeout=0)] if isinstance(message, str))
+            return bool(scenes)
+
+        world.spin_until(look)
+    assert json.loads(scenes[0])["background"] == [200, 86, 255]
+
+
 def test_names_are_relative_to_the_namespace(make_world):
     world = make_world(namespace="/turtlesim1")
     poses = world.listen(Pose, "/turtlesim1/turtle1/pose")
@@ -262,6 +284,10 @@ def test_turtles_are_stepped_in_the_order_of_their_names(world):
 
 
 class TestMissingTurtles:
+    @pytest.fixture(autouse=True)
+    def impatient(self, monkeypatch):
+        monkeypatch.setattr("turtlesim.missing_turtles._PATIENCE_S", 0.2)
+
     def test_a_wanted_turtle_is_named_once_with_the_command(self, make_world, capfd):
         world = make_world()
         capfd.readouterr()

@@ -54,13 +54,14 @@ def test_the_fixed_carrot(lesson, turtles):
     turtles.wait_for(lambda: away(turtles, middle, middle + 2.0) < 1.0)
 
 
+@pytest.mark.slow
 def test_the_swinging_carrot(lesson, turtles):
     lesson("turtle_tf2_dynamic_frame_demo.launch.py", processes=5)
     assert math.hypot(*carrot_seen_from_turtle1(turtles)) == pytest.approx(10.0)
     turtles.wait_for(lambda: "turtle2" in turtles.poses and turtles.poses["turtle2"].linear_velocity > 2.0)  # never nearer than that
 
 
-@pytest.mark.parametrize("waiting", ["blocking", "async"])
+@pytest.mark.parametrize("waiting", ["blocking", pytest.param("async", marks=pytest.mark.slow)])
 def test_a_listener_that_waits(lesson, turtles, waiting):
     launch = lesson("turtle_tf2_waiting_demo.launch.py", f"waiting:={waiting}", processes=4)
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
@@ -74,6 +75,7 @@ def test_time_travel(lesson, turtles):
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
 
 
+@pytest.mark.slow
 def test_a_target_is_an_argument(lesson, turtles, run, workspace):
     """The launch file of the demo with another target, and the carrot from a terminal of its own."""
     lesson("turtle_tf2_demo.launch.py", "target_frame:=carrot1", processes=4)
@@ -81,6 +83,20 @@ def test_a_target_is_an_argument(lesson, turtles, run, workspace):
     run(ROS2, "run", "tf2_ros", "static_transform_publisher", *static)
     middle = 499 / 90
     turtles.wait_for(lambda: away(turtles, middle - 2.0, middle) < 1.0)
+
+
+@pytest.mark.slow
+def test_the_demo_speaks_the_interfaces_of_kilted(run, workspace):
+    """The same sources, which import turtlesim's interfaces by their former names."""
+    environment = {**workspace(PACKAGE), "ROS_DISTRO": "kilted"}
+    launch = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=environment)
+    launch.wait_for("Successfully spawned turtle2")
+    echo = run(ROS2, "topic", "echo", "--once", "/turtle2/pose", "turtlesim_msgs/msg/Pose", environment=environment)
+    assert echo.wait() == 0
+    assert echo.text.startswith("x: ")
+    launch.signal_group(signal.SIGINT)
+    assert launch.wait() == 0
+    assert launch.text.count("process has finished cleanly") == 4
 
 
 def test_the_arguments_are_shown_and_checked(run, workspace):
