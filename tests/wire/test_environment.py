@@ -100,6 +100,13 @@ def test_configuration_of_each_range():
     assert off.findtext("Discovery/Tag") == f"ros_discovery_off_{os.getpid()}"
 
 
+@pytest.mark.parametrize(("processes", "interval"), [(None, "100 ms"), (0, "100 ms"), (9, "100 ms"), (50, "500 ms"), (119, "1000 ms")])
+def test_in_a_crowd_heartbeats_are_calmer(monkeypatch: pytest.MonkeyPatch, processes: int | None, interval: str):
+    monkeypatch.setattr("turtlewire.wire.cyclone.configuration.processes_on_host", lambda _: processes)
+    assert configuration(Discovery(Range.LOCALHOST, ())).findtext("Internal/HeartbeatInterval") == interval
+    assert configuration(Discovery(Range.SUBNET, ())).findtext("Internal/HeartbeatInterval") is None
+
+
 def test_the_users_configuration_comes_last(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "file:///my.xml")
     assert domain_configuration(7, Discovery(Range.SUBNET, ())).endswith("</CycloneDDS>,file:///my.xml")

@@ -8,15 +8,15 @@ import re
 from turtlewire.errors import WireError
 from turtlewire.wire.environment import Discovery, Range
 
-from .ports import max_processes
+from .ports import max_processes, processes_on_host
 
 __all__ = ["domain_configuration"]
 
 #: Above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes, or the heartbeats of a crowd, arrive in one burst.
 _RECEIVE_BUFFER = "10 MB"
-#: On one host each process that comes makes all writers of all others send heartbeats to everybody. Half as often as Cyclone's 100 ms
-#: halves what a crowd that starts at once has to work through; what arrives at the first attempt takes no longer.
-_LOCAL_HEARTBEAT_INTERVAL = "200 ms"
+#: On one host, each process that comes makes all writers of all others send heartbeats to everybody, at this interval. In a crowd it is
+#: longer, so that the heartbeats of one process do not become more with every process that is there: 120 that start would drown in them.
+_LEAST_HEARTBEAT_MS, _HEARTBEAT_MS_PER_PROCESS, _GREATEST_HEARTBEAT_MS = 100, 10, 1000
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
 #: would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
@@ -29,7 +29,7 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     Raises:
         WireError: A static peer is not an address.
     """
-    parts = [_general(discovery), _internal(discovery)]
+    parts = [_general(discovery), _internal(domain_id, discovery)]
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this host.
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
@@ -54,11 +54,13 @@ def _general(discovery: Discovery) -> str:
     return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
 
 
-def _internal(discovery: Discovery) -> str:
+def _internal(domain_id: int, discovery: Discovery) -> str:
     buffer = f'<SocketReceiveBufferSize max="{_RECEIVE_BUFFER}"/>'
-    local = discovery.range == Range.LOCALHOST
-    heartbeat = f"<HeartbeatInterval>{_LOCAL_HEARTBEAT_INTERVAL}</HeartbeatInterval>" if local else ""
-    return f"<Internal>{buffer}{heartbeat}</Internal>"
+    if discovery.range != Range.LOCALHOST:
+        return f"<Internal>{buffer}</Internal>"
+    calm = _HEARTBEAT_MS_PER_PROCESS * (processes_on_host(domain_id) or 0)
+    interval = min(max(_LEAST_HEARTBEAT_MS, calm), _GREATEST_HEARTBEAT_MS)
+    return f"<Internal>{buffer}<HeartbeatInterval>{interval} ms</HeartbeatInterval></Internal>"
 
 
 def _peers(discovery: Discovery) -> str:
