@@ -40,19 +40,22 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is no XML; names file and line.
-            ValueError: It declares entities.
+            SyntaxError: It is no XML, or may declare entities; names file and line.
         """
+        from defusedxml.common import DTDForbidden
         from defusedxml.ElementTree import DefusedXMLParser, parse
 
         builder = _Builder()
         parser = DefusedXMLParser(target=builder, forbid_dtd=True)
         builder.parser = parser.parser
+        name = os.path.basename(file if isinstance(file, str) else getattr(file, "name", ""))
         try:
             root: Any = parse(file, parser=parser).getroot()
+        except DTDForbidden:
+            text = "a document type declaration, which may hold entities, is not allowed here"
+            raise SyntaxError(text, (name, builder.parser.CurrentLineNumber, None, None)) from None
         except ET.ParseError as error:
-            path = file if isinstance(file, str) else getattr(file, "name", "")
-            error.filename, error.lineno = os.path.basename(path), error.position[0]
+            error.filename, error.lineno = name, error.position[0]
             raise
         return Entity(root), cls()
 

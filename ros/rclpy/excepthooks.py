@@ -2,6 +2,7 @@
 
 Nobody asked where the program was when it was told to end, also when that was while it still imported. The exit status stays that of an
 interrupted program. The same goes for threads that spin: ``ExternalShutdownException`` is how they learn of the signal, not a fault.
+A command line that cannot be read is told in one line.
 """
 
 from __future__ import annotations
@@ -36,8 +37,19 @@ def note_signal() -> None:
 
 
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
-    if not issubclass(kind, KeyboardInterrupt) or hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
+    if hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
         _previous_hook(kind, value, traceback)
+    elif _is_of_the_command_line(traceback):
+        _previous_hook(kind, value.with_traceback(None), None)
+    elif not issubclass(kind, KeyboardInterrupt):
+        _previous_hook(kind, value, traceback)
+
+
+def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
+    """Whether ``--ros-args`` could not be read: the text says all, and the program is not at fault."""
+    while traceback is not None and traceback.tb_next is not None:
+        traceback = traceback.tb_next
+    return traceback is not None and traceback.tb_frame.f_globals.get("__name__") == "rclpy.arguments"
 
 
 def _thread_hook(arguments: threading.ExceptHookArgs) -> None:

@@ -65,7 +65,8 @@ REMOTE = '<!DOCTYPE launch SYSTEM "http://127.0.0.1:9/evil.dtd"><launch/>'
 @pytest.mark.parametrize("text", [BOMB, EXTERNAL, REMOTE])
 def test_entities_are_refused(tmp_path, text):
     (tmp_path / "x.launch.xml").write_text(text)
-    with pytest.raises(ValueError, match="DTDForbidden"):
+    message = r"a document type declaration, which may hold entities, is not allowed here \(x.launch.xml, line 1\)"
+    with pytest.raises(SyntaxError, match=message):
         Parser.load(str(tmp_path / "x.launch.xml"))
 
 

@@ -57,6 +57,30 @@ def test_python_scripts_run_on_this_interpreter(package, capfd):
     assert capfd.readouterr().out.strip() == sys.executable
 
 
+@pytest.mark.parametrize(
+    ("option", "value", "error"),
+    [
+        ("-r", "foo", "Couldn't parse remap rule: '-r foo'. Error: Expected lexeme type (19) not found, search ended at index 3"),
+        ("--params-file", "/nope.yaml", "Couldn't parse params file: '--params-file /nope.yaml'. Error: Error opening YAML file"),
+        (
+            "--params-file",
+            "broken.yaml",
+            (
+                "Couldn't parse params file: '--params-file broken.yaml'. Error: "
+                "Sequence should be of same type. Value type 'string' do not belong at line_num 3"
+            ),
+        ),
+    ],
+)
+def test_a_bad_command_line_of_a_node_is_told_in_one_line(tmp_path, monkeypatch, capfd, option, value, error):
+    (tmp_path / "broken.yaml").write_text("/**:\n  ros__parameters:\n    a: [1, b]\n")
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "tf2_ros", "static_transform_publisher", "--ros-args", option, value]) == 1
+    told = capfd.readouterr().err
+    assert told.rstrip().endswith(error)
+    assert "Traceback" not in told
+
+
 def test_a_prefix_comes_before_the_executable(package, capfd):
     package("x", "#!/bin/sh\n")
     assert main(["run", "--prefix", "echo before", "p", "x"]) == 0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from ros2cli.completion import arguments_of_executable, executables, packages
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 __all__ = ["add_arguments", "main"]
 
@@ -48,7 +48,8 @@ def main(args: argparse.Namespace) -> int | str:
 
 
 def _run(command: list[str]) -> int:
-    with subprocess.Popen(command) as process, _passed_on(process):  # noqa: S603  what the user asked for
+    with _signals_passed_on() as pass_on, subprocess.Popen(command) as process:  # noqa: S603  what the user asked for
+        pass_on(process)
         while process.returncode is None:
             with contextlib.suppress(KeyboardInterrupt):  # the terminal has sent it to the executable as well, which decides
                 process.wait()
@@ -61,12 +62,26 @@ def _run(command: list[str]) -> int:
 
 
 @contextlib.contextmanager
-def _passed_on(process: subprocess.Popen[bytes]) -> Iterator[None]:
-    """Whoever ends this process means the executable, which would stay behind otherwise."""
+def _signals_passed_on() -> Iterator[Callable[[subprocess.Popen[bytes]], None]]:
+    """Whoever ends this process means the executable, which would stay behind otherwise; yields what names it."""
+    started: list[subprocess.Popen[bytes]] = []
+    early: list[int] = []
+
+    def handle(number: int, _frame: object) -> None:
+        if started:
+            started[0].send_signal(number)
+        else:
+            early.append(number)
+
+    def pass_on(process: subprocess.Popen[bytes]) -> None:
+        started.append(process)
+        for number in early:
+            process.send_signal(number)
+
     numbers = (signal.SIGTERM, signal.SIGHUP) if threading.current_thread() is threading.main_thread() else ()
-    before = {number: signal.signal(number, lambda number, _: process.send_signal(number)) for number in numbers}
+    before = {number: signal.signal(number, handle) for number in numbers}
     try:
-        yield
+        yield pass_on
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
