@@ -247,6 +247,11 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
     page.select_option("#source", "carrot")
     page.select_option("#target", "turtle1")
     wait_for_text(page, "#relation-words", "carrot is 2.00 m to the left of turtle1")
+    page.focus("#source")
+    page.keyboard.press("ArrowDown")  # chooses the next frame, and drives nobody
+    page.keyboard.press("t")
+    assert page.input_value("#source") in ("turtle1", "turtle2")
+    assert simulator.commands == []
     publish_transform(simulator, "elsewhere", "lost", time.time_ns(), 0.0, 2.0)
     wait_for_text(page, "#tree", "lost")
     page.select_option("#source", "lost")
@@ -289,8 +294,8 @@ def test_a_foreign_page_is_refused(simulator, make_simulator, open_page):
 
 def test_what_a_page_sends_wrong_is_answered(simulator):
     with connect(simulator.screen.url.replace("http", "ws") + "live") as raw:
-        assert json.loads(raw.recv(timeout=10))["turtles"] == ["turtle1"]
+        assert json.loads(raw.recv(timeout=60))["turtles"] == ["turtle1"]
         raw.send('{"type": "drive", "turtle": "turtle1", "linear": "fast", "angular": 0}')
-        texts = [message for _ in range(20) if isinstance(message := raw.recv(timeout=10), str)]
+        texts = [message for _ in range(20) if isinstance(message := raw.recv(timeout=60), str)]
         assert [json.loads(text) for text in texts] == [{"type": "error", "text": "linear is a number between -1000000 and 1000000"}]
     assert simulator.commands == []

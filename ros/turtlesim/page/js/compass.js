@@ -1,5 +1,7 @@
 // Turning to a heading: the keys around F, each for the direction in which it lies from there, as in turtle_teleop_key.
 
+import { isForTurtles } from "./controls.js";
+
 const KEYS = [
   ["e", 2.3562], ["r", 1.5708], ["t", 0.7854],
   ["d", 3.1416], ["f", null], ["g", 0],
@@ -12,7 +14,7 @@ export function listenForRotating(compass, { rotate, cancel }) {
   compass.append(...buttons.values());
   addEventListener("keydown", (event) => {
     const button = buttons.get(event.key.toLowerCase());
-    if (!button || event.repeat || event.ctrlKey || event.altKey || event.metaKey || event.target instanceof HTMLSelectElement) return;
+    if (!button || event.repeat || !isForTurtles(event)) return;
     button.classList.add("pressed");
     button.click();
   });

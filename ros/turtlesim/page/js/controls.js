@@ -11,12 +11,17 @@ const DRIVES = {
 };
 const KEYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right" };
 
+/** Whether a key press is for the turtles: not for the browser, and not for a list in which keys choose. */
+export function isForTurtles(event) {
+  return !(event.ctrlKey || event.altKey || event.metaKey || event.target instanceof HTMLSelectElement);
+}
+
 /** Call `drive({linear, angular})` for each press of an arrow key or of the pad. */
 export function listenForDriving(pad, drive) {
   const buttons = new Map([...pad.querySelectorAll("button")].map((button) => [button.dataset.drive, button]));
   addEventListener("keydown", (event) => {
     const direction = KEYS[event.key];
-    if (!direction || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (!direction || !isForTurtles(event)) return;
     event.preventDefault();
     buttons.get(direction).classList.add("pressed");
     drive(DRIVES[direction]);
