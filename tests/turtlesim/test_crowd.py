@@ -6,12 +6,15 @@ import random
 import struct
 
 import numpy as np
+import pytest
 
-from turtlesim import turtlesim_node
+from rclpy.publisher import Publisher
+from turtlesim import turtle_endpoints, turtlesim_node
 from turtlesim.crowd import Crowd
 from turtlesim.drawing import Drawing
 from turtlesim.model import TICK_NS, Pen, World
 from turtlesim.msg import Color, Pose
+from turtlesim.path import PathImage
 from turtlesim.testing import Simulation
 
 
@@ -82,6 +85,40 @@ def _story() -> list:
     assert len(heard) > 4000
     assert len({str(message) for _, message in heard if type(message).__name__ == "Color"}) > 1
     return [*heard, picture]
+
+
+@pytest.mark.parametrize("crowd_from", [1, 10_000])
+def test_what_nobody_listens_to_is_not_even_made(monkeypatch, crowd_from):
+    """Neither message nor bytes of poses and colours, and no pixel looked up, until somebody comes; and again after he went."""
+    done: list[str] = []
+    monkeypatch.setattr(turtlesim_node, "_CROWD", crowd_from)
+    monkeypatch.setattr(PathImage, "colour_at", lambda *_: done.append("look") or (1, 2, 3))
+    publish = Publisher.publish
+
+    def record(publisher, message):
+        if publisher.topic.endswith(("/pose", "/color_sensor")):
+            done.append(publisher.topic)
+        publish(publisher, message)
+
+    monkeypatch.setattr(Publisher, "publish", record)
+    with Simulation() as simulation:
+        simulation.spawn("turtle2", x=2.0, y=2.0)
+        for kind in (Pose, Color):
+            monkeypatch.setattr(turtle_endpoints, kind.__name__, lambda kind=kind, **fields: done.append("make") or kind(**fields))
+        simulation.step(3)
+        assert done == []
+        listener = simulation._driver.create_subscription(Color, "/turtle2/color_sensor", lambda _: None, 1)
+        simulation._come_to_rest()
+        simulation.step()
+        assert done == ["look", "make", "/turtle2/color_sensor"]
+        simulation._driver.destroy_subscription(listener)
+        simulation._come_to_rest()
+        simulation.step(3)
+        assert len(done) == 3
+        simulation._driver.create_subscription(Pose, "/turtle1/pose", lambda _: None, 1)
+        simulation._come_to_rest()
+        simulation.step()
+        assert done[3:] == (["/turtle1/pose"] if crowd_from == 1 else ["make", "/turtle1/pose"])
 
 
 def test_a_drawing_keeps_the_newest_strokes_of_a_crowd(monkeypatch):
