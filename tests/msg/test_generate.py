@@ -130,6 +130,7 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         "request = AddSphere.Request(sphere=Sphere())\n"
         "request.sphere.center.x = 1.0\n"
         "limit: int = Everything.LIMIT\n"
+        "def add(request: AddSphere.Request, response: AddSphere.Response) -> Roll.Goal: return Roll.Goal()\n"
         "Sphere(radius='big')\n"
         "Sphere().rdius\n"
     )
@@ -139,8 +140,8 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, cwd=tmp_path)
     errors = [line.partition("user.py:")[2] for line in done.stdout.splitlines() if "error" in line and "user.py" in line]
     assert errors == [
-        '11: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  [arg-type]',
-        '12: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
+        '12: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  [arg-type]',
+        '13: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
     ]
 
 

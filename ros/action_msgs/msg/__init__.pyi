@@ -3,7 +3,7 @@
 import builtin_interfaces.msg
 import unique_identifier_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

@@ -3,7 +3,7 @@
 import action_msgs.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -31,6 +31,6 @@ class CancelGoal_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[CancelGoal_Request] = ..., response: list[CancelGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class CancelGoal(Service):
-    Request = CancelGoal_Request
-    Response = CancelGoal_Response
-    Event = CancelGoal_Event
+    Request: TypeAlias = CancelGoal_Request
+    Response: TypeAlias = CancelGoal_Response
+    Event: TypeAlias = CancelGoal_Event

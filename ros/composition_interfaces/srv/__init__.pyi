@@ -4,7 +4,7 @@ import array
 import rcl_interfaces.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -32,9 +32,9 @@ class ListNodes_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListNodes_Request] = ..., response: list[ListNodes_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class ListNodes(Service):
-    Request = ListNodes_Request
-    Response = ListNodes_Response
-    Event = ListNodes_Event
+    Request: TypeAlias = ListNodes_Request
+    Response: TypeAlias = ListNodes_Response
+    Event: TypeAlias = ListNodes_Event
 
 class LoadNode_Request(Message):
     package_name: str
@@ -61,9 +61,9 @@ class LoadNode_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadNode_Request] = ..., response: list[LoadNode_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class LoadNode(Service):
-    Request = LoadNode_Request
-    Response = LoadNode_Response
-    Event = LoadNode_Event
+    Request: TypeAlias = LoadNode_Request
+    Response: TypeAlias = LoadNode_Response
+    Event: TypeAlias = LoadNode_Event
 
 class UnloadNode_Request(Message):
     unique_id: int
@@ -81,6 +81,6 @@ class UnloadNode_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[UnloadNode_Request] = ..., response: list[UnloadNode_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class UnloadNode(Service):
-    Request = UnloadNode_Request
-    Response = UnloadNode_Response
-    Event = UnloadNode_Event
+    Request: TypeAlias = UnloadNode_Request
+    Response: TypeAlias = UnloadNode_Response
+    Event: TypeAlias = UnloadNode_Event

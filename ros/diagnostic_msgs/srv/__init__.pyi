@@ -3,7 +3,7 @@
 import diagnostic_msgs.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -28,9 +28,9 @@ class AddDiagnostics_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddDiagnostics_Request] = ..., response: list[AddDiagnostics_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class AddDiagnostics(Service):
-    Request = AddDiagnostics_Request
-    Response = AddDiagnostics_Response
-    Event = AddDiagnostics_Event
+    Request: TypeAlias = AddDiagnostics_Request
+    Response: TypeAlias = AddDiagnostics_Response
+    Event: TypeAlias = AddDiagnostics_Event
 
 class SelfTest_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -48,6 +48,6 @@ class SelfTest_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SelfTest_Request] = ..., response: list[SelfTest_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SelfTest(Service):
-    Request = SelfTest_Request
-    Response = SelfTest_Response
-    Event = SelfTest_Event
+    Request: TypeAlias = SelfTest_Request
+    Response: TypeAlias = SelfTest_Response
+    Event: TypeAlias = SelfTest_Event

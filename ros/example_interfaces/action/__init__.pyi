@@ -7,7 +7,7 @@ import builtin_interfaces.msg
 import service_msgs.msg
 import unique_identifier_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -55,9 +55,9 @@ class Fibonacci_SendGoal_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_SendGoal_Request] = ..., response: list[Fibonacci_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Fibonacci_SendGoal(Service):
-    Request = Fibonacci_SendGoal_Request
-    Response = Fibonacci_SendGoal_Response
-    Event = Fibonacci_SendGoal_Event
+    Request: TypeAlias = Fibonacci_SendGoal_Request
+    Response: TypeAlias = Fibonacci_SendGoal_Response
+    Event: TypeAlias = Fibonacci_SendGoal_Event
 
 class Fibonacci_GetResult_Request(Message):
     goal_id: unique_identifier_msgs.msg.UUID
@@ -75,17 +75,17 @@ class Fibonacci_GetResult_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_GetResult_Request] = ..., response: list[Fibonacci_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Fibonacci_GetResult(Service):
-    Request = Fibonacci_GetResult_Request
-    Response = Fibonacci_GetResult_Response
-    Event = Fibonacci_GetResult_Event
+    Request: TypeAlias = Fibonacci_GetResult_Request
+    Response: TypeAlias = Fibonacci_GetResult_Response
+    Event: TypeAlias = Fibonacci_GetResult_Event
 
 class Fibonacci(Action):
-    Goal = Fibonacci_Goal
-    Result = Fibonacci_Result
-    Feedback = Fibonacci_Feedback
+    Goal: TypeAlias = Fibonacci_Goal
+    Result: TypeAlias = Fibonacci_Result
+    Feedback: TypeAlias = Fibonacci_Feedback
     class Impl:
-        SendGoalService = Fibonacci_SendGoal
-        GetResultService = Fibonacci_GetResult
-        FeedbackMessage = Fibonacci_FeedbackMessage
-        CancelGoalService = action_msgs.srv.CancelGoal
-        GoalStatusMessage = action_msgs.msg.GoalStatusArray
+        SendGoalService: TypeAlias = Fibonacci_SendGoal
+        GetResultService: TypeAlias = Fibonacci_GetResult
+        FeedbackMessage: TypeAlias = Fibonacci_FeedbackMessage
+        CancelGoalService: TypeAlias = action_msgs.srv.CancelGoal
+        GoalStatusMessage: TypeAlias = action_msgs.msg.GoalStatusArray

@@ -2,7 +2,7 @@
 
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -28,9 +28,9 @@ class AddTwoInts_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddTwoInts_Request] = ..., response: list[AddTwoInts_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class AddTwoInts(Service):
-    Request = AddTwoInts_Request
-    Response = AddTwoInts_Response
-    Event = AddTwoInts_Event
+    Request: TypeAlias = AddTwoInts_Request
+    Response: TypeAlias = AddTwoInts_Response
+    Event: TypeAlias = AddTwoInts_Event
 
 class SetBool_Request(Message):
     data: bool
@@ -48,9 +48,9 @@ class SetBool_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetBool(Service):
-    Request = SetBool_Request
-    Response = SetBool_Response
-    Event = SetBool_Event
+    Request: TypeAlias = SetBool_Request
+    Response: TypeAlias = SetBool_Response
+    Event: TypeAlias = SetBool_Event
 
 class Trigger_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -67,6 +67,6 @@ class Trigger_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Trigger(Service):
-    Request = Trigger_Request
-    Response = Trigger_Response
-    Event = Trigger_Event
+    Request: TypeAlias = Trigger_Request
+    Response: TypeAlias = Trigger_Response
+    Event: TypeAlias = Trigger_Event

@@ -1,7 +1,7 @@
 """Types of lifecycle_msgs.msg; generated."""
 
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

@@ -3,7 +3,7 @@
 import lifecycle_msgs.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -29,9 +29,9 @@ class ChangeState_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ChangeState_Request] = ..., response: list[ChangeState_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class ChangeState(Service):
-    Request = ChangeState_Request
-    Response = ChangeState_Response
-    Event = ChangeState_Event
+    Request: TypeAlias = ChangeState_Request
+    Response: TypeAlias = ChangeState_Response
+    Event: TypeAlias = ChangeState_Event
 
 class GetAvailableStates_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -47,9 +47,9 @@ class GetAvailableStates_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableStates_Request] = ..., response: list[GetAvailableStates_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetAvailableStates(Service):
-    Request = GetAvailableStates_Request
-    Response = GetAvailableStates_Response
-    Event = GetAvailableStates_Event
+    Request: TypeAlias = GetAvailableStates_Request
+    Response: TypeAlias = GetAvailableStates_Response
+    Event: TypeAlias = GetAvailableStates_Event
 
 class GetAvailableTransitions_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -65,9 +65,9 @@ class GetAvailableTransitions_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableTransitions_Request] = ..., response: list[GetAvailableTransitions_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetAvailableTransitions(Service):
-    Request = GetAvailableTransitions_Request
-    Response = GetAvailableTransitions_Response
-    Event = GetAvailableTransitions_Event
+    Request: TypeAlias = GetAvailableTransitions_Request
+    Response: TypeAlias = GetAvailableTransitions_Response
+    Event: TypeAlias = GetAvailableTransitions_Event
 
 class GetState_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -83,6 +83,6 @@ class GetState_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetState_Request] = ..., response: list[GetState_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetState(Service):
-    Request = GetState_Request
-    Response = GetState_Response
-    Event = GetState_Event
+    Request: TypeAlias = GetState_Request
+    Response: TypeAlias = GetState_Response
+    Event: TypeAlias = GetState_Event

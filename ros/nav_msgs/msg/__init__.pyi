@@ -5,7 +5,7 @@ import builtin_interfaces.msg
 import geometry_msgs.msg
 import std_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

@@ -4,7 +4,7 @@ import geometry_msgs.msg
 import nav_msgs.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -29,9 +29,9 @@ class GetMap_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetMap_Request] = ..., response: list[GetMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetMap(Service):
-    Request = GetMap_Request
-    Response = GetMap_Response
-    Event = GetMap_Event
+    Request: TypeAlias = GetMap_Request
+    Response: TypeAlias = GetMap_Response
+    Event: TypeAlias = GetMap_Event
 
 class GetPlan_Request(Message):
     start: geometry_msgs.msg.PoseStamped
@@ -50,9 +50,9 @@ class GetPlan_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetPlan_Request] = ..., response: list[GetPlan_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetPlan(Service):
-    Request = GetPlan_Request
-    Response = GetPlan_Response
-    Event = GetPlan_Event
+    Request: TypeAlias = GetPlan_Request
+    Response: TypeAlias = GetPlan_Response
+    Event: TypeAlias = GetPlan_Event
 
 class LoadMap_Request(Message):
     map_url: str
@@ -75,9 +75,9 @@ class LoadMap_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadMap_Request] = ..., response: list[LoadMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class LoadMap(Service):
-    Request = LoadMap_Request
-    Response = LoadMap_Response
-    Event = LoadMap_Event
+    Request: TypeAlias = LoadMap_Request
+    Response: TypeAlias = LoadMap_Response
+    Event: TypeAlias = LoadMap_Event
 
 class SetMap_Request(Message):
     map: nav_msgs.msg.OccupancyGrid
@@ -95,6 +95,6 @@ class SetMap_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetMap_Request] = ..., response: list[SetMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetMap(Service):
-    Request = SetMap_Request
-    Response = SetMap_Response
-    Event = SetMap_Event
+    Request: TypeAlias = SetMap_Request
+    Response: TypeAlias = SetMap_Response
+    Event: TypeAlias = SetMap_Event

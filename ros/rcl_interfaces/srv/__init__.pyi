@@ -4,7 +4,7 @@ import array
 import rcl_interfaces.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -34,9 +34,9 @@ class DescribeParameters_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[DescribeParameters_Request] = ..., response: list[DescribeParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class DescribeParameters(Service):
-    Request = DescribeParameters_Request
-    Response = DescribeParameters_Response
-    Event = DescribeParameters_Event
+    Request: TypeAlias = DescribeParameters_Request
+    Response: TypeAlias = DescribeParameters_Response
+    Event: TypeAlias = DescribeParameters_Event
 
 class GetLoggerLevels_Request(Message):
     names: list[str]
@@ -53,9 +53,9 @@ class GetLoggerLevels_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetLoggerLevels_Request] = ..., response: list[GetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetLoggerLevels(Service):
-    Request = GetLoggerLevels_Request
-    Response = GetLoggerLevels_Response
-    Event = GetLoggerLevels_Event
+    Request: TypeAlias = GetLoggerLevels_Request
+    Response: TypeAlias = GetLoggerLevels_Response
+    Event: TypeAlias = GetLoggerLevels_Event
 
 class GetParameterTypes_Request(Message):
     names: list[str]
@@ -75,9 +75,9 @@ class GetParameterTypes_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameterTypes_Request] = ..., response: list[GetParameterTypes_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetParameterTypes(Service):
-    Request = GetParameterTypes_Request
-    Response = GetParameterTypes_Response
-    Event = GetParameterTypes_Event
+    Request: TypeAlias = GetParameterTypes_Request
+    Response: TypeAlias = GetParameterTypes_Response
+    Event: TypeAlias = GetParameterTypes_Event
 
 class GetParameters_Request(Message):
     names: list[str]
@@ -94,9 +94,9 @@ class GetParameters_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameters_Request] = ..., response: list[GetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetParameters(Service):
-    Request = GetParameters_Request
-    Response = GetParameters_Response
-    Event = GetParameters_Event
+    Request: TypeAlias = GetParameters_Request
+    Response: TypeAlias = GetParameters_Response
+    Event: TypeAlias = GetParameters_Event
 
 class ListParameters_Request(Message):
     DEPTH_RECURSIVE: ClassVar[int]
@@ -115,9 +115,9 @@ class ListParameters_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListParameters_Request] = ..., response: list[ListParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class ListParameters(Service):
-    Request = ListParameters_Request
-    Response = ListParameters_Response
-    Event = ListParameters_Event
+    Request: TypeAlias = ListParameters_Request
+    Response: TypeAlias = ListParameters_Response
+    Event: TypeAlias = ListParameters_Event
 
 class SetLoggerLevels_Request(Message):
     levels: list[rcl_interfaces.msg.LoggerLevel]
@@ -134,9 +134,9 @@ class SetLoggerLevels_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetLoggerLevels_Request] = ..., response: list[SetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetLoggerLevels(Service):
-    Request = SetLoggerLevels_Request
-    Response = SetLoggerLevels_Response
-    Event = SetLoggerLevels_Event
+    Request: TypeAlias = SetLoggerLevels_Request
+    Response: TypeAlias = SetLoggerLevels_Response
+    Event: TypeAlias = SetLoggerLevels_Event
 
 class SetParameters_Request(Message):
     parameters: list[rcl_interfaces.msg.Parameter]
@@ -153,9 +153,9 @@ class SetParameters_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParameters_Request] = ..., response: list[SetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetParameters(Service):
-    Request = SetParameters_Request
-    Response = SetParameters_Response
-    Event = SetParameters_Event
+    Request: TypeAlias = SetParameters_Request
+    Response: TypeAlias = SetParameters_Response
+    Event: TypeAlias = SetParameters_Event
 
 class SetParametersAtomically_Request(Message):
     parameters: list[rcl_interfaces.msg.Parameter]
@@ -172,6 +172,6 @@ class SetParametersAtomically_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParametersAtomically_Request] = ..., response: list[SetParametersAtomically_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetParametersAtomically(Service):
-    Request = SetParametersAtomically_Request
-    Response = SetParametersAtomically_Response
-    Event = SetParametersAtomically_Event
+    Request: TypeAlias = SetParametersAtomically_Request
+    Response: TypeAlias = SetParametersAtomically_Response
+    Event: TypeAlias = SetParametersAtomically_Event

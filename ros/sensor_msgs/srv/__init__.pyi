@@ -3,7 +3,7 @@
 import sensor_msgs.msg
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -27,6 +27,6 @@ class SetCameraInfo_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetCameraInfo_Request] = ..., response: list[SetCameraInfo_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetCameraInfo(Service):
-    Request = SetCameraInfo_Request
-    Response = SetCameraInfo_Response
-    Event = SetCameraInfo_Event
+    Request: TypeAlias = SetCameraInfo_Request
+    Response: TypeAlias = SetCameraInfo_Response
+    Event: TypeAlias = SetCameraInfo_Event

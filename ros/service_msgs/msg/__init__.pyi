@@ -4,7 +4,7 @@ import builtin_interfaces.msg
 import numpy
 import numpy.typing
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

@@ -5,7 +5,7 @@ import geometry_msgs.msg
 import numpy
 import numpy.typing
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

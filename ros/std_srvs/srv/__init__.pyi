@@ -2,7 +2,7 @@
 
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -25,9 +25,9 @@ class Empty_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Empty_Request] = ..., response: list[Empty_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Empty(Service):
-    Request = Empty_Request
-    Response = Empty_Response
-    Event = Empty_Event
+    Request: TypeAlias = Empty_Request
+    Response: TypeAlias = Empty_Response
+    Event: TypeAlias = Empty_Event
 
 class SetBool_Request(Message):
     data: bool
@@ -45,9 +45,9 @@ class SetBool_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetBool(Service):
-    Request = SetBool_Request
-    Response = SetBool_Response
-    Event = SetBool_Event
+    Request: TypeAlias = SetBool_Request
+    Response: TypeAlias = SetBool_Response
+    Event: TypeAlias = SetBool_Event
 
 class Trigger_Request(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -64,6 +64,6 @@ class Trigger_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Trigger(Service):
-    Request = Trigger_Request
-    Response = Trigger_Response
-    Event = Trigger_Event
+    Request: TypeAlias = Trigger_Request
+    Response: TypeAlias = Trigger_Response
+    Event: TypeAlias = Trigger_Event

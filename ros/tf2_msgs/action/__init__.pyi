@@ -8,7 +8,7 @@ import service_msgs.msg
 import tf2_msgs.msg
 import unique_identifier_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -56,9 +56,9 @@ class LookupTransform_SendGoal_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LookupTransform_SendGoal_Request] = ..., response: list[LookupTransform_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class LookupTransform_SendGoal(Service):
-    Request = LookupTransform_SendGoal_Request
-    Response = LookupTransform_SendGoal_Response
-    Event = LookupTransform_SendGoal_Event
+    Request: TypeAlias = LookupTransform_SendGoal_Request
+    Response: TypeAlias = LookupTransform_SendGoal_Response
+    Event: TypeAlias = LookupTransform_SendGoal_Event
 
 class LookupTransform_GetResult_Request(Message):
     goal_id: unique_identifier_msgs.msg.UUID
@@ -76,17 +76,17 @@ class LookupTransform_GetResult_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LookupTransform_GetResult_Request] = ..., response: list[LookupTransform_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class LookupTransform_GetResult(Service):
-    Request = LookupTransform_GetResult_Request
-    Response = LookupTransform_GetResult_Response
-    Event = LookupTransform_GetResult_Event
+    Request: TypeAlias = LookupTransform_GetResult_Request
+    Response: TypeAlias = LookupTransform_GetResult_Response
+    Event: TypeAlias = LookupTransform_GetResult_Event
 
 class LookupTransform(Action):
-    Goal = LookupTransform_Goal
-    Result = LookupTransform_Result
-    Feedback = LookupTransform_Feedback
+    Goal: TypeAlias = LookupTransform_Goal
+    Result: TypeAlias = LookupTransform_Result
+    Feedback: TypeAlias = LookupTransform_Feedback
     class Impl:
-        SendGoalService = LookupTransform_SendGoal
-        GetResultService = LookupTransform_GetResult
-        FeedbackMessage = LookupTransform_FeedbackMessage
-        CancelGoalService = action_msgs.srv.CancelGoal
-        GoalStatusMessage = action_msgs.msg.GoalStatusArray
+        SendGoalService: TypeAlias = LookupTransform_SendGoal
+        GetResultService: TypeAlias = LookupTransform_GetResult
+        FeedbackMessage: TypeAlias = LookupTransform_FeedbackMessage
+        CancelGoalService: TypeAlias = action_msgs.srv.CancelGoal
+        GoalStatusMessage: TypeAlias = action_msgs.msg.GoalStatusArray

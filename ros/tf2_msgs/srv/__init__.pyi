@@ -2,7 +2,7 @@
 
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -24,6 +24,6 @@ class FrameGraph_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[FrameGraph_Request] = ..., response: list[FrameGraph_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class FrameGraph(Service):
-    Request = FrameGraph_Request
-    Response = FrameGraph_Response
-    Event = FrameGraph_Event
+    Request: TypeAlias = FrameGraph_Request
+    Response: TypeAlias = FrameGraph_Response
+    Event: TypeAlias = FrameGraph_Event

@@ -6,7 +6,7 @@ import builtin_interfaces.msg
 import service_msgs.msg
 import unique_identifier_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -48,9 +48,9 @@ class RotateAbsolute_SendGoal_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[RotateAbsolute_SendGoal_Request] = ..., response: list[RotateAbsolute_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class RotateAbsolute_SendGoal(Service):
-    Request = RotateAbsolute_SendGoal_Request
-    Response = RotateAbsolute_SendGoal_Response
-    Event = RotateAbsolute_SendGoal_Event
+    Request: TypeAlias = RotateAbsolute_SendGoal_Request
+    Response: TypeAlias = RotateAbsolute_SendGoal_Response
+    Event: TypeAlias = RotateAbsolute_SendGoal_Event
 
 class RotateAbsolute_GetResult_Request(Message):
     goal_id: unique_identifier_msgs.msg.UUID
@@ -68,17 +68,17 @@ class RotateAbsolute_GetResult_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[RotateAbsolute_GetResult_Request] = ..., response: list[RotateAbsolute_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class RotateAbsolute_GetResult(Service):
-    Request = RotateAbsolute_GetResult_Request
-    Response = RotateAbsolute_GetResult_Response
-    Event = RotateAbsolute_GetResult_Event
+    Request: TypeAlias = RotateAbsolute_GetResult_Request
+    Response: TypeAlias = RotateAbsolute_GetResult_Response
+    Event: TypeAlias = RotateAbsolute_GetResult_Event
 
 class RotateAbsolute(Action):
-    Goal = RotateAbsolute_Goal
-    Result = RotateAbsolute_Result
-    Feedback = RotateAbsolute_Feedback
+    Goal: TypeAlias = RotateAbsolute_Goal
+    Result: TypeAlias = RotateAbsolute_Result
+    Feedback: TypeAlias = RotateAbsolute_Feedback
     class Impl:
-        SendGoalService = RotateAbsolute_SendGoal
-        GetResultService = RotateAbsolute_GetResult
-        FeedbackMessage = RotateAbsolute_FeedbackMessage
-        CancelGoalService = action_msgs.srv.CancelGoal
-        GoalStatusMessage = action_msgs.msg.GoalStatusArray
+        SendGoalService: TypeAlias = RotateAbsolute_SendGoal
+        GetResultService: TypeAlias = RotateAbsolute_GetResult
+        FeedbackMessage: TypeAlias = RotateAbsolute_FeedbackMessage
+        CancelGoalService: TypeAlias = action_msgs.srv.CancelGoal
+        GoalStatusMessage: TypeAlias = action_msgs.msg.GoalStatusArray

@@ -2,7 +2,7 @@
 
 import service_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -28,9 +28,9 @@ class Kill_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Kill_Request] = ..., response: list[Kill_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Kill(Service):
-    Request = Kill_Request
-    Response = Kill_Response
-    Event = Kill_Event
+    Request: TypeAlias = Kill_Request
+    Response: TypeAlias = Kill_Response
+    Event: TypeAlias = Kill_Event
 
 class SetPen_Request(Message):
     r: int
@@ -50,9 +50,9 @@ class SetPen_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetPen_Request] = ..., response: list[SetPen_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class SetPen(Service):
-    Request = SetPen_Request
-    Response = SetPen_Response
-    Event = SetPen_Event
+    Request: TypeAlias = SetPen_Request
+    Response: TypeAlias = SetPen_Response
+    Event: TypeAlias = SetPen_Event
 
 class Spawn_Request(Message):
     x: float
@@ -72,9 +72,9 @@ class Spawn_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Spawn_Request] = ..., response: list[Spawn_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class Spawn(Service):
-    Request = Spawn_Request
-    Response = Spawn_Response
-    Event = Spawn_Event
+    Request: TypeAlias = Spawn_Request
+    Response: TypeAlias = Spawn_Response
+    Event: TypeAlias = Spawn_Event
 
 class TeleportAbsolute_Request(Message):
     x: float
@@ -92,9 +92,9 @@ class TeleportAbsolute_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportAbsolute_Request] = ..., response: list[TeleportAbsolute_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class TeleportAbsolute(Service):
-    Request = TeleportAbsolute_Request
-    Response = TeleportAbsolute_Response
-    Event = TeleportAbsolute_Event
+    Request: TypeAlias = TeleportAbsolute_Request
+    Response: TypeAlias = TeleportAbsolute_Response
+    Event: TypeAlias = TeleportAbsolute_Event
 
 class TeleportRelative_Request(Message):
     linear: float
@@ -111,6 +111,6 @@ class TeleportRelative_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportRelative_Request] = ..., response: list[TeleportRelative_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class TeleportRelative(Service):
-    Request = TeleportRelative_Request
-    Response = TeleportRelative_Response
-    Event = TeleportRelative_Event
+    Request: TypeAlias = TeleportRelative_Request
+    Response: TypeAlias = TeleportRelative_Response
+    Event: TypeAlias = TeleportRelative_Event

@@ -3,7 +3,7 @@
 import service_msgs.msg
 import type_description_interfaces.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -32,6 +32,6 @@ class GetTypeDescription_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetTypeDescription_Request] = ..., response: list[GetTypeDescription_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetTypeDescription(Service):
-    Request = GetTypeDescription_Request
-    Response = GetTypeDescription_Response
-    Event = GetTypeDescription_Event
+    Request: TypeAlias = GetTypeDescription_Request
+    Response: TypeAlias = GetTypeDescription_Response
+    Event: TypeAlias = GetTypeDescription_Event

@@ -6,7 +6,7 @@ import geometry_msgs.msg
 import sensor_msgs.msg
 import std_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 

@@ -3,7 +3,7 @@
 import service_msgs.msg
 import visualization_msgs.msg
 from collections.abc import Iterable
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from turtlewire.msg import Action, Message, Service
 
@@ -26,6 +26,6 @@ class GetInteractiveMarkers_Event(Message):
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetInteractiveMarkers_Request] = ..., response: list[GetInteractiveMarkers_Response] = ..., check_fields: bool = ...) -> None: ...
 
 class GetInteractiveMarkers(Service):
-    Request = GetInteractiveMarkers_Request
-    Response = GetInteractiveMarkers_Response
-    Event = GetInteractiveMarkers_Event
+    Request: TypeAlias = GetInteractiveMarkers_Request
+    Response: TypeAlias = GetInteractiveMarkers_Response
+    Event: TypeAlias = GetInteractiveMarkers_Event

@@ -56,7 +56,7 @@ class _StubWriter:
         modules = "".join(f"import {name}\n" for name in sorted(self.imports))
         exported = "".join(f'    "{name}",\n' for name in names)
         return (
-            f'"""Types of {self.home}; generated."""\n\n{modules}from collections.abc import Iterable\nfrom typing import Any, ClassVar\n\n'
+            f'"""Types of {self.home}; generated."""\n\n{modules}from collections.abc import Iterable\nfrom typing import Any, ClassVar, TypeAlias\n\n'
             f"from turtlewire.msg import Action, Message, Service\n\n__all__ = [\n{exported}]\n" + "\n".join(self.lines) + "\n"
         )
 
@@ -83,7 +83,7 @@ class _StubWriter:
         for message in definition.messages():
             self.message(message)
         name = definition.full_name.rpartition("/")[2]
-        self.lines += ["", f"class {name}(Service):", *(f"    {part} = {name}_{part}" for part in ("Request", "Response", "Event"))]
+        self.lines += ["", f"class {name}(Service):", *(f"    {part}: TypeAlias = {name}_{part}" for part in ("Request", "Response", "Event"))]
 
     def action(self, full_name: str) -> None:
         definition = load_action(full_name)
@@ -93,14 +93,14 @@ class _StubWriter:
         self.service(definition.send_goal)
         self.service(definition.get_result)
         self.imports |= {"action_msgs.msg", "action_msgs.srv"}
-        self.lines += ["", f"class {name}(Action):", *(f"    {part} = {name}_{part}" for part in ("Goal", "Result", "Feedback"))]
+        self.lines += ["", f"class {name}(Action):", *(f"    {part}: TypeAlias = {name}_{part}" for part in ("Goal", "Result", "Feedback"))]
         self.lines += [
             "    class Impl:",
-            f"        SendGoalService = {name}_SendGoal",
-            f"        GetResultService = {name}_GetResult",
-            f"        FeedbackMessage = {name}_FeedbackMessage",
-            "        CancelGoalService = action_msgs.srv.CancelGoal",
-            "        GoalStatusMessage = action_msgs.msg.GoalStatusArray",
+            f"        SendGoalService: TypeAlias = {name}_SendGoal",
+            f"        GetResultService: TypeAlias = {name}_GetResult",
+            f"        FeedbackMessage: TypeAlias = {name}_FeedbackMessage",
+            "        CancelGoalService: TypeAlias = action_msgs.srv.CancelGoal",
+            "        GoalStatusMessage: TypeAlias = action_msgs.msg.GoalStatusArray",
         ]
 
     def held(self, type_: AbstractType) -> str:
