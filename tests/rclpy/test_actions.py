@@ -303,7 +303,7 @@ def test_blocking_calls(node, serve, client):
         assert client.wait_for_server(timeout_sec=20)
         response = client.send_goal(Fibonacci.Goal(order=3))
         assert list(response.result.sequence) == [0, 1, 2]
-    spinning.join(10)
+    spinning.join(60)
 
 
 def test_wrong_types(serve, client, node):

@@ -58,7 +58,7 @@ def spinning(context):
     yield start
     for executor, thread in started:
         assert executor.shutdown(10)
-        thread.join(10)
+        thread.join(60)
         assert not thread.is_alive()
 
 
@@ -114,7 +114,7 @@ def test_spin_once_runs_one_callback(node, executor):
 def test_spin_once_returns_when_the_time_is_over(executor):
     start = time.monotonic()
     executor.spin_once(timeout_sec=0)
-    assert time.monotonic() - start < 1
+    assert time.monotonic() - start < 30
     executor.spin_once(timeout_sec=0.05)
     assert time.monotonic() - start >= 0.05
 
@@ -159,7 +159,7 @@ def test_entities_that_come_and_go_while_it_spins(node, executor, spinning):
         called = threading.Event()
         guard = node.create_guard_condition(called.set)
         guard.trigger()
-        assert called.wait(10), round_number
+        assert called.wait(60), round_number
         node.destroy_guard_condition(guard)
     assert list(node.guards) == []
 
@@ -344,7 +344,7 @@ def test_call_in_a_pool_thread_while_all_threads_are_busy(node, pool, spinning):
         node.create_guard_condition(lambda number=number: ask(number), group).trigger()
     spinning(pool)
     for _ in range(2):
-        assert done.acquire(timeout=10)
+        assert done.acquire(timeout=60)
     assert sorted(sums) == [1, 2]
 
 
@@ -363,7 +363,7 @@ def test_call_ends_when_the_executor_is_shut_down(node, pool):
 
     node.create_guard_condition(ask).trigger()
     pool.spin_once(timeout_sec=10)
-    assert entered.wait(10)
+    assert entered.wait(60)
     assert pool.shutdown(10)
     assert ended == ["shut down"]
 
@@ -377,7 +377,7 @@ def test_a_call_that_nobody_serves_is_warned_of(node, capfd):
 
 
 def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(node, pool, spinning):
-    barrier = threading.Barrier(3, timeout=10)
+    barrier = threading.Barrier(3, timeout=60)
     done = threading.Semaphore(0)
 
     def meet(_):
@@ -390,7 +390,7 @@ def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(nod
         publisher.publish(Int32(data=number))
     spinning(pool)
     for _ in range(30):
-        assert done.acquire(timeout=10)
+        assert done.acquire(timeout=60)
     assert not barrier.broken
 
 
@@ -414,7 +414,7 @@ def test_an_exclusive_group_never_runs_twice_at_a_time(node, pool, spinning):
             publisher.publish(Int32(data=number))
     spinning(pool)
     for _ in range(80):
-        assert done.acquire(timeout=10)
+        assert done.acquire(timeout=60)
     assert overlaps == [1] * 80
 
 
@@ -427,7 +427,7 @@ def test_spin_until_future_complete(any_executor):
     setting.join()
     start = time.monotonic()
     any_executor.spin_until_future_complete(Future(), timeout_sec=0.05)
-    assert 0.05 <= time.monotonic() - start < 5
+    assert 0.05 <= time.monotonic() - start < 30
     any_executor.spin_once_until_future_complete(future, timeout_sec=10)
 
 
@@ -486,11 +486,11 @@ def test_shutdown_waits_for_callbacks_of_other_threads(node, pool):
 
     def work():
         entered.set()
-        leave.wait(10)
+        leave.wait(60)
 
     node.create_guard_condition(work).trigger()
     pool.spin_once(timeout_sec=10)
-    assert entered.wait(10)
+    assert entered.wait(60)
     assert not pool.shutdown(timeout_sec=0.05)
     leave.set()
     assert pool.shutdown(timeout_sec=10)
@@ -544,7 +544,7 @@ def test_an_idle_executor_does_not_run(node, executor, spinning):
     wait_once = executor._wait._wait_set.wait
     executor._wait._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
     spinning(executor)
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + 60
     while not waits and time.monotonic() < deadline:
         time.sleep(0.001)
     seen = len(waits)
@@ -574,7 +574,7 @@ class PoolForSomeNodes(Executor):
 def test_an_executor_of_ones_own_decides_where_callbacks_run(context, node):
     other = Node("other", context=context)
     threads = {}
-    both = threading.Barrier(2, timeout=10)
+    both = threading.Barrier(2, timeout=60)
 
     def note(name):
         threads[name] = threading.get_ident()

@@ -182,7 +182,7 @@ def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
                 executor.add_node(node)
                 called = threading.Event()
                 node.create_timer(0.001, called.set)
-                assert called.wait(10)
+                assert called.wait(60)
                 node.destroy_node()
         except BaseException as error:
             failures.append(error)
@@ -193,5 +193,5 @@ def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
     for thread in threads:
         thread.join()
     executor.shutdown()
-    spinning.join(10)
+    spinning.join(60)
     assert failures == []

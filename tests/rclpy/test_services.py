@@ -107,7 +107,7 @@ def test_blocking_call_from_another_thread(node, executor):
     with pytest.raises(TimeoutError):
         node.create_client(AddTwoInts, "nobody").call(AddTwoInts.Request(), timeout_sec=0.05)
     executor.shutdown()
-    spinning.join(10)
+    spinning.join(60)
 
 
 def test_a_shutdown_ends_a_blocking_call(context, node):
@@ -226,5 +226,5 @@ def test_a_client_in_another_context(context, node, executor):
             mine.add_node(asker)
             assert ask(mine, client, 20, 22) == 42
         executor.shutdown()
-        spinning.join(10)
+        spinning.join(60)
         asker.destroy_node()

@@ -53,7 +53,7 @@ def test_ctrl_c_ends_the_tutorials_main_cleanly(start, middleware, times):
     for _ in range(times):
         program.send_signal(signal.SIGINT)
     assert program.finish() == (0, "interrupted\nend\n", "")
-    assert time.monotonic() - begin < 5
+    assert time.monotonic() - begin < 30
 
 
 @MODES
@@ -124,7 +124,7 @@ def test_ctrl_c_reaches_executors_of_other_threads(start):
             print("up")
             ended.wait()
         except KeyboardInterrupt:
-            print(ended.wait(10), rclpy.ok())
+            print(ended.wait(60), rclpy.ok())
         node.destroy_node()
         rclpy.shutdown()
         """)

@@ -143,7 +143,7 @@ def test_a_timer_on_a_real_clock_ends_the_wait_of_the_executor(node, executor, c
     while len(called) < 3:
         executor.spin_once(timeout_sec=10)
     assert called[-1] - start >= 0.055
-    assert called[-1] - start < 5
+    assert called[-1] - start < 30
 
 
 def test_a_timer_made_while_the_executor_waits_is_served(node, executor):
@@ -151,9 +151,9 @@ def test_a_timer_made_while_the_executor_waits_is_served(node, executor):
     thread = threading.Thread(target=executor.spin)
     thread.start()
     node.create_timer(0.01, called.set)
-    assert called.wait(10)
+    assert called.wait(60)
     executor.shutdown()
-    thread.join(10)
+    thread.join(60)
     assert not thread.is_alive()
 
 
@@ -177,7 +177,7 @@ def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, exe
     with pytest.raises(ROSInterruptException):
         slow.sleep()
     ending.join()
-    spinning.join(10)
+    spinning.join(60)
     assert not spinning.is_alive()
 
 
@@ -212,9 +212,9 @@ def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(context, n
     executor.add_node(node)
     spinning = threading.Thread(target=executor.spin)
     spinning.start()
-    assert slept.wait(10)
+    assert slept.wait(60)
     assert executor.shutdown(10)
-    spinning.join(10)
+    spinning.join(60)
     assert not spinning.is_alive()
 
 

@@ -83,7 +83,7 @@ def test_it_arrives_on_the_reader_thread_of_the_wire(domain):
     with TransformListener(buffer, domain.node, context=domain.receiver):
         domain.wait_for_subscriptions(domain.tf)
         domain.tf.publish(tf_bytes("world", "robot"))
-        assert arrived.wait(10)
+        assert arrived.wait(60)
     assert threads[0] is not threading.main_thread()
 
 

@@ -45,7 +45,7 @@ def spun(context):
     yield spin
     for executor, thread in zip(executors, threads, strict=True):
         executor.shutdown()
-        thread.join(10)
+        thread.join(60)
         assert not thread.is_alive()
 
 
@@ -116,7 +116,7 @@ def test_many_wait_at_once(buffer, make_node, stamped):
     for number in (3, 1, 4, 0, 2):
         buffer.set_transform(stamped(child=f"robot{number}"), "me")
     for thread in threads:
-        thread.join(10)
+        thread.join(60)
     assert results == {number: f"robot{number}" for number in range(5)}
     for client in clients:
         client.destroy()
@@ -193,7 +193,7 @@ def test_a_server_that_does_not_answer(make_node, strange_server):
     release = threading.Event()
 
     def execute(goal_handle):
-        release.wait(10)
+        release.wait(60)
         goal_handle.succeed()
         return LookupTransform.Result()
 
@@ -226,6 +226,6 @@ def test_the_numbers_of_the_errors():
 def test_the_client_ends_with_its_context(context, make_node):
     client = BufferClient(make_node("short"), "lookup")
     context.shutdown()
-    client._thread.join(10)
+    client._thread.join(60)
     assert not client._thread.is_alive()
     client.destroy()

@@ -92,7 +92,7 @@ def test_spin_thread_serves_the_node_s_other_callbacks(node):
     node.create_subscription(String, "chatter", lambda _message: heard.set(), 1)
     listener = TransformListener(Buffer(), node, spin_thread=True)
     node.create_publisher(String, "chatter", 1).publish(String(data="hello"))
-    assert heard.wait(10)
+    assert heard.wait(60)
     thread = listener.dedicated_listener_thread
     listener.unregister()
     assert not thread.is_alive()
@@ -101,7 +101,7 @@ def test_spin_thread_serves_the_node_s_other_callbacks(node):
 def test_spin_thread_ends_with_the_context(context, node):
     thread = TransformListener(Buffer(), node, spin_thread=True).dedicated_listener_thread
     context.shutdown()
-    thread.join(10)
+    thread.join(60)
     assert not thread.is_alive()
 
 
@@ -114,8 +114,8 @@ def test_a_callback_may_unregister_the_listener_that_spins_it(node):
         done.set()
 
     node.create_timer(0.001, on_timer)
-    assert done.wait(10)
-    listener.dedicated_listener_thread.join(10)
+    assert done.wait(60)
+    listener.dedicated_listener_thread.join(60)
     assert not listener.dedicated_listener_thread.is_alive()
 
 

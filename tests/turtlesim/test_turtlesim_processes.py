@@ -120,7 +120,7 @@ def test_ctrl_c_ends_it_with_a_browser_open_too():
     simulator = Process("turtlesim.turtlesim_node", "--ros-args", "-r", "__node:=sim")
     url = simulator.wait_for(r"The field is shown at (http://127\.0\.0\.1:\d+/)")[1]
     with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
-        assert json.loads(browser.recv(timeout=10))["node"] == "/sim"
+        assert json.loads(browser.recv(timeout=60))["node"] == "/sim"
         assert simulator.interrupt() == 0
     assert "Traceback" not in simulator.output
 

@@ -60,7 +60,7 @@ def server(page, shared):
 
 def get(server: Server, path: str, method: str = "GET", **headers: str) -> http.client.HTTPResponse:
     host, port = server.url.removeprefix("http://").rstrip("/").split(":")
-    connection = http.client.HTTPConnection(host, int(port), timeout=10)
+    connection = http.client.HTTPConnection(host, int(port), timeout=60)
     try:
         connection.putrequest(method, path, skip_host="Host" in headers)
         for name, value in headers.items():
@@ -81,7 +81,7 @@ def read_to_end(browser) -> ConnectionClosed:
     """Read until the server closes the WebSocket."""
     while True:
         try:
-            browser.recv(timeout=10)
+            browser.recv(timeout=60)
         except ConnectionClosed as closed:
             return closed
 
@@ -109,7 +109,7 @@ def test_foreign_names_and_pages_are_refused(server):
     assert refused.value.response.status_code == 403
     assert b"evil.example" in refused.value.response.body
     with live(server, origin=server.url.rstrip("/")) as own:
-        assert own.recv(timeout=10) == "0"
+        assert own.recv(timeout=60) == "0"
 
 
 def test_only_get(server):
@@ -119,7 +119,7 @@ def test_only_get(server):
 def test_what_is_not_http_leaves_the_server_alive(server):
     port = int(server.url.split(":")[2].rstrip("/"))
     for junk in (b"\x00\xff\x16\x03\x01 nonsense\r\n\r\n", b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"G" * 20000):
-        with socket.create_connection(("127.0.0.1", port), timeout=10) as raw:
+        with socket.create_connection(("127.0.0.1", port), timeout=60) as raw:
             raw.sendall(junk)
             raw.settimeout(10)
             with contextlib.suppress(ConnectionResetError):
@@ -129,10 +129,10 @@ def test_what_is_not_http_leaves_the_server_alive(server):
 
 def test_every_browser_gets_the_newest_value(server, shared):
     with live(server) as one, live(server) as two:
-        assert one.recv(timeout=10) == two.recv(timeout=10) == "0"
+        assert one.recv(timeout=60) == two.recv(timeout=60) == "0"
         shared["value"] = 7
         server.notify()
-        assert one.recv(timeout=10) == two.recv(timeout=10) == "7"
+        assert one.recv(timeout=60) == two.recv(timeout=60) == "7"
         assert server.watched
 
 
@@ -140,35 +140,35 @@ def test_a_slow_browser_gets_fewer_messages_and_the_newest_at_the_end(server, sh
     """The browser stops reading while far more is offered than any buffer holds."""
     shared["value"] = "x" * 50_000
     with live(server, max_queue=2, max_size=None) as slow:
-        slow.recv(timeout=10)
+        slow.recv(timeout=60)
         offered = 1000
         for number in range(offered):
             shared["value"] = f"{number} " + "x" * 50_000
             server.notify()
             get(server, "/")  # one round trip: the server's thread had its turn
-        received = [int(json.loads(slow.recv(timeout=10)).split()[0])]
+        received = [int(json.loads(slow.recv(timeout=60)).split()[0])]
         while received[-1] != offered - 1:
-            received.append(int(json.loads(slow.recv(timeout=10)).split()[0]))
+            received.append(int(json.loads(slow.recv(timeout=60)).split()[0]))
     assert received == sorted(set(received))
     assert len(received) < offered / 2
 
 
 def test_messages_are_answered_and_long_ones_end_only_their_sender(server):
     with live(server) as browser, live(server) as bystander:
-        browser.recv(timeout=10)
+        browser.recv(timeout=60)
         browser.send("echo")
-        assert browser.recv(timeout=10) == "echo"
+        assert browser.recv(timeout=60) == "echo"
         browser.send("x" * 100_000)
         assert read_to_end(browser).rcvd.code == 1009
         bystander.send("still here")
-        bystander.recv(timeout=10)
-        assert bystander.recv(timeout=10) == "still here"
+        bystander.recv(timeout=60)
+        assert bystander.recv(timeout=60) == "still here"
 
 
 def test_a_session_learns_that_its_browser_left(server, shared):
     with live(server) as browser:
-        browser.recv(timeout=10)
-    assert shared["sessions"][0].is_closed.wait(10)
+        browser.recv(timeout=60)
+    assert shared["sessions"][0].is_closed.wait(60)
     assert get(server, "/").status == 200
 
 
@@ -176,9 +176,9 @@ def test_a_defect_of_a_session_is_reported_and_ends_only_its_browser(server, cap
     with live(server) as browser, live(server) as bystander:
         browser.send("fail")
         assert read_to_end(browser).rcvd.code == 1011
-        bystander.recv(timeout=10)
+        bystander.recv(timeout=60)
         bystander.send("still here")
-        assert bystander.recv(timeout=10) == "still here"
+        assert bystander.recv(timeout=60) == "still here"
     assert "a defect of the session" in caplog.text
 
 
@@ -203,7 +203,7 @@ def test_closing_returns_whatever_the_clients_do(page, shared):
     ):
         half.sendall(b"GET / HT")
         deaf.socket.settimeout(None)
-        reader.recv(timeout=10)
+        reader.recv(timeout=60)
         server.close()
         assert read_to_end(reader).rcvd.code == 1001
     server.close()
