@@ -19,6 +19,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from turtlewire.errors import WireError
 from turtlewire.wire import environment
 
 if TYPE_CHECKING:
@@ -205,5 +206,7 @@ def describe(buffer: Buffer) -> str:
 if __name__ == "__main__":
     try:
         sys.exit(main())
+    except WireError as error:
+        sys.exit(f"[demo] {error}\n[demo] {error.hint}")
     except KeyboardInterrupt:
         sys.exit(128 + signal.SIGINT)

@@ -74,6 +74,15 @@ def test_words_that_make_no_sense(run, words):
     assert "Traceback" not in demo.text
 
 
+def test_a_wrong_domain_is_told_with_its_remedy(run):
+    demo = run(sys.executable, DEMO, environment={"ROS_DOMAIN_ID": "kitchen"})
+    assert demo.wait() == 1
+    said = [line for _, line in demo.lines]
+    assert said[0].startswith("[demo] ROS_DOMAIN_ID is not")
+    assert "export ROS_DOMAIN_ID=" in said[1]
+    assert len(said) == 2
+
+
 @pytest.mark.parametrize("words", [[], ["--check"]])
 @pytest.mark.parametrize("moment", [0, 1])
 def test_ctrl_c_while_it_starts_leaves_nothing_behind(run, words, moment):
