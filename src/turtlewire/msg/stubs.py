@@ -56,7 +56,8 @@ class _StubWriter:
         modules = "".join(f"import {name}\n" for name in sorted(self.imports))
         exported = "".join(f'    "{name}",\n' for name in names)
         return (
-            f'"""Types of {self.home}; generated."""\n\n{modules}from collections.abc import Iterable\nfrom typing import Any, ClassVar, TypeAlias\n\n'
+            f'"""Types of {self.home}; generated."""\n\n{modules}'
+            "from collections.abc import Iterable\nfrom typing import Any, ClassVar, TypeAlias\n\n"
             f"from turtlewire.msg import Action, Message, Service\n\n__all__ = [\n{exported}]\n" + "\n".join(self.lines) + "\n"
         )
 
@@ -83,7 +84,7 @@ class _StubWriter:
         for message in definition.messages():
             self.message(message)
         name = definition.full_name.rpartition("/")[2]
-        self.lines += ["", f"class {name}(Service):", *(f"    {part}: TypeAlias = {name}_{part}" for part in ("Request", "Response", "Event"))]
+        self.parts(name, "Service", "Request", "Response", "Event")
 
     def action(self, full_name: str) -> None:
         definition = load_action(full_name)
@@ -93,7 +94,7 @@ class _StubWriter:
         self.service(definition.send_goal)
         self.service(definition.get_result)
         self.imports |= {"action_msgs.msg", "action_msgs.srv"}
-        self.lines += ["", f"class {name}(Action):", *(f"    {part}: TypeAlias = {name}_{part}" for part in ("Goal", "Result", "Feedback"))]
+        self.parts(name, "Action", "Goal", "Result", "Feedback")
         self.lines += [
             "    class Impl:",
             f"        SendGoalService: TypeAlias = {name}_SendGoal",
@@ -102,6 +103,9 @@ class _StubWriter:
             "        CancelGoalService: TypeAlias = action_msgs.srv.CancelGoal",
             "        GoalStatusMessage: TypeAlias = action_msgs.msg.GoalStatusArray",
         ]
+
+    def parts(self, name: str, base: str, *parts: str) -> None:
+        self.lines += ["", f"class {name}({base}):", *(f"    {part}: TypeAlias = {name}_{part}" for part in parts)]
 
     def held(self, type_: AbstractType) -> str:
         """Annotation of what a field gives back."""
