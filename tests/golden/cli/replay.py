@@ -143,13 +143,13 @@ def replay(case: Case) -> Result:
 
 def _run_disturbed(case: Case) -> Result:
     """Run with what the note of the capture says: a command for turtle1 arrives during the rotation."""
-    move = _ros2("topic", "pub", "--once", "/turtle1/cmd_vel", "geometry_msgs/msg/Twist", "{linear: {x: 0.1}}")
-    timer = threading.Timer(1.5, subprocess.run, [move], {"stdout": subprocess.DEVNULL})
-    timer.start()
-    try:
-        return run(case)
-    finally:
-        timer.join()
+    move = _ros2("topic", "pub", "--rate", "5", "/turtle1/cmd_vel", "geometry_msgs/msg/Twist", "{linear: {x: 0.1}}")
+    with subprocess.Popen(move, stdout=subprocess.PIPE, text=True) as mover:
+        mover.stdout.readline()  # it is about to begin
+        try:
+            return run(case)
+        finally:
+            mover.terminate()
 
 
 def differences(case: Case, result: Result) -> list[str]:
