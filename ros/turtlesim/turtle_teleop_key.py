@@ -34,7 +34,10 @@ Use arrow keys to move the turtle.
 Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rotation.
 'Q' to quit."""
 NO_TERMINAL = "Failed to get old console mode"
-NO_TERMINAL_HINT = "turtle_teleop_key reads keys from a terminal: run it in one of its own. The arrow keys also work in turtlesim's page."
+NO_TERMINAL_HINT = (
+    "turtle_teleop_key reads keys from a terminal: run it in one of its own, or launch it with emulate_tty=True. "
+    "The arrow keys also work in turtlesim's page."
+)
 
 
 class _Drive(NamedTuple):
