@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import signal
 import sys
 import time
 from pathlib import Path
@@ -53,6 +54,21 @@ while True:
     broadcaster.sendTransform(transform("robot", x, stamp))
     time.sleep(0.01)
     now += 0.5
+"""
+
+#: Waits in the server for what never comes.
+WAITING = """
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import BufferClient
+
+rclpy.init()
+client = BufferClient(Node("waiting"), "tf2_buffer_server")
+assert client.action_client.wait_for_server(60)
+print("waits", flush=True)
+client.lookup_transform("world", "nowhere", Time(), Duration(seconds=3600))
 """
 
 #: Takes the points into the world, and prints where they are.
@@ -139,6 +155,21 @@ def test_the_client_goes_on_with_the_next_server(client, run, world):
         place(client)
     run(ROS2, "run", "tf2_ros", "buffer_server")
     wait_until_there(client, 2.0)
+
+
+def test_clients_that_are_killed_while_they_wait_hold_up_nobody(client, run, world):
+    server = run(ROS2, "run", "tf2_ros", "buffer_server")
+    world(100, 2.0)
+    waiting = [run(sys.executable, "-c", WAITING) for _ in range(2)]
+    for each in waiting:
+        each.wait_for("waits")
+    wait_until_there(client, 2.0)
+    for each in waiting:
+        each.kill()
+    assert place(client) == 2.0
+    server.signal_group(signal.SIGINT)
+    assert server.wait() == 0
+    assert "Traceback" not in server.text
 
 
 def test_filters_after_the_world_began_anew(run, world):
