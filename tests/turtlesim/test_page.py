@@ -205,6 +205,25 @@ def test_a_new_turtle_is_placed_on_the_field(simulator, open_page):
     wait_for_pixel(page, "turtles", 2.0, 9.0, is_opaque)
 
 
+def test_a_finger_chooses_and_places_turtles(simulator, open_page):
+    simulator.world.spawn(4.0, 2.0, 0.5, "turtle2")
+    page = open_page(simulator.screen.url, has_touch=True, is_mobile=True, viewport={"width": 360, "height": 740})
+    wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
+    page.touchscreen.tap(*on_screen(page, 4.1, 2.1))
+    assert page.inner_text("#driven") == "turtle2"
+    page.tap("#compass button:first-child")
+    page.tap("#spawn")
+    page.locator("#turtles").scroll_into_view_if_needed()
+    page.touchscreen.tap(*on_screen(page, 8.0, 8.0))
+    wait_until(lambda: len(simulator.commands) == 2)
+    near = pytest.approx
+    assert simulator.commands == [
+        page_commands.Rotate("turtle2", 2.3562),
+        page_commands.Spawn(near(8.0, abs=0.1), near(8.0, abs=0.1), 0.0, ""),
+    ]
+    wait_for_pixel(page, "turtles", 8.0, 8.0, is_opaque)
+
+
 def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
     page = open_page(simulator.screen.url)
     page.click("#follow")
