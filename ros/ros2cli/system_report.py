@@ -1,0 +1,67 @@
+"""What ``ros2 doctor --report`` prints: this computer, the middleware, the environment and the topics, to be put into a bug report."""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+
+__all__ = ["system_report"]
+
+
+def system_report() -> str:
+    """All sections, each with a title and a line for every fact."""
+    sections: dict[str, dict[str, object]] = {
+        "PLATFORM INFORMATION": {
+            "system": platform.system(),
+            "platform info": platform.platform(),
+            "release": platform.release(),
+            "processor": platform.machine(),
+            "python": f"{platform.python_version()} ({sys.executable})",
+        },
+        "RMW MIDDLEWARE": {"middleware name": os.environ.get("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")},
+        "ROS 2 INFORMATION": _ros_information(),
+    }
+    blocks = [_block(title, [facts]) for title, facts in sections.items()]
+    return "\n".join([*blocks, _block("TOPIC LIST", _topics())])
+
+
+def _block(title: str, groups: list[dict[str, object]]) -> str:
+    width = max((len(name) for facts in groups for name in facts), default=0)
+    lines = [f"{name:{width}} : {value}" for facts in groups for name, value in facts.items()]
+    return "\n".join([f"\n   {title}", *lines])
+
+
+def _ros_information() -> dict[str, object]:
+    from importlib.metadata import version
+
+    from turtlewire.tf.buffer import CORE
+    from turtlewire.wire.environment import discovery, domain_id
+
+    chosen = discovery()
+    return {
+        "distribution name": os.environ.get("ROS_DISTRO", "jazzy"),
+        "turtlewire": f"{version('turtlewire')} ({CORE} core)",
+        "domain": domain_id(),
+        "discovery range": chosen.range.value,
+        "static peers": ";".join(chosen.static_peers) or "none",
+        "AMENT_PREFIX_PATH": os.environ.get("AMENT_PREFIX_PATH", ""),
+    }
+
+
+def _topics() -> list[dict[str, object]]:
+    from ros2cli.discovery import GraphNode
+    from ros2cli.graph import endpoints_of_topic, topics
+
+    own = ("/parameter_events", "/rosout")
+    with GraphNode() as graph:
+        found: list[dict[str, object]] = [
+            {
+                "topic": name,
+                "publisher count": len(endpoints_of_topic(graph, name, "publisher")),
+                "subscriber count": len(endpoints_of_topic(graph, name, "subscription")),
+            }
+            for name, _ in topics(graph)
+            if name not in own
+        ]
+    return found or [{"topic": "none", "publisher count": 0, "subscriber count": 0}]

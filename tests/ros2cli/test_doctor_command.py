@@ -1,0 +1,46 @@
+"""`ros2 doctor`: findings and the report."""
+
+from __future__ import annotations
+
+import os
+
+from ros2cli.main import main
+from turtlewire import msg
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+
+def test_an_empty_domain_is_a_problem(capsys):
+    assert main(["doctor", "--report-failed"]) == 1
+    assert capsys.readouterr().out.startswith(f"PROBLEM: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host.\n")
+
+
+def test_what_is_only_worth_knowing_fails_when_asked(capsys):
+    context = open_context()
+    try:
+        context.create_node("alone")
+        assert main(["doctor"]) == 0
+        assert capsys.readouterr().out.startswith("note: Nobody publishes transforms.")
+        assert main(["doctor", "--include-warnings"]) == 1
+    finally:
+        context.close()
+
+
+def test_the_report_has_facts(capsys):
+    context = open_context()
+    try:
+        kind = TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String"))
+        context.create_node("talker").create_publisher("/chatter", kind, QoS())
+        assert main(["doctor", "--report"]) == 0
+    finally:
+        context.close()
+    lines = capsys.readouterr().out.splitlines()
+    assert [line for line in lines if line.startswith("   ")] == [
+        "   PLATFORM INFORMATION",
+        "   RMW MIDDLEWARE",
+        "   ROS 2 INFORMATION",
+        "   TOPIC LIST",
+    ]
+    assert f"domain            : {os.environ['ROS_DOMAIN_ID']}" in lines
+    assert lines[-3:] == ["topic            : /chatter", "publisher count  : 1", "subscriber count : 0"]
