@@ -37,7 +37,7 @@ range `LOCALHOST` switches multicast off and asks peers on this host
 `publish()` on a reliable keep-all topic blocks as long as a subscription stands still
   wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
 some 30 processes on a host in range `LOCALHOST`
-  wire/test_scale.py test_fifty_processes_see_each_other
+  wire/test_scale.py test_fifty_processes_that_start_at_once_see_each_other
   wire/test_environment.py test_configuration_of_each_range
 a service waits within its callback's thread until the client's reader is known
   wire/test_processes.py test_the_first_request_of_a_new_client_is_always_answered
@@ -128,7 +128,7 @@ a rejected transform is told in the log alone
   tf2_geometry_msgs/test_vectors.py test_the_header_is_the_transforms_but_a_copy_of_it
 C++ turns a wrench's force and torque and leaves it at that
   tf2_geometry_msgs/test_twists.py test_power_is_the_same_in_every_frame
-Python has no twists, paths, pose arrays, wrenches, velocities, quaternions
+Python has no twists, paths, odometry, pose arrays, wrenches, velocities, quaternions
   tf2_geometry_msgs/test_registration.py test_a_buffer_transforms_it_at_the_time_of_its_stamp test_the_package_lists_what_it_has
 clouds: only x, y, z turn, `row_step` is ignored
   tf2_sensor_msgs/test_clouds.py test_normals_are_turned_and_not_moved test_every_layout
@@ -154,7 +154,15 @@ a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_tools.py test_monitor_names_who_publishes
 `MessageFilter` is for C++
   tf2_ros/test_message_filter.py test_callbacks_run_on_the_executor_not_where_the_data_come
-quaternions of `tf_transformations` are NumPy arrays
+a `Buffer` without a node knows nothing of a simulated clock
+  tf2_ros/test_buffer.py test_a_buffer_follows_the_clock_of_its_listener
+messages that wait in a filter or synchronizer survive a clock that jumps back
+  tf2_ros/test_message_filter.py test_what_waits_is_dropped_when_the_clock_jumps_back
+`tf2_echo` waits for ever for a frame id that cannot be (`/world`)
+  tf2_ros/test_tools.py test_echo_refuses
+`static_transform_publisher` publishes NaN, infinity and a quaternion of zeros
+  tf2_ros/test_tools.py test_wrong_arguments_are_named
+`tf_transformations` needs `transforms3d`, and loads NumPy at once
   tf_transformations/test_tf_transformations.py test_the_broadcaster_s_function_needs_no_numpy
 
 two INFO lines at the start
@@ -182,6 +190,20 @@ teleop without a terminal aborts
 bad `--ros-args` abort with 250
   test_compatibility.py test_bad_arguments_end_turtlesim_with_status_1
 
+`--ros-args` that cannot be read end a Python node with a traceback
+  ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
+nothing but the error line follows an unknown name
+  ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
+an error in a launch file does not say where
+  launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
+colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find
+  turtlewire_ros/test_colcon_interfaces.py test_a_broken_manifest_is_named_with_its_line
+SIGTERM of `ros2 run` leaves the executable behind
+  ros2cli/test_run_command.py test_whoever_ends_it_ends_the_executable
+`ros2 bag`, `component`, `control`, `security`
+  ros2cli/test_suggestions.py test_commands_that_are_not_here
+`static_transform_publisher` listens to `/parameter_events`, as nodes of C++ do
+  ros2cli/test_golden_cli.py test_commands_beside_the_demo
 children's `print()` waits in a buffer
   launch/test_execute_process.py test_print_is_seen_at_once
 a launched program has a pipe as its input

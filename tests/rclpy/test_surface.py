@@ -7,12 +7,15 @@ A table says what is there in ROS 2. Ours may take more keywords, with defaults;
 
 from __future__ import annotations
 
+import ast
 import importlib
 import inspect
 import re
+from pathlib import Path
 
 import pytest
 
+import rclpy.node
 import rclpy.qos
 from rclpy.clock import ClockType
 from rclpy.context import Context
@@ -755,3 +758,14 @@ def test_a_program_may_have_attributes_of_its_own(context, kind):
     listed = {name for place, name, *_ in (row.values for row in functions()) if place == "rclpy.node.Node"}
     assert public - listed == set(dict(rows(PROPERTIES))["rclpy.node.Node"].replace("=", "").split())
     node.destroy_node()
+
+
+def test_node_is_a_facade():
+    """Each method of a node is one line onto the part that does the work."""
+    (node_class,) = [each for each in ast.parse(Path(rclpy.node.__file__).read_text()).body if isinstance(each, ast.ClassDef)]
+    longer = set()
+    for method in (each for each in node_class.body if isinstance(each, ast.FunctionDef)):
+        work = [each for each in method.body if not isinstance(each, ast.ImportFrom)]
+        if len(work) - (ast.get_docstring(method) is not None) != 1:
+            longer.add(method.name)
+    assert longer == {"__init__", "_rclpy_wire", "destroy_node", "executor"}
