@@ -9,7 +9,7 @@ from turtlesim.msg import Color, Pose
 from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Collection, Iterable
 
     from rclpy.node import Node
     from turtlewire.wire.base import EndpointInfo
@@ -18,6 +18,8 @@ __all__ = ["MissingTurtles", "find_missing"]
 
 #: How long a turtle must be missing before anybody is told: most programs spawn theirs right after they start [s].
 _PATIENCE_S = 2.0
+#: Among more turtles than this nobody misses one; and to look at the endpoints of so many would hold the simulator up.
+_MOST_TURTLES = 200
 #: Only the simulator serves these, so that who subscribes to one waits for a turtle.
 _TURTLE_TOPICS = {"pose": type_name(Pose), "color_sensor": type_name(Color)}
 
@@ -29,7 +31,7 @@ class MissingTurtles:
         names: The turtles that are missing at the moment, as far as is known.
     """
 
-    def __init__(self, node: Node, turtles: Callable[[], Iterable[str]], on_change: Callable[[], None]) -> None:
+    def __init__(self, node: Node, turtles: Callable[[], Collection[str]], on_change: Callable[[], None]) -> None:
         """Start watching.
 
         Args:
@@ -60,7 +62,9 @@ class MissingTurtles:
 
     def _look(self) -> None:
         self._patience.cancel()
-        names = find_missing(self._graph.endpoints(), self._node.get_namespace(), self._turtles())
+        turtles = self._turtles()
+        is_crowd = len(turtles) > _MOST_TURTLES
+        names = () if is_crowd else find_missing(self._graph.endpoints(), self._node.get_namespace(), turtles)
         if names != self.names:
             self.names = names
             self._on_change()

@@ -306,6 +306,14 @@ class TestMissingTurtles:
         world.spin_until(lambda: world.sim._missing.names)
         assert not any("Somebody" in line for line in lines(capfd))
 
+    def test_in_a_crowd_nobody_is_missed(self, make_world, monkeypatch):
+        world = make_world()
+        world.listen(Pose, "/turtle2/pose")
+        world.spin_until(lambda: world.sim._missing.names == ("turtle2",))
+        monkeypatch.setattr("turtlesim.missing_turtles._MOST_TURTLES", 0)
+        world.listen(Pose, "/turtle3/pose")
+        world.spin_until(lambda: world.sim._missing.names == ())
+
     def test_what_is_not_a_turtle_is_left_alone(self, world):
         from turtlesim.missing_turtles import find_missing
 
