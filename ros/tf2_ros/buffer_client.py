@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 import warnings
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,7 @@ _NOT_BACK = (
 _NOT_ACCEPTED = (
     "The LookupTransform goal sent to the BufferServer did not come back with accepted status. Something is likely wrong with the server."
 )
+_GONE = "The BufferServer went away before it had answered."
 _NO_RESULT = "The BufferServer returned None for result or result.error!  Something is likely wrong with the server."
 
 
@@ -67,7 +69,8 @@ class BufferClient(BufferInterface):
             enable_rosout=False,
             start_parameter_services=False,
         )
-        self.action_client = ActionClient(self._node, LookupTransform, node.resolve_topic_name(ns))
+        self._action = node.resolve_topic_name(ns)
+        self.action_client = ActionClient(self._node, LookupTransform, self._action)
         self._executor, self._thread = spin_in_thread(self._node, "buffer-client")
 
     def destroy(self) -> bool:
@@ -150,16 +153,35 @@ class BufferClient(BufferInterface):
         timeout_s = to_nanoseconds(timeout, "duration") / 1e9
         if not self.action_client.wait_for_server(timeout_sec=timeout_s):
             raise TimeoutException(_NOT_READY)
-        limit = timeout_s + self.timeout_padding.nanoseconds / 1e9
-        handle = _wait(self.action_client.send_goal_async(goal), limit)
+        limit, servers = timeout_s + self.timeout_padding.nanoseconds / 1e9, self._servers()
+        handle = self._wait(self.action_client.send_goal_async(goal), limit, servers)
         if not handle.accepted:
             raise TimeoutException(_NOT_ACCEPTED)
         try:
-            response = _wait(handle.get_result_async(), limit)
+            response = self._wait(handle.get_result_async(), limit, servers)
         except TimeoutException:
             handle.cancel_goal_async()
             raise
         return _transform(response)
+
+    def _servers(self) -> set[bytes]:
+        return {bytes(each.endpoint_gid) for each in self._node.get_publishers_info_by_topic(f"{self._action}/_action/status")}
+
+    def _wait(self, future: Future, seconds: float, servers: set[bytes]) -> Any:
+        """What a future gives; it is not waited for when one of the servers that were asked has left the graph."""
+        until, news = time.monotonic() + seconds, threading.Event()
+        future.add_done_callback(lambda _future: news.set())
+        stop_listening = self._node.context.wire.graph.add_listener(news.set)
+        try:
+            while not future.done():
+                if not servers <= self._servers():
+                    raise TimeoutException(_GONE)
+                if not news.wait(max(0.0, until - time.monotonic())):
+                    raise TimeoutException(_NOT_BACK)
+                news.clear()
+        finally:
+            stop_listening()
+        return future.result()
 
 
 def _transform(response: Any) -> TransformStamped:
@@ -177,14 +199,6 @@ def _transform(response: Any) -> TransformStamped:
         raise TimeoutException("The BufferServer gave up: the transform was not available in time.")
     transform: TransformStamped = result.transform
     return transform
-
-
-def _wait(future: Future, seconds: float) -> Any:
-    done = threading.Event()
-    future.add_done_callback(lambda _future: done.set())
-    if not done.wait(seconds):
-        raise TimeoutException(_NOT_BACK)
-    return future.result()
 
 
 def _message(time: Time | Any) -> Any:
