@@ -10,6 +10,7 @@ import time
 import pytest
 
 from turtlesim import page_commands
+from turtlesim.crowd import Crowd
 from turtlesim.model import TICK_NS, World
 from turtlesim.screen import Scene, Screen
 from turtlesim.transform_view import TransformView
@@ -34,6 +35,7 @@ class Simulator:
 
     def __init__(self) -> None:
         self.world = World()
+        self._crowd = Crowd()
         self.turtle1 = self.world.spawn_centred()
         self.background = BLUE
         self.missing: tuple[str, ...] = ()
@@ -61,7 +63,10 @@ class Simulator:
             while not self._queue.empty():
                 self._obey(self._queue.get())
             self.screen.set_scene(self._scene())
-            self.screen.show(self.world.step(tick * TICK_NS))
+            if len(self.world.turtles) < 100:
+                self.screen.show(self.world.step(tick * TICK_NS))
+            else:
+                self.screen.show_crowd(self._crowd.step(self.world.in_order(), tick * TICK_NS))
             tick += 1
 
     def _obey(self, command: page_commands.Command) -> None:

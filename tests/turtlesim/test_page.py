@@ -127,6 +127,22 @@ def test_another_turtle_can_be_chosen(simulator, open_page):
     wait_for_text(page, "#words", "of turtle1")
 
 
+def test_a_crowd_moves_and_draws(simulator, open_page):
+    """More than a hundred come as arrays, and are drawn turned beforehand."""
+    page = open_page(simulator.screen.url)
+    for k in range(150):
+        place = 2.0 + 0.02 * k
+        simulator._queue.put(page_commands.Spawn(place, place, 0.0, f"member{k}"))
+    wait_for_text(page, "#more", "and 139 more")
+    wait_for_pixel(page, "turtles", 2.0, 2.0, is_opaque)
+    assert pixel(page, "turtles", 4.0, 2.0)[3] == 0
+    for k in range(150):
+        simulator._queue.put(page_commands.Drive(f"member{k}", 2.0, 0.0))
+    wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
+    wait_for_pixel(page, "ground", 2.5, 2.0, is_pen)
+    assert pixel(page, "turtles", 2.0, 2.0)[3] == 0
+
+
 def test_two_browsers_show_the_same_world(simulator, open_page):
     one = open_page(simulator.screen.url)
     middle = simulator.turtle1.x
