@@ -45,6 +45,8 @@ def test_what_is_set(node):
 
 
 def test_it_hears_of_parameter_events(node):
-    topics = [topic for topic, _ in node.get_subscriber_names_and_types_by_node("sim", "/")]
-    assert "/parameter_events" in topics
+    def hears() -> bool:
+        return "/parameter_events" in dict(node.get_subscriber_names_and_types_by_node("sim", "/"))
+
+    assert node.context._wait_for_graph(hears, 20_000_000_000)
     assert node.get_parameter(QOS).value == 1000
