@@ -8,15 +8,13 @@ import re
 from turtlewire.errors import WireError
 from turtlewire.wire.environment import Discovery, Range
 
-from .ports import max_processes, processes_on_host
+from .ports import max_processes
 
 __all__ = ["domain_configuration"]
 
-#: Above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes, or the heartbeats of a crowd, arrive in one burst.
-_RECEIVE_BUFFER = "10 MB"
-#: On one host, each process that comes makes all writers of all others send heartbeats to everybody, at this interval. In a crowd it is
-#: longer, so that the heartbeats of one process do not become more with every process that is there: 120 that start would drown in them.
-_LEAST_HEARTBEAT_MS, _HEARTBEAT_MS_PER_PROCESS, _GREATEST_HEARTBEAT_MS = 100, 10, 1000
+#: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes, or the heartbeats of a crowd, arrive in
+#: one burst. (Heartbeats are left alone: rarer ones would calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)
+_INTERNAL = '<Internal><SocketReceiveBufferSize max="10 MB"/></Internal>'
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
 #: would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
@@ -29,7 +27,7 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     Raises:
         WireError: A static peer is not an address.
     """
-    parts = [_general(discovery), _internal(domain_id, discovery)]
+    parts = [_general(discovery), _INTERNAL]
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this host.
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
@@ -52,15 +50,6 @@ def _general(discovery: Discovery) -> str:
     # it alone, nobody from outside gets in.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
     return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
-
-
-def _internal(domain_id: int, discovery: Discovery) -> str:
-    buffer = f'<SocketReceiveBufferSize max="{_RECEIVE_BUFFER}"/>'
-    if discovery.range != Range.LOCALHOST:
-        return f"<Internal>{buffer}</Internal>"
-    calm = _HEARTBEAT_MS_PER_PROCESS * (processes_on_host(domain_id) or 0)
-    interval = min(max(_LEAST_HEARTBEAT_MS, calm), _GREATEST_HEARTBEAT_MS)
-    return f"<Internal>{buffer}<HeartbeatInterval>{interval} ms</HeartbeatInterval></Internal>"
 
 
 def _peers(discovery: Discovery) -> str:
