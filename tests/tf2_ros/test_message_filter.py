@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import PointStamped, TransformStamped
 from message_filters import Subscriber, TimeSynchronizer
 from rclpy.clock import ClockType
+from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import Buffer, FilterFailureReason, MessageFilter
 
@@ -161,6 +165,47 @@ def test_what_waits_is_dropped_when_the_clock_jumps_back(setup, node, stamped):
     s.filter.add(point(10))
     s.buffer.set_transform(stamped(stamp_s=10), "me")
     s.spin_until(lambda: s.passed == [10])
+
+
+steps = st.lists(st.tuples(st.sampled_from(["message", "transform", "spin", "jump"]), st.integers(1, 40)), max_size=40)
+
+
+@settings(max_examples=150)
+@given(steps, st.integers(1, 5))
+def test_each_message_passes_or_is_dropped_once_whatever_comes(things, queue_size):
+    context = Context()
+    context.init(args=[])
+    node = Node("node", context=context)
+    s = Setup(context, node, queue_size=queue_size)
+    clock, number = node.get_clock(), 0
+    clock._set_ros_time_is_active(True)
+    came, ended = [], []
+    s.filter.registerCallback(lambda message: ended.append(message.header.stamp.nanosec))
+    s.filter.registerFailureCallback(lambda message, _reason: ended.append(message.header.stamp.nanosec))
+    for thing, second in things:
+        if thing == "message":
+            number += 1
+            message = point(second)
+            message.header.stamp.nanosec = number  # tells it from the others
+            came.append(number)
+            s.filter.add(message)
+        elif thing == "transform":
+            transform = TransformStamped(child_frame_id="robot")
+            transform.header.frame_id, transform.header.stamp.sec = "world", second
+            s.buffer.set_transform(transform, "me")
+        elif thing == "spin":
+            s.settle()
+        else:
+            for time_s in (1000, 1):
+                clock.set_ros_time_override(Time(seconds=time_s, clock_type=ClockType.ROS_TIME))
+    s.settle()
+    waiting = [each.message.header.stamp.nanosec for each in s.filter._waiting]
+    for each in s.filter._waiting:
+        assert not s.buffer.can_transform("world", "robot", Time.from_msg(each.message.header.stamp))
+    assert sorted([*ended, *waiting]) == came
+    assert len(waiting) <= queue_size
+    node.destroy_node()
+    context.try_shutdown()
 
 
 def test_clear_forgets_silently(setup, stamped):
