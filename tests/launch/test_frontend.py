@@ -36,7 +36,6 @@ XML = """
     <env name="TURTLE" value="green"/>
   </executable>
   <timer period="0.01"><log message="later"/></timer>
-  <timer period="0.05"><shutdown reason="enough"/></timer>
 </launch>
 """
 YAML = """
@@ -68,7 +67,6 @@ launch:
     output_format: OUT {line}
     env: [{name: TURTLE, value: green}]
 - timer: {period: 0.01, children: [{log: {message: later}}]}
-- timer: {period: 0.05, children: [{shutdown: {reason: enough}}]}
 """
 
 
@@ -85,6 +83,14 @@ def launch_file(launch, tmp_path, language):
         return launch(IncludeLaunchDescription(str(path), launch_arguments=arguments))
 
     return start
+
+
+def test_shutdown(launch_file):
+    xml = '<launch><timer period="1000"><log message="never"/></timer><shutdown reason="enough"/></launch>'
+    yaml = "launch:\n- timer: {period: 1000.0, children: [{log: {message: never}}]}\n- shutdown: {reason: enough}\n"
+    outcome = launch_file(xml, yaml)
+    assert outcome.messages == []
+    assert outcome.status == 0
 
 
 def test_actions(launch_file):
