@@ -208,6 +208,16 @@ def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
         )
 
 
+def test_save_while_a_frame_is_removed(buffer: turtlewire.Buffer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    buffer.set_transform("map", "base", SECOND, (1, 2, 3), STILL)
+    buffer.set_transform("map", "cup", SECOND, (1, 2, 3), STILL)
+    listed = inspection.links(buffer)
+    buffer.remove_frame("cup")
+    monkeypatch.setattr(inspection, "links", lambda _buffer: listed)
+    inspection.save(buffer, tmp_path / "file")
+    assert inspection.load(tmp_path / "file").frame_strings() == ["base", "map"]
+
+
 @pytest.mark.parametrize(
     "damage", [lambda data: b"", lambda data: data[:-30], lambda data: b"x" * 200, lambda data: data[:300] + b"\0" * 40 + data[340:]]
 )

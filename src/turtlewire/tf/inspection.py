@@ -132,11 +132,17 @@ def save(buffer: Buffer, path: str | PathLike[str]) -> None:
 
     import numpy as np
 
+    from turtlewire.errors import LookupException
+
     arrays: dict[str, Any] = {}
     runs: list[tuple[str, str, bool, str]] = []
     for link in links(buffer):
         sender = link.senders[-1].name if link.senders else ""
-        for parent, stamps, poses in buffer.samples(link.child_frame):
+        try:
+            history = buffer.samples(link.child_frame)
+        except LookupException:  # removed since the links were listed
+            continue
+        for parent, stamps, poses in history:
             arrays[f"stamps{len(runs)}"], arrays[f"poses{len(runs)}"] = stamps, poses
             runs.append((parent, link.child_frame, link.static, sender))
     header = json.dumps({"format": _FORMAT, "cache_time_ns": buffer.cache_time_ns, "runs": runs})
