@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -76,8 +77,13 @@ class IntakeObject {
 };
 
 nb::list take(IntakeObject& self) {
+  std::deque<Intake::Kept> taken;
+  {
+    const nb::gil_scoped_release unlocked;
+    taken = self.core.take();
+  }
   nb::list list;
-  for (const Intake::Kept& kept : self.core.take()) {
+  for (const Intake::Kept& kept : taken) {
     list.append(nb::make_tuple(nb::bytes(kept.bytes.data(), kept.bytes.size()), kept.publisher, kept.sent));
   }
   return list;
@@ -148,8 +154,9 @@ void add_intake_type(nb::module_& module) {
           [](IntakeObject& self, const nb::bytes& gid, std::string_view name) { self.core.name(view_of(gid), name); },
           "gid"_a, "name"_a, "The authority of what an introduced publisher sends.")
       .def("take", &take,
-           "The messages kept back, as (bytes, number of the publisher, time of sending in ns). To be called until\n"
-           "there are none: only then the next ones take the short way again.")
+           "The next messages kept back that need Python, as (bytes, number of the publisher, time of sending in ns). "
+           "To be\n"
+           "called until there are none: only then new ones take the short way again.")
       .def("call_listeners", &IntakeObject::call_listeners,
            "Calls the change listeners of the buffers, if data came for any of them since the last time.")
       .def(

@@ -6,21 +6,26 @@ namespace turtlewire {
 
 bool Intake::receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes) {
   const std::scoped_lock lock(mutex_);
-  if (!store(publisher, bytes)) {
+  if (taken_care_of_ || !kept_.empty() || !store(publisher, bytes)) {
     if (most_kept_ != 0 && kept_.size() == most_kept_) kept_.pop_front();
     kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
   }
   return (news_ || !kept_.empty()) && !std::exchange(called_, true);
 }
 
+// Call with the lock held. Null if the publisher was not introduced, or has no name.
+const std::string* Intake::name_of(std::uint64_t publisher) const {
+  const auto known = publishers_.find(publisher);
+  return known == publishers_.end() || known->second.name.empty() ? nullptr : &known->second.name;
+}
+
 // Call with the lock held. False if the message is none for the short way.
 bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes) {
-  if (taken_care_of_ || !kept_.empty() || buffers_.empty()) return false;
-  const auto known = publishers_.find(publisher);
-  if (known == publishers_.end() || known->second.name.empty()) return false;
+  const std::string* name = name_of(publisher);
+  if (buffers_.empty() || name == nullptr) return false;
   if (bytes.size() < 2 || bytes[1] != 1 || !message_.decode(bytes.data(), bytes.size()).empty()) return false;
   for (SharedBuffer* buffer : buffers_) {
-    const Added added = buffer->add(message_.transforms(), known->second.name, is_static_);
+    const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
   }
   return true;
@@ -47,8 +52,14 @@ void Intake::name(std::string_view gid, std::string_view name) {
 std::deque<Intake::Kept> Intake::take() {
   const std::scoped_lock lock(mutex_);
   called_ = false;
-  taken_care_of_ = !kept_.empty();
-  return std::exchange(kept_, {});
+  while (!kept_.empty() && store(kept_.front().publisher, kept_.front().bytes)) kept_.pop_front();
+  std::deque<Kept> taken;
+  while (!kept_.empty() && (taken.empty() || buffers_.empty() || name_of(kept_.front().publisher) == nullptr)) {
+    taken.push_back(std::move(kept_.front()));
+    kept_.pop_front();
+  }
+  taken_care_of_ = !taken.empty();
+  return taken;
 }
 
 bool Intake::take_news() {

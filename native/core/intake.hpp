@@ -16,9 +16,8 @@
 
 namespace turtlewire {
 
-// Somebody else, the caretaker, takes what was kept back: messages of publishers without a name, and malformed ones.
-// The order of all messages is kept: until he has taken everything and come back for more in vain, the next ones are
-// kept back as well.
+// Somebody else, the caretaker, takes what needs him: messages of publishers without a name, and malformed ones. The
+// order of all messages is kept: until he has come back for more in vain, the next ones are kept back as well.
 class Intake {
  public:
   struct Kept {
@@ -39,7 +38,8 @@ class Intake {
   void introduce(std::uint64_t publisher, std::string_view gid);
   void name(std::string_view gid, std::string_view name);
 
-  // For the caretaker, who repeats it until there is nothing.
+  // For the caretaker, who repeats it until there is nothing: the next messages kept back that need him. Those before
+  // them that need him no more are stored.
   std::deque<Kept> take();
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
@@ -50,6 +50,7 @@ class Intake {
     std::string gid, name;
   };
 
+  const std::string* name_of(std::uint64_t publisher) const;
   bool store(std::uint64_t publisher, std::span<const unsigned char> bytes);
 
   const bool is_static_;

@@ -89,6 +89,30 @@ def test_python_sees_the_first_messages_of_a_publisher_only(flow):
         assert flow.by_python == seen
 
 
+def test_what_comes_while_python_is_busy_with_the_first_message_does_not_need_it(flow, monkeypatch):
+    """So that a machine under load finds back to the short way."""
+    buffer = Buffer(None)
+    busy, go = threading.Event(), threading.Event()
+    call = listener._Feed.__call__
+
+    def slow(feed, cdr, info):
+        busy.set()
+        assert go.wait(30)
+        call(feed, cdr, info)
+
+    monkeypatch.setattr(listener._Feed, "__call__", slow)
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        for stamp_s in range(1, 51):
+            flow.publisher.publish(tf_bytes(stamp_s))
+            assert busy.wait(30)
+        go.set()
+        buffer.lookup_transform("world", "robot", 50_000_000_000, LONG_NS)
+        [(_, stamps, _)] = buffer.samples("robot")
+        assert len(stamps) == 50
+    assert flow.by_python == 1
+
+
 def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
     buffer = Buffer(None)
     publishers = [flow.sender.create_node(f"talker{i}").create_publisher("/tf", TYPE, KEEP_ALL) for i in range(3)]
