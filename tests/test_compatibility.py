@@ -43,6 +43,11 @@ a service waits within its callback's thread until the client's reader is known
   wire/test_processes.py test_the_first_request_of_a_new_client_is_always_answered
 `ros_discovery_info` is sent anew for every endpoint
   wire/test_scale.py test_a_thousand_endpoints_take_a_handful_of_announcements
+a publisher whose type has our name and other fields is taken as ours
+  wire/test_bad_input.py test_a_type_of_our_name_with_other_fields_is_named_once
+a network that refuses datagrams is a line of the middleware for each of them
+  wire/test_two_hosts.py test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive
+  wire/test_cyclone_log.py test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends
 big-endian messages are read
   wire/test_foreign_peers.py test_payloads_that_are_no_messages_are_dropped_and_said_once
 `message_lost` is raised for lost samples
