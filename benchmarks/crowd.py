@@ -28,9 +28,6 @@ def rows() -> Iterator[Row]:
     joining = [let_one_join(50) for _ in range(ROUNDS)]
     yield Row("the 50th, beside 49: its start until all see all", figure([seconds for seconds, _ in joining]), {}, BUDGET)
     yield Row("memory of each of the 50 (proportional)", figure([size for _, size in joining], "MB"))
-    joined, size = let_one_join(120, each_second=5)
-    yield Row("the 120th, beside 119 that started 5 a second", figure([joined]))
-    yield Row("memory of each of the 120 (proportional)", figure([size], "MB"))
 
 
 def figure(values: list[float], unit: str = "ns") -> Figure:
@@ -63,12 +60,9 @@ def start_at_once(count: int) -> float:
     return seen - members[-1].started
 
 
-def let_one_join(count: int, each_second: float = 1000.0) -> tuple[float, float]:
+def let_one_join(count: int) -> tuple[float, float]:
     """Seconds from the last one's start, after the others know each other, until all see all; and MB of each."""
-    members = []
-    for _ in range(count - 1):
-        members.append(Member(count - 1, count))
-        time.sleep(1 / each_second)
+    members = [Member(count - 1, count) for _ in range(count - 1)]
     for member in members:
         member.next_time()
     members.append(Member(count))
