@@ -8,6 +8,8 @@ import sys
 import threading
 from pathlib import Path
 
+import pytest
+
 from turtlewire import Buffer, msg
 from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
@@ -19,6 +21,7 @@ COUNT = 20
 NAMES = [f"turtle{k}" for k in range(1, COUNT + 1)]
 
 
+@pytest.mark.slow
 def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
     for name in NAMES[2:]:
         turtles.watch(name)
