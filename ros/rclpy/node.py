@@ -21,6 +21,7 @@ from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from .guard_condition import GuardCondition
 from .handle import Handle
+from .hints import with_hint
 from .logging import get_logger
 from .node_endpoints import NodeEndpoints
 from .node_graph import NodeGraph
@@ -65,6 +66,17 @@ component_arguments: ContextVar[list[str] | None] = ContextVar("component_argume
 HIDDEN_NODE_PREFIX = "_"
 
 
+class _MadeByConstructor:
+    """Stands for an attribute until the constructor sets it, for programs whose ``__init__`` forgets that of its base."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, node: object, owner: type | None = None) -> Any:
+        error = AttributeError(f"{type(node).__name__!r} object has no attribute {self._name!r}")
+        raise with_hint(error, "A node is used before it was made: call super().__init__('name') first")
+
+
 class Node:
     """A node. Thread-safe.
 
@@ -87,6 +99,9 @@ class Node:
     """
 
     PARAM_REL_TOL = 1e-6
+
+    if not TYPE_CHECKING:
+        _clock, _logger, _parameters, _rclpy_endpoints = (_MadeByConstructor() for _ in range(4))
 
     def __init__(
         self,

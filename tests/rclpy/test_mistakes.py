@@ -62,6 +62,20 @@ def test_the_error_says_what_to_do(node, executor, mistake):
     assert help_ in getattr(caught.value, "hint", "") or help_ in str(caught.value)
 
 
+class Forgetful(Node):
+    """Does not call the constructor of its base."""
+
+    def __init__(self):
+        self.publisher = self.create_publisher(String, "chatter", 10)
+
+
+def test_a_node_that_forgets_to_call_the_constructor_of_its_base():
+    with pytest.raises(AttributeError) as caught:
+        Forgetful()
+    assert str(caught.value) == "'Forgetful' object has no attribute '_rclpy_endpoints'"
+    assert caught.value.hint.endswith("call super().__init__('name') first")
+
+
 def test_a_service_that_forgets_to_return_its_response(node, executor):
     node.create_service(AddTwoInts, "add", lambda _request, response: setattr(response, "sum", 1))
     response = node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request())

@@ -762,7 +762,7 @@ def test_a_program_may_have_attributes_of_its_own(context, kind):
 
 def test_node_is_a_facade():
     """Each method of a node is one line onto the part that does the work."""
-    (node_class,) = [each for each in ast.parse(Path(rclpy.node.__file__).read_text()).body if isinstance(each, ast.ClassDef)]
+    (node_class,) = [each for each in ast.parse(Path(rclpy.node.__file__).read_text()).body if getattr(each, "name", "") == "Node"]
     longer = set()
     for method in (each for each in node_class.body if isinstance(each, ast.FunctionDef)):
         work = [each for each in method.body if not isinstance(each, ast.ImportFrom)]
