@@ -89,7 +89,7 @@ def test_every_size_and_scheme(scene, open_page, size, scheme):
     options = {"viewport": {"width": width, "height": height}, "device_scale_factor": 0.5}
     page = open_page(scene.screen.url, color_scheme=scheme, reduced_motion="reduce", **options)
     pose_is_shown(page, "9.00")
-    page.wait_for_function("document.querySelector('#words').textContent.includes('turtle2')")
+    page.wait_for_function("() => document.querySelector('#words').textContent.includes('turtle2')")
     after_two_frames(page)
     assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < {"desktop": 2.0, "phone": 5.0}[size]  # light is 90 from dark
     assert page.evaluate("document.documentElement.scrollWidth") <= width
