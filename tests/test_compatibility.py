@@ -159,6 +159,8 @@ a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_tools.py test_monitor_names_who_publishes
 `MessageFilter` is for C++
   tf2_ros/test_message_filter.py test_callbacks_run_on_the_executor_not_where_the_data_come
+a lookup waits to its end for a server that was killed
+  tf2_ros/test_clock_jumps.py test_the_client_goes_on_with_the_next_server
 a `Buffer` without a node knows nothing of a simulated clock
   tf2_ros/test_buffer.py test_a_buffer_follows_the_clock_of_its_listener
 messages that wait in a filter or synchronizer survive a clock that jumps back
