@@ -80,7 +80,7 @@ def qos_of(endpoint: dict) -> QoS:
 
 
 def look_with_a_foreign_peer(context: Context, count: int) -> tuple[list[dict], list[dict]]:
-    environment = os.environ | {"CYCLONEDDS_URI": domain_configuration(discovery())}
+    environment = os.environ | {"CYCLONEDDS_URI": domain_configuration(context.domain_id, discovery())}
     command = [sys.executable, PEER, str(count), str(context.domain_id)]
     peer = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     lines = [json.loads(line) for line in peer.stdout.splitlines()]
