@@ -361,9 +361,9 @@ def test_deadlines_come_in_order_and_leave_no_thread():
     from tf2_ros.deadlines import Deadlines
 
     deadlines, calls, last = Deadlines(), [], threading.Event()
-    deadlines.call_after(0.06, lambda: (calls.append("late"), last.set()))
-    deadlines.call_after(0.03, lambda: calls.append("early"))
-    cancel = deadlines.call_after(0.04, lambda: calls.append("cancelled"))
+    deadlines.call_after(1.0, lambda: (calls.append("late"), last.set()))
+    deadlines.call_after(0.05, lambda: calls.append("early"))
+    cancel = deadlines.call_after(30.0, lambda: calls.append("cancelled"))
     cancel()
     cancel()
     assert last.wait(60)
