@@ -35,7 +35,7 @@ Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rot
 'Q' to quit."""
 NO_TERMINAL = "Failed to get old console mode"
 NO_TERMINAL_HINT = (
-    "turtle_teleop_key reads keys from a terminal: run it in one of its own, or launch it with emulate_tty=True. "
+    "turtle_teleop_key reads keys from a terminal: run it, or launch it, in the foreground of one. "
     "The arrow keys also work in turtlesim's page."
 )
 
@@ -95,16 +95,16 @@ class TeleopTurtle(CppNode):
 
 
 class _Keyboard:
-    """The terminal on standard input, giving each byte as it is typed while in its ``with`` block, and put back after it.
+    """The terminal, giving each byte as it is typed while in its ``with`` block, and put back after it.
 
     Raises (on construction):
-        OSError: Standard input is no terminal.
+        OSError: There is none.
     """
 
     def __init__(self) -> None:
         import termios
 
-        self._fd = sys.stdin.fileno()
+        self._fd = _terminal()
         try:
             self._cooked = termios.tcgetattr(self._fd)
         except termios.error as error:
@@ -145,7 +145,7 @@ def main(args: list[str] | None = None) -> int:
     """Read keys until ``q``, Ctrl-C or the end of the terminal.
 
     Returns:
-        The exit status: 1 when standard input is no terminal.
+        The exit status: 1 when there is no terminal to read.
     """
     if sys.platform == "win32":
         _complain("turtle_teleop_key cannot read a Windows console yet: the arrow keys work in turtlesim's page.")
@@ -173,6 +173,18 @@ def main(args: list[str] | None = None) -> int:
             spinner.join()
             node.destroy_node()
     return 0
+
+
+def _terminal() -> int:
+    """Standard input; of a launched process, which has a pipe there, the terminal of the launch."""
+    stdin = 0
+    if os.isatty(stdin):
+        return stdin
+    terminal = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
+    if os.tcgetpgrp(terminal) != os.getpgrp():
+        os.close(terminal)
+        raise OSError("in the background: a read would stop this process")
+    return terminal
 
 
 def _spin(node: CppNode) -> None:

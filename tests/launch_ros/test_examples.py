@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 from pathlib import Path
+
+import pytest
 
 ROS2 = Path(sys.executable).parent / "ros2"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -31,13 +34,14 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription([
         Node(package="turtlesim", executable="turtlesim_node"),
-        Node(package="turtlesim", executable="turtle_teleop_key", output="screen", emulate_tty=True),
+        Node(package="turtlesim", executable="turtle_teleop_key", output="screen"OPTIONS),
     ])
 """
 
 
-def test_a_launched_teleop_reads_the_terminal(ros2_launch):
-    launch = ros2_launch(TELEOP, environment=HEADLESS, terminal=True)
+@pytest.mark.parametrize("options", ["", ", emulate_tty=True"])
+def test_a_launched_teleop_reads_the_terminal(ros2_launch, options):
+    launch = ros2_launch(TELEOP.replace("OPTIONS", options), environment=HEADLESS, terminal=True)
     launch.wait_for(r"\[turtle_teleop_key-2\] Use arrow keys to move the turtle\.")
     launch.wait_for(r"Spawning turtle \[turtle1\]")
     launch.wait_for(r"'Q' to quit\.")
@@ -46,3 +50,18 @@ def test_a_launched_teleop_reads_the_terminal(ros2_launch):
     launch.type("\x03")
     assert launch.wait() == 0
     assert "Traceback" not in launch.text
+
+
+def test_the_terminal_is_as_before_after_a_launched_teleop(run, tmp_path):
+    (tmp_path / "test.launch.py").write_text(TELEOP.replace("OPTIONS", ""))
+    commands = f"trap : INT; stty -g; {ROS2} launch ./test.launch.py; echo status $?; stty -g"
+    shell = run("sh", "-c", commands, environment=HEADLESS, cwd=tmp_path, terminal=True)
+    shell.wait_for(r"Spawning turtle \[turtle1\]")
+    shell.wait_for(r"'Q' to quit\.")
+    shell.type("\x03")
+    shell.wait_for("status 0")
+    assert shell.wait() == 0
+    before, after = re.findall(r"(?m)^[0-9a-f]+(?::[0-9a-f]+)+$", shell.text)
+    assert before == after
+    assert "Traceback" not in shell.text
+    assert shell.survivors() == []

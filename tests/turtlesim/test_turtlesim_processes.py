@@ -268,11 +268,32 @@ def test_the_terminal_is_put_back_after_a_fault_of_ours():
         terminal.close()
 
 
-def test_teleop_without_a_terminal_says_so():
-    teleop = Process("turtlesim.turtle_teleop_key")
-    assert teleop.join() == 1
-    assert teleop.output.splitlines()[0] == "Failed to get old console mode"
-    assert "terminal" in teleop.output.splitlines()[1]
+TELEOP_WITH_A_PIPE = f"true | {sys.executable} -m turtlesim.turtle_teleop_key"
+
+
+def test_teleop_without_a_terminal_says_so(run):
+    teleop = run("sh", "-c", TELEOP_WITH_A_PIPE)  # in a session of its own, without a terminal
+    assert teleop.wait() == 1
+    first, hint = teleop.text.splitlines()
+    assert first == "Failed to get old console mode"
+    assert "terminal" in hint
+
+
+def test_teleop_with_a_pipe_as_its_input_takes_the_terminal_and_puts_it_back(run):
+    modes = "stty -g </dev/tty"
+    teleop = run("sh", "-c", f"{modes}; {TELEOP_WITH_A_PIPE}; {modes}", terminal=True)
+    teleop.wait_for(r"'Q' to quit\.")
+    teleop.type("q")
+    assert teleop.wait() == 0
+    before, after = re.findall(r"(?m)^[0-9a-f]+(?::[0-9a-f]+)+$", teleop.text)
+    assert before == after
+
+
+def test_teleop_in_the_background_leaves_the_terminal_alone(run):
+    teleop = run("bash", "-c", f"set -m; {TELEOP_WITH_A_PIPE} & wait $!; echo status $?", terminal=True)
+    assert teleop.wait() == 0
+    assert "Failed to get old console mode" in teleop.text
+    assert "status 1" in teleop.text
 
 
 def test_teleop_ends_when_its_terminal_closes():
