@@ -34,6 +34,8 @@ range `LOCALHOST` switches multicast off and asks peers on this host
   wire/test_environment.py test_localhost_uses_nothing_but_the_loopback_interface
 `ROS_STATIC_PEERS` on one side is enough, since the default range is `SUBNET`
   wire/test_two_hosts.py test_static_peers_find_the_other_host_without_multicast
+a static peer that is no known host ends the process
+  wire/test_environment.py test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
 `publish()` on a reliable keep-all topic blocks as long as a subscription stands still
   wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
 some 30 processes on a host in range `LOCALHOST`
@@ -234,8 +236,6 @@ Ctrl-C of a verb may end in error lines
   test_compatibility.py test_only_python_packages_are_created
 `ros2 doctor` counts checks
   cli/test_doctor.py test_the_command_says_problems_first_and_fails
-action feedback follows "Goal accepted"
-  ros2cli/test_golden_cli.py test_commands_beside_the_demo
 """
 
 

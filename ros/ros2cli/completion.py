@@ -19,6 +19,7 @@ __all__ = [
     "managed_node_names",
     "node_names",
     "packages",
+    "parameter_names",
     "service_names",
     "service_types",
     "topic_names",
@@ -125,6 +126,15 @@ def _ask(question: str) -> Any:
 
     with GraphNode() as known:
         return getattr(graph, question)(known)
+
+
+def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Names of the parameters of the node on the command line."""
+    from ros2cli.direct_node import DirectNode
+    from ros2cli.parameters import RemoteParameters
+
+    with DirectNode(parsed_args) as direct:
+        return RemoteParameters(direct, parsed_args).names([])
 
 
 def managed_node_names(**_: Any) -> list[str]:

@@ -77,7 +77,7 @@ def _run(words: list[str]) -> int:
     if unknown:
         options = _OPTION.findall(getattr(args, "parser", parser).format_usage())
         parser.error(f"unrecognized arguments: {' '.join(unknown)}{_hint(unknown[0], options)}")
-    if not args.use_python_default_buffering:
+    if not args.use_python_default_buffering and sys.stdout is not None:  # None: whoever started this has closed it
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     return _status(args)
 

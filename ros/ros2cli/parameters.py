@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.completion import node_names
+from ros2cli.completion import node_names, parameter_names
 from ros2cli.discovery import add_strategy_arguments
 
 if TYPE_CHECKING:
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["TYPE_NAMES", "RemoteParameters", "add_node_arguments", "full_node_name"]
+__all__ = ["TYPE_NAMES", "RemoteParameters", "add_name_argument", "add_node_arguments", "full_node_name"]
 
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.
 TYPE_NAMES = {
@@ -38,6 +38,12 @@ def add_node_arguments(parser: argparse.ArgumentParser, *, optional: bool = Fals
     node.completer = node_names  # type: ignore[attr-defined]
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Also nodes whose name begins with an underscore")
     parser.add_argument("--timeout", metavar="N", type=float, default=_TIMEOUT_S, help="Wait at most N seconds for the node's answer")
+
+
+def add_name_argument(parser: argparse.ArgumentParser) -> None:
+    """Define the name of one parameter."""
+    name = parser.add_argument("parameter_name", help="Name of the parameter")
+    name.completer = parameter_names  # type: ignore[attr-defined]
 
 
 def full_node_name(name: str) -> str:

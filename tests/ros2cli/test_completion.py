@@ -56,3 +56,12 @@ def test_names_of_the_graph():
         assert offered("ros2 node info /so") == {"/some_node"}
     finally:
         context.close()
+
+
+def test_names_of_parameters(run):
+    program = "import rclpy; rclpy.init(); node = rclpy.create_node('some_node'); node.declare_parameter('speed', 1.0); "
+    other = run(sys.executable, "-c", program + "print('ready', flush=True); rclpy.spin(node)")
+    other.wait_for("ready")
+    for verb in ("get", "set", "delete", "describe"):
+        assert offered(f"ros2 param {verb} /some_node sp") == {"speed"}
+    assert offered("ros2 param get /nobody sp") == set()

@@ -16,6 +16,11 @@ def test_an_empty_domain_is_a_problem(capsys):
     assert capsys.readouterr().out.startswith(f"PROBLEM: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host.\n")
 
 
+def test_its_other_name(capsys):
+    assert main(["wtf"]) == 1
+    assert "No node is seen" in capsys.readouterr().out
+
+
 def test_what_is_only_worth_knowing_fails_when_asked(capsys):
     context = open_context()
     try:

@@ -21,7 +21,6 @@ DEVIATIONS = {
     **dict.fromkeys((175, 176, 332), NO_DAEMON),
     **dict.fromkeys((160, 223, 269, 316, 317, 322), CLEAN_END),
     **dict.fromkeys((194, 326), PYTHON_NODE),
-    314: "the first feedback may come before the answer to the goal",
 }
 
 

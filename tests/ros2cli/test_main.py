@@ -114,6 +114,15 @@ def test_a_reader_that_ends_early_is_no_error():
     assert "Traceback" not in result.stderr
 
 
+@pytest.mark.parametrize("closed", ["<&-", ">&-"])
+@pytest.mark.parametrize("words", ["pkg list", "launch turtlesim multisim.launch.py --show-args"])
+def test_closed_streams_are_no_error(words, closed):
+    program = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
+    command = f'{sys.executable} -c "{program}" {words} {closed}'
+    result = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert result.stderr == ""
+
+
 def test_words_of_a_completion_are_taken_from_the_shell(monkeypatch):
     monkeypatch.setenv("_ARGCOMPLETE", "1")
     monkeypatch.setenv("COMP_LINE", "ros2 topic ec")

@@ -18,4 +18,5 @@ COMMANDS = {
     "run": "Run an executable of a package",
     "service": "List services, call one, watch the calls of others",
     "topic": "List topics, listen to one, publish to one",
+    "wtf": "The same as doctor",
 }

@@ -22,7 +22,7 @@ _SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    parser.add_argument("-n", "--noninteractive", action="store_true", default=not sys.stdin.isatty(), help="Nobody at a terminal watches")
+    parser.add_argument("-n", "--noninteractive", action="store_true", default=not _at_terminal(), help="Nobody at a terminal watches")
     parser.add_argument("-d", "--debug", action="store_true", help="Log what the launch does in detail")
     either = parser.add_mutually_exclusive_group()
     either.add_argument("-p", "--print", "--print-description", action="store_true", help="Show what would be launched, and end")
@@ -82,10 +82,14 @@ def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
     return service.run()
 
 
+def _at_terminal() -> bool:
+    return sys.stdin is not None and sys.stdin.isatty()  # None: whoever started this has closed it
+
+
 @contextlib.contextmanager
 def _terminal_restored() -> Iterator[None]:
     """A launched node may have put the terminal into another mode, and have been killed before it could undo that."""
-    if not sys.stdin.isatty():
+    if not _at_terminal():
         yield
         return
     import termios
@@ -94,7 +98,9 @@ def _terminal_restored() -> Iterator[None]:
     try:
         yield
     finally:
-        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
+        with contextlib.suppress(OSError, termios.error):  # the terminal is gone
+            if os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp():  # in the background it is the shell's, and setting it would stop this
+                termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
 
 
 def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:

@@ -64,14 +64,23 @@ def main(args: argparse.Namespace) -> str | None:
 def _run(direct: DirectNode, client: Any, goal: Any, *, feedback: bool) -> str | None:
     from rosidl_runtime_py import message_to_yaml
 
+    accepted = False
+    early: list[Any] = []  # feedback has a topic of its own, on which it may overtake the answer to the goal
+
     def show(message: Any) -> None:
-        print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+        if accepted:
+            print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+        else:
+            early.append(message)
 
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
     handle = direct.result(client.send_goal_async(goal, show if feedback else None))
     if not handle.accepted:
         return "Goal was rejected."
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+    accepted = True
+    for message in early:
+        show(message)
     result_future = handle.get_result_async()
     try:
         result = direct.result(result_future)

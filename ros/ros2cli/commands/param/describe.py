@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.completion import parameter_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.parameters import TYPE_NAMES, RemoteParameters, add_node_arguments
 
@@ -17,7 +18,8 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser)
-    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+    names = parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+    names.completer = parameter_names  # type: ignore[attr-defined]
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_node_arguments
+from ros2cli.parameters import RemoteParameters, add_name_argument, add_node_arguments
 
 if TYPE_CHECKING:
     import argparse
@@ -28,7 +28,7 @@ _LABELS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
+    add_name_argument(parser)
     parser.add_argument("--hide-type", action="store_true", help="Show only the value")
 
 

@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_node_arguments
+from ros2cli.parameters import RemoteParameters, add_name_argument, add_node_arguments
 
 if TYPE_CHECKING:
     import argparse
@@ -17,7 +17,7 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
+    add_name_argument(parser)
     parser.add_argument("value", help="Value of the parameter, as YAML")
 
 
