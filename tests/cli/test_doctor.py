@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import threading
 import time
@@ -249,6 +250,33 @@ def test_multicast_that_does_not_come_back(monkeypatch):
     assert multicast_works(0.01) in (True, False)
     monkeypatch.setattr("turtlewire.cli.network._GROUP", "127.0.0.1")  # no group: joining it fails as without a network
     assert not multicast_works(0.01)
+
+
+UP = "ip link set lo up"
+OWN_NETWORK = subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False).returncode == 0
+LOST = "PROBLEM: A multicast datagram does not come back"
+NOBODY = "PROBLEM: No node is seen on domain"
+NO_WIRE = "PROBLEM: join domain"
+
+
+@pytest.mark.skipif(not OWN_NETWORK, reason="a network of its own takes root, unshare and ip")
+@pytest.mark.parametrize(
+    ("network", "problems"),
+    [
+        ("true", [LOST, NO_WIRE]),
+        (UP, [LOST, NOBODY]),
+        (f"{UP} multicast on && ip route add 239.0.0.0/8 dev lo", [NOBODY]),
+    ],
+    ids=["no interface", "no multicast", "multicast"],
+)
+def test_the_multicast_of_a_real_network(run, network, problems):
+    doctor = f"{network} && {Path(sys.executable).parent / 'turtlewire'} doctor"
+    program = run("unshare", "-n", "sh", "-c", doctor, environment={"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
+    assert program.wait() == 1
+    lines = [line for _, line in program.lines]
+    found = [line for line in lines if line.startswith("PROBLEM")]
+    assert [line[: len(problem)] for line, problem in zip(found, problems, strict=True)] == problems
+    assert all(len(lines[lines.index(line) + 1].strip()) > 20 for line in found)  # the remedy
 
 
 def test_an_empty_domain_costs_no_listening(monkeypatch):

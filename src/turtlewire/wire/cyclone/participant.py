@@ -32,14 +32,26 @@ class _Domains:
         self._lock = threading.Lock()
         self._users: dict[int, int] = {}
         self._handles: dict[int, int] = {}
+        self._process = os.getpid()
         self._log: CycloneLog | None = None
 
     def join(self, domain_id: int) -> None:
         """Make the domain, unless it is there."""
         with self._lock:
+            self._notice_fork()
             if not self._users.get(domain_id):
                 self._create(domain_id)
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
+
+    def _notice_fork(self) -> None:
+        """A forked child has none of Cyclone's threads, and Cyclone would wait for them for ever: a new context is of no use there."""
+        if self._process == os.getpid():
+            return
+        if any(self._users.values()):
+            error = WireError("open a context: this process was forked from one with an open context")
+            raise error.with_hint("Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context.")
+        self._process = os.getpid()
+        self._log = None  # its pipe is shared with the parent
 
     def _create(self, domain_id: int) -> None:
         if self._log is None:
@@ -72,6 +84,10 @@ def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
         return error.with_hint(f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain.")
     if os.environ.get("CYCLONEDDS_URI"):
         return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
+    if "interfaces" in reason:
+        return error.with_hint(
+            "Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`)."
+        )
     return error
 
 
