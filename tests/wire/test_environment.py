@@ -118,6 +118,27 @@ def test_a_static_peer_must_be_an_address():
         domain_configuration(7, Discovery(Range.SUBNET, ('a"/><b',)))
 
 
+@pytest.mark.parametrize("peer", ["127.0.0.1:0", "127.0.0.1:65536", "::1", "a b"])
+def test_what_cannot_be_an_address_is_refused(peer: str):
+    with pytest.raises(WireError, match="is not an address"):
+        domain_configuration(7, Discovery(Range.SUBNET, (peer,)))
+
+
+def test_static_peers_are_resolved():
+    assert peers(configuration(Discovery(Range.SUBNET, ("localhost", "localhost:7410")))) == ["127.0.0.1", "127.0.0.1:7410"]
+
+
+@pytest.mark.parametrize("peer", ["no-such-host.invalid", "256.1.1.1", "a..b", "0.0.0.0"])
+def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning(peer: str):
+    """In a process of its own, which has to survive it."""
+    code = "from turtlewire.wire import open_context; open_context().close(); open_context().close(); print('alive')"
+    variables = os.environ | {"ROS_STATIC_PEERS": f"{peer};localhost", "ROS_DOMAIN_ID": OWN_DOMAIN}
+    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout) == (0, "alive\n")
+    [line] = done.stderr.splitlines()
+    assert f"ROS_STATIC_PEERS: {peer} is left out" in line
+
+
 @pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])
 def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
     code = "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); print(len(c.graph.nodes())); c.close()"

@@ -7,6 +7,7 @@ import re
 
 from turtlewire.errors import WireError
 from turtlewire.wire.environment import Discovery, Range
+from turtlewire.wire.report import warn_once
 
 from .ports import max_processes
 
@@ -18,7 +19,8 @@ _INTERNAL = '<Internal><SocketReceiveBufferSize max="10 MB"/></Internal>'
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
 #: would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
-_ADDRESS = r"[A-Za-z0-9.:_%\[\]-]+"
+_PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
+_LAST_PORT = 65535
 
 
 def domain_configuration(domain_id: int, discovery: Discovery) -> str:
@@ -58,12 +60,30 @@ def _peers(discovery: Discovery) -> str:
         # Never given up, because with static peers it is we who must find the processes of this host (see _general).
         peers.append('<Peer address="localhost" PruneDelay="inf"/>' if discovery.static_peers else '<Peer address="localhost"/>')
     if discovery.range != Range.SYSTEM_DEFAULT:
-        peers += [f'<Peer address="{_checked(address)}"/>' for address in discovery.static_peers]
+        peers += [f'<Peer address="{address}"/>' for address in map(_resolved, discovery.static_peers) if address]
     return f"<Peers>{''.join(peers)}</Peers>" if peers else ""
 
 
-def _checked(address: str) -> str:
-    if not re.fullmatch(_ADDRESS, address):
-        error = WireError(f"ROS_STATIC_PEERS: {address!r} is not an address")
-        raise error.with_hint("Write host names or IP addresses, separated by ';'.")
-    return address
+def _resolved(peer: str) -> str:
+    """The IPv4 address of a static peer, and its port if it has one; empty, after a warning, when there is no such host.
+
+    Cyclone aborts the process for a peer that it cannot resolve, so it gets none.
+
+    Raises:
+        WireError: It is not even the form of an address.
+    """
+    import socket  # noqa: PLC0415 - few have static peers
+
+    written = re.fullmatch(_PEER, peer)
+    if not written or not 0 < int(written["port"] or 1) <= _LAST_PORT:
+        error = WireError(f"ROS_STATIC_PEERS: {peer!r} is not an address")
+        raise error.with_hint("Write host names or IPv4 addresses, separated by ';'.")
+    try:
+        address = socket.getaddrinfo(written["host"], None, socket.AF_INET)[0][4][0]
+    except (OSError, UnicodeError) as error:
+        warn_once(f"static peer {peer}", f"ROS_STATIC_PEERS: {peer} is left out, it has no IPv4 address: {error.args[-1]}")
+        return ""
+    if address == "0.0.0.0":  # noqa: S104 - nothing is bound to it
+        warn_once(f"static peer {peer}", f"ROS_STATIC_PEERS: {peer} is left out, it is the address of nobody")
+        return ""
+    return f"{address}:{written['port']}" if written["port"] else str(address)
