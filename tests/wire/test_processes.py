@@ -163,6 +163,36 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
     assert done.stderr == ""
 
 
+def forked(before: str) -> str:
+    """What a child prints that is forked after ``before`` and opens a context of its own."""
+    code = (
+        "import os\n"
+        "from turtlewire.wire import open_context\n"
+        f"{before}\n"
+        "if os.fork() == 0:\n"
+        "    try:\n"
+        "        own = open_context()\n"
+        "        own.create_node('child')\n"
+        "        print([node.name for node in own.graph.nodes()], flush=True)\n"
+        "        own.close()\n"
+        "    except Exception as error:\n"
+        "        print(error, flush=True)\n"
+        "else:\n"
+        "    os.wait()\n"
+    )
+    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}
+    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=True)
+    assert done.stderr == ""
+    return done.stdout
+
+
+def test_a_forked_child_opens_a_context_only_where_the_parent_has_none():
+    """Cyclone would wait for threads that the child does not have, for ever."""
+    assert forked("context = open_context()") == "open a context: this process was forked from one with an open context\n"
+    assert forked("open_context().close()") == "['child']\n"
+    assert forked("") == "['child']\n"
+
+
 def test_a_process_with_discovery_off_is_not_seen(context: Context):
     graph = context.graph
     with echo_peer(ROS_AUTOMATIC_DISCOVERY_RANGE="OFF"), echo_peer():

@@ -85,9 +85,7 @@ def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
     if os.environ.get("CYCLONEDDS_URI"):
         return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
     if "interfaces" in reason:
-        return error.with_hint(
-            "Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`)."
-        )
+        return error.with_hint("Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`).")
     return error
 
 
