@@ -72,7 +72,7 @@ def _resolved(peer: str) -> str:
     Raises:
         WireError: It is not even the form of an address.
     """
-    import socket  # noqa: PLC0415 - few have static peers
+    import socket
 
     written = re.fullmatch(_PEER, peer)
     if not written or not 0 < int(written["port"] or 1) <= _LAST_PORT:
