@@ -159,6 +159,10 @@ a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_tools.py test_echo_prints_what_ros_2_prints test_echo_as_json
 `tf2_monitor` names no publisher
   tf2_ros/test_tools.py test_monitor_names_who_publishes
+`tf2_monitor` tells 1.8e9 s as net delay of a chain that does not move
+  tf2_ros/test_tools.py test_what_does_not_move_has_no_net_delay
+`tf2_echo` and `tf2_monitor` leave alone with a frame id that is not known
+  tf2_ros/test_tools.py test_the_tools_help_with_a_frame_id_that_is_not_known
 `MessageFilter` is for C++
   tf2_ros/test_message_filter.py test_callbacks_run_on_the_executor_not_where_the_data_come
 a lookup waits to its end for a server that was killed

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
+_EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a closed pipe
 _INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
@@ -127,7 +128,7 @@ def _status(args: argparse.Namespace) -> int:
         status: int | str | None = module.main(args)
     except BrokenPipeError:  # the reader of a pipe has enough
         sys.stdout = None
-        return 1
+        return _EXIT_READER_GONE
     except RuntimeError as error:
         status = _told(error)
     except Exception as error:  # noqa: BLE001  a user gets one line; the name of the error is what a search finds

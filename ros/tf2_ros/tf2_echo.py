@@ -80,7 +80,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
         known, reason = answer
         if known:
             break
-        node.get_logger().info(f"Waiting for transform {source} ->  {target}: {reason}")
+        node.get_logger().info(f"Waiting for transform {source} ->  {target}: {reason}{_hint(buffer, source, target)}")
     while not stopped.is_set():
         try:
             transform = buffer.lookup_transform(source, target, Time())
@@ -92,6 +92,15 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
             printed += 1
         if printed == options.limit > 0 or stopped.wait(period_s):
             return
+
+
+def _hint(buffer: Buffer, source: str, target: str) -> str:
+    """A line with what helps, of a lookup that fails."""
+    try:
+        buffer.lookup_transform(source, target, Time())
+    except TransformException as error:
+        return f"\n{error.hint}" if error.hint else ""
+    return ""  # it has come just now
 
 
 def describe(transform: TransformStamped, options: argparse.Namespace) -> str:

@@ -13,6 +13,7 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from turtlewire import msg
 from turtlewire.errors import TransformException
+from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME
 from turtlewire.wire.base import TypeId
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
+    from turtlewire.tf.frame_tree import Link
     from turtlewire.wire.base import MessageInfo
 
 __all__ = ["Statistics", "main"]
@@ -196,7 +198,8 @@ def _note_chain(frames: list[str], buffer: Buffer, net: Delays, clock: Any) -> N
             stamp_ns = buffer.engine.latest_common_time(frames[1], frames[0])
         except TransformException:
             return  # not connected yet
-        net.add((clock.now().nanoseconds - stamp_ns) / 1e9)
+        if stamp_ns:  # what does not move has no delay
+            net.add((clock.now().nanoseconds - stamp_ns) / 1e9)
 
 
 def chain(buffer: Buffer, source: str, target: str) -> list[str]:
@@ -206,20 +209,16 @@ def chain(buffer: Buffer, source: str, target: str) -> list[str]:
         TransformException: They are not connected.
     """
     buffer.lookup_transform(target, source, Time())
-    parents = dict(line.removeprefix("Frame ").removesuffix(".").split(" exists with parent ") for line in _frame_lines(buffer))
-    ups = [_to_root(frame, parents) for frame in (source, target)]
+    links = read_frame_tree(buffer.engine).links
+    ups = [_to_root(frame, links) for frame in (source, target)]
     common = next(frame for frame in ups[0] if frame in ups[1])
     return ups[0][: ups[0].index(common) + 1] + ups[1][: ups[1].index(common)][::-1]
 
 
-def _frame_lines(buffer: Buffer) -> list[str]:
-    return [line for line in buffer.all_frames_as_string().splitlines() if not line.endswith("parent NO_PARENT.")]
-
-
-def _to_root(frame: str, parents: dict[str, str]) -> list[str]:
+def _to_root(frame: str, links: dict[str, Link]) -> list[str]:
     found = [frame]
-    while found[-1] in parents and parents[found[-1]] not in found:
-        found.append(parents[found[-1]])
+    while found[-1] in links and links[found[-1]].parent not in found:
+        found.append(links[found[-1]].parent)
     return found
 
 
@@ -230,7 +229,7 @@ def _report(options: argparse.Namespace, buffer: Buffer, statistics: Statistics,
         try:
             way = chain(buffer, *options.frames)
         except TransformException as error:
-            data["error"] = str(error)
+            data |= {"error": str(error), "hint": error.hint}
         data |= {"chain": way, "net_delay": {"average": net.mean, "max": net.maximum}}
         data["frames"] = [entry for entry in data["frames"] if entry["frame"] in way]
     return json.dumps(data) if options.json else _in_lines(options.frames, data)
@@ -241,7 +240,7 @@ def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
     lines = ["", ""]
     if frames:
         lines += [f"RESULTS: for {frames[0]} to {frames[1]}"]
-        lines += [data["error"]] if "error" in data else [f"Chain is: {' -> '.join(data['chain'])}"]
+        lines += [*filter(None, (data["error"], data["hint"]))] if "error" in data else [f"Chain is: {' -> '.join(data['chain'])}"]
         lines += [f"Net delay     avg = {data['net_delay']['average']:g}: max = {data['net_delay']['max']:g}"]
     else:
         lines += ["RESULTS: for all Frames"]

@@ -313,8 +313,8 @@ def test_monitor_of_a_chain_as_json(tool):
     ],
 )
 def test_the_end_of_a_pipe_is_a_quiet_end(command, first, run):
-    pipe = run("bash", "-c", f"{BIN / 'ros2'} run {command} | head -n 1")
-    assert pipe.wait() == 0
+    pipe = run("bash", "-c", f"set -o pipefail; {BIN / 'ros2'} run {command} | head -n 1")
+    assert pipe.wait() == 141  # of a program that wrote into a closed pipe
     assert re.fullmatch(first, pipe.text)
 
 
@@ -334,6 +334,32 @@ def test_chains_go_up_and_down_again(stamped):
     assert tf2_monitor.chain(buffer, "b", "d") == ["b", "a", "c", "d"]
     assert tf2_monitor.chain(buffer, "d", "root") == ["d", "c", "a", "root"]
     assert tf2_monitor.chain(buffer, "a", "a") == ["a"]
+
+
+def test_a_chain_may_have_any_frame_id(stamped):
+    buffer = Buffer()
+    buffer.set_transform_static(stamped("world", "a exists with parent b."), "me")
+    assert tf2_monitor.chain(buffer, "a exists with parent b.", "world") == ["a exists with parent b.", "world"]
+
+
+def test_what_does_not_move_has_no_net_delay(stamped):
+    buffer, net = Buffer(), tf2_monitor.Delays()
+    buffer.set_transform_static(stamped("world", "robot"), "me")
+    tf2_monitor._note_chain(["robot", "world"], buffer, net, buffer.clock)
+    assert net.count == 0
+    buffer.set_transform(stamped("world", "cup", stamp_s=1), "me")
+    tf2_monitor._note_chain(["cup", "robot"], buffer, net, buffer.clock)
+    assert net.count == 1
+
+
+def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
+    buffer = Buffer()
+    buffer.set_transform_static(stamped("world", "robot"), "me")
+    assert "robot" in tf2_echo._hint(buffer, "world", "robt")
+    assert tf2_echo._hint(buffer, "world", "robot") == ""
+    statistics = tf2_monitor.Statistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
+    options = argparse.Namespace(frames=["world", "robt"], json=False)
+    assert tf2_echo._hint(buffer, "world", "robt").strip() in tf2_monitor._report(options, buffer, statistics, tf2_monitor.Delays())
 
 
 def test_statistics(stamped):
