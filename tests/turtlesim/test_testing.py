@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 from turtlesim.msg import Pose
@@ -129,6 +130,19 @@ def test_several_simulations_after_one_another_and_the_environment_is_untouched(
         with Simulation() as simulation:
             simulation.step()
     assert dict(os.environ) == before
+
+
+def test_one_that_fails_to_begin_leaves_nothing_behind(monkeypatch):
+    def fail(*_):
+        raise RuntimeError("no clock today")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Simulation, "_publish_time", fail)
+        with pytest.raises(RuntimeError, match="no clock today"):
+            Simulation()
+    assert not rclpy.ok()
+    with Simulation() as simulation:
+        simulation.step()
 
 
 def test_the_same_bits_in_every_process():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -18,7 +19,7 @@ from turtlesim.model import TICK_NS
 from turtlesim.turtlesim_node import TurtlesimNode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from typing_extensions import Self
 
@@ -46,22 +47,25 @@ class Simulation:
     def __init__(self) -> None:
         self.now = 0.0
         self._ticks = 0
-        self._previous_middleware = os.environ.get(_MIDDLEWARE)
-        os.environ[_MIDDLEWARE] = "local"
-        try:
-            rclpy.init(args=["--ros-args", *_as_arguments({})])
-        finally:
-            self._restore_environment()
         self._nodes: list[Node] = []
+        self._commands: dict[str, Publisher] = {}
         self._reader = _ReaderInStep()
-        self._replace_reader(rclpy.get_default_context().wire)
+        with _middleware_of_this_process():
+            rclpy.init(args=["--ros-args", *_as_arguments({})])
         self._executor = SingleThreadedExecutor()
+        try:
+            self._begin()
+        except BaseException:
+            self.close()
+            raise
+
+    def _begin(self) -> None:
+        self._replace_reader(rclpy.get_default_context().wire)
         self.node = TurtlesimNode(headless=True)
         self.add(self.node)
         self._driver = Node("simulation", parameter_overrides=[])
         self.add(self._driver)
         self._clock = self._driver.create_publisher(Clock, "/clock", 1)
-        self._commands: dict[str, Publisher] = {}
         self._publish_time()
         self._come_to_rest()
 
@@ -184,12 +188,6 @@ class Simulation:
         wire.reader.close()
         wire.reader = self._reader
 
-    def _restore_environment(self) -> None:
-        if self._previous_middleware is None:
-            del os.environ[_MIDDLEWARE]
-        else:
-            os.environ[_MIDDLEWARE] = self._previous_middleware
-
 
 class _ReaderInStep:
     """Stands in for the middleware's reader thread, which feeds TF listeners, and does its work between two callbacks."""
@@ -209,6 +207,20 @@ class _ReaderInStep:
     def close(self) -> None:
         """Drop the rest."""
         self._work.clear()
+
+
+@contextlib.contextmanager
+def _middleware_of_this_process() -> Iterator[None]:
+    """Have `local` chosen, and leave the environment as it was."""
+    before = os.environ.get(_MIDDLEWARE)
+    os.environ[_MIDDLEWARE] = "local"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_MIDDLEWARE]
+        else:
+            os.environ[_MIDDLEWARE] = before
 
 
 def _as_arguments(parameters: dict[str, object]) -> list[str]:
