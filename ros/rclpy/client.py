@@ -5,9 +5,10 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.errors import CdrError
+from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
+from ._rclpy_pybind11 import RCLError
 from .hints import described, with_hint
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
@@ -74,6 +75,7 @@ class Client(IntrospectedEndpoint):
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
+            RCLError: The context was shut down.
         """
         self._check_usable()
         if not isinstance(request, self.srv_type.Request):
@@ -81,12 +83,20 @@ class Client(IntrospectedEndpoint):
             raise with_hint(TypeError(), hint)
         future = Future()
         with self._lock:  # the response may be faster than we are: it has to find the future
-            sequence_number = self._wire.send_request(serialize(request))
+            sequence_number = self._send(serialize(request))
             self._pending[sequence_number] = future
         if self._events is not None:
             self._events.publish(EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request)
         future._add_waiter(lambda: self._pending.pop(sequence_number, None))
         return future
+
+    def _send(self, cdr: bytes) -> int:
+        try:
+            return self._wire.send_request(cdr)
+        except WireError:
+            if self._context._is_open():
+                raise
+            raise RCLError("failed to send request: client's context is invalid") from None
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request and block until its response is here.

@@ -80,6 +80,10 @@ class Context:
         """Whether it is initialized and has not been shut down."""
         return self._valid
 
+    def _is_open(self) -> bool:
+        """Whether endpoints work: a signal leaves them to the program's last words, until it calls :meth:`shutdown` itself."""
+        return self._valid or self.ended_by_signal
+
     def get_domain_id(self) -> int:
         """The domain it is in."""
         return self.wire.domain_id

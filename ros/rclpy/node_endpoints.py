@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from turtlewire.msg import type_name
 from turtlewire.wire import names
 
+from ._rclpy_pybind11 import RCLError
 from .callback_groups import MutuallyExclusiveCallbackGroup
 from .client import Client
 from .entity import Entity
@@ -84,6 +85,7 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
+        self._require_context("publisher")
         wire = self._node._rclpy_wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
         return publisher_class(wire, msg_type, profile, self._node.context)
 
@@ -117,6 +119,7 @@ class NodeEndpoints:
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
+        self._require_context("subscription")
         wire = self._node._rclpy_wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
@@ -133,6 +136,10 @@ class NodeEndpoints:
         profile = copy.copy(profile)
         declare_qos_parameters(kind, self._node, self.resolve_topic(topic), profile, options)
         return profile
+
+    def _require_context(self, what: str) -> None:
+        if not self._node.context._is_open():
+            raise RCLError(f"could not create {what}: rcl node's context is invalid")
 
     def _own_events(
         self,
@@ -154,6 +161,7 @@ class NodeEndpoints:
         """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
+        self._require_context("client")
         wire = self._node._rclpy_wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
         return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger(), self._node._rclpy_wire)
@@ -182,6 +190,7 @@ class NodeEndpoints:
         check_is_valid_srv_type(srv_type)
         _check_callable(callback)
         name = self.resolve_service(srv_name)
+        self._require_context("service")
         wire = self._node._rclpy_wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
         group = callback_group or self.default_callback_group
         return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger(), self._node._rclpy_wire)

@@ -62,6 +62,7 @@ class Publisher:
             self._check_usable()
         if isinstance(msg, self.msg_type):
             if not self._keeps_for_late_joiners and self._wire.subscription_count() == 0:
+                self._check_context()
                 return
             cdr = serialize(msg)
         elif isinstance(msg, bytes):
@@ -71,8 +72,11 @@ class Publisher:
         try:
             self._wire.publish(cdr)
         except WireError as error:
-            if self._context.ok():
-                raise RCLError(f"Failed to publish: {error}") from error
+            self._check_context()
+            raise RCLError(f"Failed to publish: {error}") from error
+
+    def _check_context(self) -> None:
+        if not self._context._is_open():
             raise RCLError("Failed to publish: publisher's context is invalid") from None
 
     def get_subscription_count(self) -> int:

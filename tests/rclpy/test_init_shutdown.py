@@ -196,7 +196,32 @@ def test_destroying_after_shutdown_is_fine():
     node.get_logger().info("last words")
     with pytest.raises(RCLError, match="publisher's context is invalid"):
         publisher.publish(b"\x00\x01\x00\x00\x00\x00\x00\x00")
+    with pytest.raises(RCLError, match="publisher's context is invalid"):
+        publisher.publish(_int32()())
     node.destroy_node()
+    node.destroy_node()
+
+
+@pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middleware):
+    from std_srvs.srv import Empty
+
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+    rclpy.init(args=[])
+    node = Node("late")
+    client = node.create_client(Empty, "service")
+    rclpy.shutdown()
+    creators = {
+        "publisher": lambda: node.create_publisher(_int32(), "topic", 1),
+        "subscription": lambda: node.create_subscription(_int32(), "topic", print, 1),
+        "client": lambda: node.create_client(Empty, "other"),
+        "service": lambda: node.create_service(Empty, "other", print),
+    }
+    for what, create in creators.items():
+        with pytest.raises(RCLError, match=f"could not create {what}: rcl node's context is invalid"):
+            create()
+    with pytest.raises(RCLError, match="failed to send request"):
+        client.call_async(Empty.Request())
     node.destroy_node()
 
 

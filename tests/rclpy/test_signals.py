@@ -85,6 +85,39 @@ def test_sigterm_that_is_not_caught_ends_the_process_with_a_traceback(start):
     assert errors.splitlines()[-1].startswith("rclpy.executors.ExternalShutdownException")
 
 
+@MODES
+def test_a_callback_that_a_signal_meets_says_its_last_words(start, middleware):
+    program = start(
+        """
+        import threading, rclpy
+        from std_msgs.msg import String
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        publisher = node.create_publisher(String, "topic", 1)
+        shut = threading.Event()
+        node.context.on_shutdown(shut.set)
+        def callback():
+            print("up")
+            shut.wait()
+            publisher.publish(String(data="last words"))
+            node.create_publisher(String, "other", 1).publish(String())
+            print("said")
+        node.create_guard_condition(callback).trigger()
+        try:
+            rclpy.spin(node)
+        except rclpy.executors.ExternalShutdownException:
+            rclpy.shutdown()
+        try:
+            publisher.publish(String())
+        except rclpy._rclpy_pybind11.RCLError as error:
+            print(error)
+        """,
+        middleware,
+    )
+    program.send_signal(signal.SIGTERM)
+    assert program.finish() == (0, "said\nFailed to publish: publisher's context is invalid\n", "")
+
+
 def test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises(start):
     program = start("""
         import rclpy
