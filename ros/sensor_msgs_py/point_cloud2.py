@@ -51,13 +51,13 @@ def read_points(
         reshape_organized_cloud: Give the points of a cloud with rows the shape (width, height).
 
     Returns:
-        The points, shape (N,). Without ``skip_nans``, ``uvs`` and foreign byte order they share the memory of the message.
+        The points, shape (N,). Without ``skip_nans``, ``uvs``, foreign byte order and padded rows they share the memory of the message.
 
     Raises:
         AssertionError: A name is not a field of the cloud.
     """
     dtype = dtype_from_fields(cloud.fields, point_step=cloud.point_step)
-    points: np.ndarray[Any, np.dtype[np.void]] = np.ndarray(shape=(cloud.width * cloud.height,), dtype=dtype, buffer=cloud.data)
+    points = _points(cloud, dtype)
     if field_names is not None:
         if not all(name in (dtype.names or ()) for name in field_names):
             raise AssertionError("Requests field is not in the fields of the point cloud.")
@@ -71,6 +71,14 @@ def read_points(
     if reshape_organized_cloud and cloud.height > 1:
         points = points.reshape(cloud.width, cloud.height)
     return points
+
+
+def _points(cloud: PointCloud2, dtype: np.dtype[np.void]) -> np.ndarray[Any, np.dtype[np.void]]:
+    """All points, one after the other, also when there is padding between the rows."""
+    if cloud.height > 1 and cloud.row_step > cloud.width * cloud.point_step:
+        strides = (cloud.row_step, cloud.point_step)
+        return np.ndarray((cloud.height, cloud.width), dtype, cloud.data, strides=strides).reshape(-1)
+    return np.ndarray((cloud.width * cloud.height,), dtype, cloud.data)
 
 
 def read_points_numpy(

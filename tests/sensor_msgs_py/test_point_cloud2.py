@@ -71,6 +71,17 @@ def test_clouds_with_rows_keep_their_shape():
         point_cloud2.create_cloud_xyz32(HEADER, np.zeros((1, 1, 1, 3), dtype=np.float32))
 
 
+def test_padding_between_rows_is_no_point():
+    cloud = point_cloud2.create_cloud_xyz32(HEADER, np.arange(12.0).reshape(4, 3))
+    rows = np.frombuffer(cloud.data, np.uint8).reshape(2, 24)
+    padded = np.hstack([rows, np.full((2, 5), 255, np.uint8)])
+    cloud.height, cloud.width, cloud.row_step, cloud.data = 2, 2, 29, padded.tobytes()
+    np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud), np.arange(12.0).reshape(4, 3))
+    assert point_cloud2.read_points_list(cloud, ["x"], uvs=[2]) == [(6.0,)]
+    cloud.row_step = 0  # many writers leave it unset
+    np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud)[:2], np.arange(6.0).reshape(2, 3))
+
+
 def test_big_endian_clouds_are_swapped():
     cloud = point_cloud2.create_cloud_xyz32(HEADER, [(1, 2, 3)])
     cloud.data = np.array([1, 2, 3], dtype=">f4").tobytes()
