@@ -75,10 +75,13 @@ def read_points(
 
 def _points(cloud: PointCloud2, dtype: np.dtype[np.void]) -> np.ndarray[Any, np.dtype[np.void]]:
     """All points, one after the other, also when there is padding between the rows."""
+    points: np.ndarray[Any, np.dtype[np.void]]
     if cloud.height > 1 and cloud.row_step > cloud.width * cloud.point_step:
         strides = (cloud.row_step, cloud.point_step)
-        return np.ndarray((cloud.height, cloud.width), dtype, cloud.data, strides=strides).reshape(-1)
-    return np.ndarray((cloud.width * cloud.height,), dtype, cloud.data)
+        points = np.ndarray((cloud.height, cloud.width), dtype, cloud.data, strides=strides).reshape(-1)
+    else:  # many writers leave row_step unset
+        points = np.ndarray((cloud.height * cloud.width,), dtype, cloud.data)
+    return points
 
 
 def read_points_numpy(
