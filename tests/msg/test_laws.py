@@ -18,7 +18,7 @@ from turtlewire.msg.registry import load_message
 from turtlewire.msg.types import AbstractNestedType, AbstractString, AbstractWString, Array, BasicType, NamespacedType
 
 FEW = settings(max_examples=6, suppress_health_check=list(HealthCheck))
-MANY = settings(max_examples=300, suppress_health_check=list(HealthCheck))
+MANY = settings(max_examples=60, suppress_health_check=list(HealthCheck))
 
 
 def _check_all(names, messages, check, limits):
