@@ -67,8 +67,8 @@ class ConditionSet(Generic[T]):
             if token == _GUARD:
                 if not self._closed:
                     dds.set_guard_condition(self._guard, False)
-            elif token in self._objects:
-                found.append(self._objects[token])
+            elif (triggered_object := self._objects.get(token)) is not None:  # None: detached by another thread
+                found.append(triggered_object)
         return found
 
     def wake(self) -> None:
