@@ -32,8 +32,11 @@ class EventWatcher:
         """The events that have something to take."""
         if not self._happened:
             return []
-        for event in [event for event in self._happened if not event.pending]:
-            self._happened.pop(event, None)
+        for event in list(self._happened):
+            if not event.pending:
+                self._happened.pop(event, None)
+                if event.pending:  # it happened again at this very moment
+                    self._happened[event] = None
         return list(self._happened)
 
     def forget(self, event: StatusEvent) -> None:
