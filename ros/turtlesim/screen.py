@@ -1,9 +1,10 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
 What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a few times a second while it
-watches the frames, and one binary frame for each tick that it keeps up with. A frame is little-endian: five 32-bit unsigned integers
-(tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if the picture starts empty), five 32-bit floats
-for each turtle in the scene's order (x, y, theta, linear and angular velocity), and the strokes as :mod:`turtlesim.drawing` packs them.
+watches the frames, and one binary frame for each tick (of a crowd: each second tick) that it keeps up with. A frame is little-endian:
+five 32-bit unsigned integers (tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if the picture
+starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta, linear and angular velocity), and the strokes as
+:mod:`turtlesim.drawing` packs them.
 What comes back: :mod:`turtlesim.page_commands`.
 """
 
@@ -36,6 +37,8 @@ _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in use.
 DEFAULT_PORT = 7070
+#: A page moves turtles between two frames; with a crowd it gets every second tick, and its time goes into drawing.
+_CROWD_TICKS = 2
 #: Time between two looks at the frames [s].
 _FRAMES_PERIOD_S = 0.2
 
@@ -102,7 +105,8 @@ class Screen:
             self._shown = tuple([turtle.name for turtle in tick.turtles])
             self._poses = tick.poses.tobytes()
             self._drawing.add_records(tick.stroke_records())
-        self._server.notify()
+        if self._tick % _CROWD_TICKS == 0:
+            self._server.notify()
 
     def set_scene(self, scene: Scene) -> None:
         """Show other turtles, another background or other hints from now on."""

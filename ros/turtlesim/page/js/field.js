@@ -16,6 +16,7 @@ export class Field {
   #camera = new Camera();
   #background = [69, 86, 255];
   #size = 0;
+  #pixelsToCss = 1;
 
   constructor(groundCanvas, liveCanvas) {
     this.#ground = groundCanvas.getContext("2d");
@@ -105,12 +106,13 @@ export class Field {
     if (!pose || !this.follows) this.#camera.rest();
     else this.#camera.look((pose.x / FIELD_METRES) * this.#size, (1 - pose.y / FIELD_METRES) * this.#size, this.#size, now);
     const { left, top } = this.#camera;
-    const pixels = this.#size / this.canvas.getBoundingClientRect().width || 1;
-    this.#ground.canvas.style.transform = `translate(${-left / pixels}px, ${-top / pixels}px)`;
+    this.#ground.canvas.style.transform = `translate(${-left * this.#pixelsToCss}px, ${-top * this.#pixelsToCss}px)`;
   }
 
   #fitToScreen() {
-    const size = Math.max(1, Math.round(this.canvas.getBoundingClientRect().width * devicePixelRatio));
+    const { width } = this.canvas.getBoundingClientRect();
+    const size = Math.max(1, Math.round(width * devicePixelRatio));
+    this.#pixelsToCss = width / size;
     if (size === this.#size) return;
     this.#size = size;
     this.canvas.width = this.canvas.height = size;

@@ -35,7 +35,8 @@ export function poseOf(frame, index) {
 
 /** Plays frames a little behind their arrival, so that the turtles move smoothly whatever the display's rate and the network's mood. */
 export class Playback {
-  static #DELAY_TICKS = 1.5;
+  static #DELAY = 1.5; // in frames; they are one tick apart, with a crowd two, and more when the machine is busy
+  static #LONGEST_GAP = 4; // [ticks]
   static #KEPT = 16;
   #frames = [];
   #head = 0;
@@ -65,7 +66,9 @@ export class Playback {
   }
 
   #advance(now) {
-    const target = this.#frames.at(-1).tick - Playback.#DELAY_TICKS;
+    const newest = this.#frames.at(-1).tick;
+    const gap = Math.max(1, newest - (this.#frames.at(-2)?.tick ?? newest));
+    const target = newest - Playback.#DELAY * Math.min(gap, Playback.#LONGEST_GAP);
     this.#head += (now - this.#lastTime) / TICK_MS;
     this.#lastTime = now;
     const late = target - this.#head;

@@ -3,6 +3,7 @@
 import { IMAGE_PIXELS } from "./frames.js";
 
 const MOST_LINES = 400_000;
+const LINES_IN_A_PATH = 50; // a path of a thousand lines takes half as long again as the same lines in short paths
 
 export class Trails {
   #points = new Float32Array(4 * 1024);
@@ -31,20 +32,18 @@ export class Trails {
     const scale = size / IMAGE_PIXELS;
     ctx.lineCap = "round";
     ctx.lineJoin = "round";
-    let pen = null;
-    for (let k = first; k < this.count; k += 1) {
-      const [x0, y0, x1, y1] = this.#points.subarray(4 * k, 4 * k + 4);
-      if (this.#pens[k] !== pen) {
-        if (pen !== null) ctx.stroke();
-        pen = this.#pens[k];
-        ctx.strokeStyle = `rgb(${pen >>> 24} ${(pen >>> 16) & 255} ${(pen >>> 8) & 255})`;
-        ctx.lineWidth = (pen & 255) * scale;
-        ctx.beginPath();
+    const points = this.#points;
+    for (let start = first, end; start < this.count; start = end) {
+      const pen = this.#pens[start];
+      ctx.strokeStyle = `rgb(${pen >>> 24} ${(pen >>> 16) & 255} ${(pen >>> 8) & 255})`;
+      ctx.lineWidth = (pen & 255) * scale;
+      ctx.beginPath();
+      for (end = start; end < this.count && end < start + LINES_IN_A_PATH && this.#pens[end] === pen; end += 1) {
+        ctx.moveTo(points[4 * end] * scale, points[4 * end + 1] * scale);
+        ctx.lineTo(points[4 * end + 2] * scale, points[4 * end + 3] * scale);
       }
-      ctx.moveTo(x0 * scale, y0 * scale);
-      ctx.lineTo(x1 * scale, y1 * scale);
+      ctx.stroke();
     }
-    if (pen !== null) ctx.stroke();
   }
 
   #reserve(count) {

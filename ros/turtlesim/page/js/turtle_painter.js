@@ -3,7 +3,7 @@
 import { lookOf } from "./looks.js";
 import { drawTurtle } from "./turtle_art.js";
 
-const SPRITE_METRES = 1.3;
+const SPRITE_METRES = 1.06; // no larger than the art: a crowd's time goes into copying pixels
 const STRIDES = 12;
 const MOST_NAMES = 60;
 const LONGEST_LABEL = 18;
