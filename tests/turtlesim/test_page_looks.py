@@ -1,6 +1,7 @@
 """What the page looks like, against pictures and boxes that were looked at; ``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
 
-Fonts differ from one machine to the next, so pictures are compared after they were made small, boxes with a tolerance.
+Pictures are compared after they were made small, boxes with a tolerance; where the page has another font than in the golden pictures,
+only what must be so with any font is looked at.
 """
 
 from __future__ import annotations
@@ -14,20 +15,36 @@ import pytest
 
 GOLDEN = Path(__file__).parent.parent / "golden" / "page"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
-#: Mean difference of all colour channels of two PNG files, both scaled to a width of 200.
+#: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all colour channels in the worst cell.
 DIFFERENCE_OF_PICTURES = """async (pictures) => {
+    const WIDTH = 200, CELL = 10;
     const [a, b] = await Promise.all(pictures.map(async (png) => {
         const image = new Image();
         image.src = `data:image/png;base64,${png}`;
         await image.decode();
-        const height = Math.round((200 * image.height) / image.width);
-        const ctx = new OffscreenCanvas(200, height).getContext('2d');
-        ctx.drawImage(image, 0, 0, 200, height);
-        return ctx.getImageData(0, 0, 200, height).data;
+        const height = Math.round((WIDTH * image.height) / image.width);
+        const ctx = new OffscreenCanvas(WIDTH, height).getContext('2d');
+        ctx.drawImage(image, 0, 0, WIDTH, height);
+        return ctx.getImageData(0, 0, WIDTH, height).data;
     }));
     if (a.length !== b.length) return Infinity;
-    return a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
+    const cells = new Map();
+    a.forEach((value, k) => {
+        const pixel = k >> 2;
+        const cell = `${Math.floor((pixel % WIDTH) / CELL)} ${Math.floor(pixel / WIDTH / CELL)}`;
+        cells.set(cell, (cells.get(cell) ?? 0) + Math.abs(value - b[k]) / (4 * CELL * CELL));
+    });
+    return Math.max(...cells.values());
 }"""
+#: Width of a text in the page's font, plain and bold [pixels], and what it is with DejaVu Sans, which the golden pictures show.
+FONT_WIDTHS = """() => ['', '600 '].map((weight) => {
+    const ctx = document.createElement('canvas').getContext('2d');
+    ctx.font = `${weight}100px system-ui, sans-serif`;
+    return Math.round(ctx.measureText('turtle1 is 2.16 m ahead').width);
+})"""
+DEJAVU_WIDTHS = [1174, 1317]
+#: 0 on the machine where the pictures were made; with one part of the page missing 15 and more on the phone, 4 to 30 on the desktop.
+WORST_CELL = 6
 PARTS = {
     "h1": "the page's title",
     "#connection": "the state of the connection",
@@ -48,10 +65,16 @@ SIZES = {"desktop": (1200, 800), "phone": (360, 740)}
 
 
 def difference(page, name: str, picture: bytes) -> float:
-    """How far a picture is from the golden one of that name, of 255, on average."""
+    """How far a picture is from the golden one of that name in the worst place, of 255."""
     if WRITES:
         (GOLDEN / name).write_bytes(picture)
     return page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())])
+
+
+def skip_with_other_fonts(page) -> None:
+    widths = page.evaluate(FONT_WIDTHS)
+    if widths != DEJAVU_WIDTHS:
+        pytest.skip(f"the golden pictures show DejaVu Sans, which this machine has not or does not prefer (text widths {widths})")
 
 
 def pose_is_shown(page, text: str) -> None:
@@ -79,7 +102,8 @@ def test_the_picture_is_what_is_seen(scene, open_page):
     with page.expect_download() as download:
         page.click("#picture")
     assert download.value.suggested_filename.startswith("turtlesim-20")
-    assert difference(page, "field.png", Path(download.value.path()).read_bytes()) < 0.3  # a missing turtle makes 0.6
+    skip_with_other_fonts(page)
+    assert difference(page, "field.png", Path(download.value.path()).read_bytes()) < WORST_CELL
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -91,9 +115,14 @@ def test_every_size_and_scheme(scene, open_page, size, scheme):
     pose_is_shown(page, "9.00")
     page.wait_for_function("() => document.querySelector('#words').textContent.includes('turtle2')")
     after_two_frames(page)
-    assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < {"desktop": 2.0, "phone": 5.0}[size]  # light is 90 from dark
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    check_boxes(size, page.evaluate(BOXES, list(PARTS)))
+    boxes = page.evaluate(BOXES, list(PARTS))
+    left, right, top, bottom = boxes["#turtles"]
+    assert right - left == pytest.approx(bottom - top, abs=1)
+    assert right - left >= 300
+    skip_with_other_fonts(page)
+    check_boxes(size, boxes)
+    assert difference(page, f"{size}-{scheme}.png", page.screenshot()) < WORST_CELL
 
 
 @pytest.mark.parametrize("width", [360, 1200])
@@ -131,6 +160,3 @@ def check_boxes(size: str, boxes: dict[str, list[int]]) -> None:
         assert (left, right) == (pytest.approx(old_left, abs=16), pytest.approx(old_right, abs=16)), PARTS[part]
         assert top == pytest.approx(old_top, abs=60), PARTS[part]
         assert bottom - top == pytest.approx(old_bottom - old_top, abs=16), PARTS[part]
-    left, right, top, bottom = boxes["#turtles"]
-    assert right - left == pytest.approx(bottom - top, abs=1)
-    assert right - left >= 300
