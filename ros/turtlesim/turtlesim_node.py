@@ -77,6 +77,7 @@ class TurtlesimNode(CppNode):
         self._missing = MissingTurtles(self, lambda: self.world.turtles, self._on_missing)
         self._add(self.world.spawn_centred())
         self.add_post_set_parameters_callback(lambda _: self._show_scene())
+        self.context.on_shutdown(self._on_shutdown)
         if not headless:
             self._open_screen()
         if speed is None:
@@ -90,6 +91,11 @@ class TurtlesimNode(CppNode):
         if self._screen is not None:
             self._screen.close()
         super().destroy_node()
+
+    def _on_shutdown(self) -> None:
+        turtles = len(self.world.turtles)
+        if turtles >= _CROWD:
+            self.get_logger().info(f"Taking {turtles} turtles off the graph, which takes the middleware a few seconds")
 
     def _declare_parameters(self) -> None:
         for channel, (name, default) in _BACKGROUND.items():
@@ -152,7 +158,8 @@ class TurtlesimNode(CppNode):
         poses, drawn = tick.poses.tobytes(), 0
         for k, turtle in enumerate(tick.turtles):
             endpoints = self._endpoints_of[turtle.name]
-            endpoints.publish_pose(poses[20 * k : 20 * k + 20])
+            if endpoints.pose_listeners:
+                endpoints.publish_pose(poses[20 * k : 20 * k + 20])
             if endpoints.color_listeners:  # it sees what those before it have drawn in this tick
                 before = int(tick.movers.searchsorted(k))
                 self._path.draw_lines(tick.lines[drawn:before], tick.pens[drawn:before])

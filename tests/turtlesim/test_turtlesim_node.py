@@ -194,6 +194,15 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
     }
 
 
+def test_a_crowd_says_why_it_takes_time_to_leave(make_world, monkeypatch, capfd):
+    monkeypatch.setattr("turtlesim.turtlesim_node._CROWD", 2)
+    world = make_world()
+    world.sim.spawn(1.0, 1.0, 0.0, "turtle2")
+    lines(capfd)
+    rclpy.try_shutdown()
+    assert lines(capfd) == ["[INFO] Taking 2 turtles off the graph, which takes the middleware a few seconds"]
+
+
 def test_teleports_draw_and_the_colour_sensor_sees_it(world):
     colours = world.listen(Color, "/turtle1/color_sensor")
     poses = world.listen(Pose, "/turtle1/pose")

@@ -15,6 +15,7 @@ def generate_launch_description():
                 executable="swarm_with_simulator",
                 parameters=[{"count": LaunchConfiguration("count")}],
                 output="screen",
+                sigterm_timeout="30",  # a thousand turtles take seconds to leave, and longer on a busy machine
             ),
         ]
     )
