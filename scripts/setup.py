@@ -66,13 +66,17 @@ def wait_for_turn() -> int:
 def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
     """Make .venv, or what of it is stale, and note what it holds then."""
     started = time.monotonic()
-    if not usable(stamp, wanted):
+    venv_works = usable(stamp, wanted)
+    only_extras = venv_works and stamp.get("sources") == wanted["sources"]
+    if only_extras:
+        say(f"adding to .venv: {', '.join(sorted({*wanted['extras']} - {*stamp['extras']}))}")
+    elif not venv_works:
         say("making .venv here and downloading what it needs (about 55 packages, under a minute); nothing else is touched")
         make_venv()
     else:
         say("bringing .venv up to date with the sources")
     ensure_pip()
-    install(wanted["extras"])
+    install(wanted["extras"], only_extras=only_extras)
     STAMP.write_text(json.dumps(wanted), encoding="utf-8")
     say(f"ready after {time.monotonic() - started:.0f} s")
 
@@ -164,11 +168,14 @@ def version_of(text: str) -> tuple[int, ...]:
     return (int(numbers[1]), int(numbers[2])) if numbers else (0, 0)
 
 
-def install(extras: Sequence[str]) -> None:
-    """Install the three packages editable, and the extras."""
-    ros = f"{ROOT / 'ros'}[workspace]" if "workspace" in extras else str(ROOT / "ros")
+def install(extras: Sequence[str], *, only_extras: bool) -> None:
+    """Install the three packages editable, unless they are there, and the extras."""
+    workspace = "[workspace]" if "workspace" in extras else ""
     groups = [argument for name in extras if name != "workspace" for argument in ("--group", f"{ROOT / 'pyproject.toml'}:{name}")]
-    pip("install", "-e", str(ROOT), "-e", ros, "-e", str(LEARNING), *groups)
+    if only_extras:  # compiling takes most of the time
+        pip("install", f"turtlewire-ros{workspace}", *groups)
+    else:
+        pip("install", "-e", str(ROOT), "-e", f"{ROOT / 'ros'}{workspace}", "-e", str(LEARNING), *groups)
 
 
 def pip(*arguments: str) -> None:
@@ -180,8 +187,32 @@ def checked(command: list[str]) -> None:
     """Run a command whose failure ends the setup."""
     # setuptools warns at length about every editable installation
     environment = {**clean_environment(), "PYTHONWARNINGS": "ignore::UserWarning"}
-    if subprocess.run(command, check=False, env=environment, stdout=sys.stderr).returncode:
+    started = time.monotonic()
+    with subprocess.Popen(command, env=environment, stdout=sys.stderr) as process:
+        try:
+            while not ended_within(process, 1.0):
+                show_progress(f"[setup] {time.monotonic() - started:.0f} s ")
+        except BaseException:
+            process.kill()
+            raise
+    show_progress("")
+    if process.returncode:
         raise SetupError(f"this failed, see above: {' '.join(command)}")
+
+
+def ended_within(process: subprocess.Popen[bytes], seconds: float) -> bool:
+    """Wait for its end; False when it goes on after that time."""
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        return False
+    return True
+
+
+def show_progress(text: str) -> None:
+    """Show a person at a terminal that it goes on, in place of the text before."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":
