@@ -160,6 +160,7 @@ def test_the_same_bits_in_every_process():
     assert len(digests) == 1
 
 
+@pytest.mark.slow
 def test_the_exercise_passes_and_a_wrong_solution_fails(tmp_path):
     def grade(folder: Path) -> tuple[int, str]:
         run = subprocess.run(
