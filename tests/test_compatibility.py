@@ -157,6 +157,8 @@ a timed-out remote lookup is an empty transform and a success
   tf2_ros/test_buffer_server.py test_a_callback_of_the_user_s_node_may_ask
 `tf2_echo` does not pad nanoseconds
   tf2_ros/test_tools.py test_echo_prints_what_ros_2_prints test_echo_as_json
+`convert` and `new_type` return a message of another type than asked for
+  tf2_geometry_msgs/test_registration.py test_no_type_passes_for_another
 `tf2_monitor` names no publisher
   tf2_ros/test_tools.py test_monitor_names_who_publishes
 `tf2_monitor` tells 1.8e9 s as net delay of a chain that does not move

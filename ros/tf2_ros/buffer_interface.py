@@ -76,11 +76,21 @@ class NotImplementedException(Exception):
 
 def _unknown_type(key: Any) -> TypeException:
     error = TypeException(f"Type {key} is not loaded or supported")
-    package, name = str(getattr(key, "__module__", "")).partition(".")[0], getattr(key, "__name__", "")
-    for module, types in _REGISTERED_BY.items():
-        if f"{package}/{name}" in types and hasattr(error, "add_note"):
-            error.add_note(f"`import {module}` registers this type.")
+    advice = _advice(key)
+    if advice and hasattr(error, "add_note"):
+        error.add_note(advice)
     return error
+
+
+def _advice(key: Any) -> str:
+    name = getattr(key, "__name__", "")
+    full_name = f"{str(getattr(key, '__module__', '')).partition('.')[0]}/{name}"
+    for module, types in _REGISTERED_BY.items():
+        if full_name in types:
+            return f"`import {module}` registers this type."
+        if f"{full_name}Stamped" in types:
+            return f"A {name} does not tell in which frame it is: transform a {name}Stamped."
+    return ""
 
 
 class BufferInterface:
@@ -237,7 +247,7 @@ def convert(a: Any, b_type: type) -> Any:
     """Convert ``a`` to ``b_type``: directly where that is registered, as a copy to its own type, else by way of a message.
 
     Raises:
-        TypeException: No way is registered.
+        TypeException: No way is registered, or it leads to another type.
     """
     registration = ConvertRegistration()
     try:
@@ -245,5 +255,8 @@ def convert(a: Any, b_type: type) -> Any:
     except TypeException:
         if type(a) is b_type:
             return deepcopy(a)
-        return registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
+        converted = registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
+        if not isinstance(converted, b_type):  # each message type takes any message for its own
+            raise TypeException(f"Nobody has registered how to convert {type(a)} to {b_type}") from None
+        return converted
     return direct(a)

@@ -68,6 +68,15 @@ def test_every_type_converts_to_itself():
     assert tf2.from_msg_msg(message) is message
 
 
+def test_no_type_passes_for_another(buffer):
+    point = geometry.PointStamped()
+    with pytest.raises(tf2_ros.TypeException, match=r"how to convert .*PointStamped.* to .*PoseStamped"):
+        tf2_ros.convert(point, geometry.PoseStamped)
+    point.header.frame_id = "source"
+    with pytest.raises(tf2_ros.TypeException):
+        buffer.transform(point, "target", new_type=geometry.PoseStamped)
+
+
 def test_a_buffer_says_when_it_cannot(buffer):
     point = geometry.PointStamped()
     point.header.frame_id = "nowhere"

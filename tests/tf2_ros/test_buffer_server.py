@@ -7,9 +7,10 @@ import time
 
 import pytest
 
-from rclpy.action import ActionClient, ActionServer, GoalResponse
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_msgs.msg import TF2Error
@@ -203,6 +204,29 @@ def test_a_server_that_does_not_answer(make_node, strange_server):
     with pytest.raises(TimeoutException, match="did not come back in the specified time"):
         client.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))
     release.set()
+    client.destroy()
+
+
+def test_what_the_client_does_not_wait_for_any_more_is_cancelled(make_node, strange_server):
+    cancelled = Future()
+
+    async def execute(goal_handle):
+        await cancelled
+        goal_handle.canceled()
+        return LookupTransform.Result()
+
+    def cancel(_goal):
+        cancelled.set_result(None)
+        return CancelResponse.ACCEPT
+
+    strange_server(execute, cancel_callback=cancel)
+    over = threading.Event()
+    cancelled.add_done_callback(lambda _future: over.set())
+    client = BufferClient(make_node("impatient"), "lookup", timeout_padding=3.0)  # time for a busy machine to accept the goal
+    client.action_client.wait_for_server(10)
+    with pytest.raises(TimeoutException, match="did not come back in the specified time"):
+        client.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))
+    assert over.wait(60)
     client.destroy()
 
 
