@@ -47,10 +47,14 @@ class ReaderThread:
 
     def _run(self) -> None:
         while not self._closed:
-            for call in self._conditions.wait(self._time_to_next()):
-                call()
-            for call in self._due():
-                call()
+            self._call_each(self._conditions.wait(self._time_to_next()))
+            self._call_each(self._due())
+
+    def _call_each(self, calls: list[Callable[[], None]]) -> None:
+        for call in calls:
+            if self._closed:  # by one of them: what the others are about has been deleted
+                return
+            call()
 
     def _time_to_next(self) -> int | None:
         with self._lock:
