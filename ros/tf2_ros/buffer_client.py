@@ -74,7 +74,10 @@ class BufferClient(BufferInterface):
         self._executor, self._thread = spin_in_thread(self._node, "buffer-client")
 
     def destroy(self) -> bool:
-        """End the thread and leave the graph."""
+        """End the thread and leave the graph.
+
+        When the server was killed, the middleware waits up to a second for it to confirm the last request.
+        """
         self._executor.shutdown()
         self._thread.join()
         self.action_client.destroy()
