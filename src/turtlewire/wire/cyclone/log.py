@@ -1,7 +1,9 @@
 """What Cyclone has to complain about, in words for people and not each time anew.
 
-Cyclone writes a line on stderr for every datagram that the network refuses, ten a second and more, and has no setting for it. A domain
-writes to what C's ``stderr`` was when it was made; so for that moment ``stderr`` is a pipe, which a thread of ours reads.
+Cyclone writes a line on stderr for every datagram that the network refuses, ten a second and more, and has no setting for it; its
+``dds_set_log_sink`` is not exported by the library in the wheel. A domain writes to what C's ``stderr`` was when it was made; so for
+that moment ``stderr`` is a pipe, which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) What
+Cyclone says right before it aborts is lost with the process; so what makes it abort is kept from it, see ``configuration``.
 """
 
 from __future__ import annotations
