@@ -162,6 +162,23 @@ def test_mistakes_end_the_command_with_a_line(source, tmp_path):
     assert done.stderr == "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'\n"
 
 
+def test_the_package_is_not_written_into_its_own_sources(source):
+    before = sorted(source.rglob("*"))
+    with pytest.raises(InterfaceError, match="holds the interfaces themselves") as caught:
+        generate_package(source, source.parent, source.name)
+    assert "--output" in caught.value.hint
+    assert sorted(source.rglob("*")) == before
+
+
+def test_an_output_that_cannot_be_written_ends_the_command_with_a_line(source, tmp_path):
+    (tmp_path / "file").touch()
+    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(tmp_path / "file")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "Not a directory" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_a_folder_without_interfaces_is_an_error(tmp_path):
     with pytest.raises(InterfaceError, match=r"no \.msg, \.srv or \.action files"):
         generate_package(tmp_path, tmp_path / "out")

@@ -25,6 +25,9 @@ def main(argv: list[str] | None = None) -> int:
     except InterfaceError as error:
         print(error, error.hint, sep="\n" if error.hint else "", file=sys.stderr)  # noqa: T201 - a command line prints
         return 1
+    except OSError as error:
+        print(error, file=sys.stderr)  # noqa: T201 - as above
+        return 1
     print(f"{folder} is ready: put {folder.parent.resolve()} on PYTHONPATH, then `from {folder.name}.msg import ...`")  # noqa: T201
     return 0
 

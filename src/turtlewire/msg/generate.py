@@ -53,13 +53,15 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
         The folder of the generated package.
 
     Raises:
-        InterfaceError: A definition is wrong, or there is none.
+        InterfaceError: A definition is wrong, or there is none; or the package would be the folder of the interfaces itself.
     """
     package = package or package_name(source)
     if not any(interfaces_in(str(source)).values()):
         raise InterfaceError(f"no .msg, .srv or .action files in {source}").with_hint("They belong into its msg, srv and action folders.")
-    register_package(package, str(source))
     folder = output / package
+    if folder.resolve() == source.resolve():
+        raise InterfaceError(f"{folder} holds the interfaces themselves").with_hint("Name another folder: --output generated")
+    register_package(package, str(source))
     write_modules(package, source, folder)
     (folder / "__init__.py").write_text(_PACKAGE.format(package=package), encoding="utf-8")
     (folder / "py.typed").touch()
