@@ -90,6 +90,8 @@ which children of a node's logger reach `/rosout` depends on who made them
   rclpy/test_executors.py test_awaiting_a_service_in_the_same_group
 `client.call()` in a callback of a single-threaded executor hangs
   rclpy/test_executors.py test_call_in_a_callback_of_a_single_thread test_call_to_a_service_of_the_blocked_executor_raises
+an `async` callback that awaits a service of its own callback group hangs
+  rclpy/test_executors.py test_an_async_callback_that_waits_for_itself_is_warned_of
 `client.call()` with nobody spinning hangs in silence
   rclpy/test_executors.py test_a_call_that_nobody_serves_is_warned_of
 `rate.sleep()` in the thread that spins hangs

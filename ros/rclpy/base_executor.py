@@ -23,6 +23,7 @@ from .executor_exceptions import ConditionReachedException, ExternalShutdownExce
 from .executor_wait import ExecutorWait
 from .hints import described
 from .running_callbacks import RunningCallbacks
+from .self_waits import SelfWaits
 from .task import Future, Task
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ class Executor:
         self._paused: set[Entity] = set()
         self._holders: dict[Task, Entity] = {}
         self._running = RunningCallbacks()
+        self._self_waits = SelfWaits()
         self._spinning_thread: int | None = None
         self._response_awaited: Future | None = None
         self._blocked_waits: set[threading.Event] = set()
@@ -142,6 +144,7 @@ class Executor:
         with self._lock:
             entity._executor = None
             self._paused.discard(entity)
+            self._self_waits.goes_on(entity)
             entity._detach(self)
 
     # Tasks
@@ -304,7 +307,8 @@ class Executor:
         if self._response_awaited is None:
             with self._lock:
                 tasks, self._tasks = self._tasks, []
-        entities = self._wait.wait(0 if tasks else timeout_ns)
+        entities = self._wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
+        self._self_waits.warn()
         self._ready.extend(reversed(tasks))
         self._ready.extend(entities)
 
@@ -340,6 +344,7 @@ class Executor:
         with self._lock:  # a thread that ends its callback may resume it at any moment: not in the middle of this
             self._paused.add(entity)
             entity._pause(self)
+            self._self_waits.held_up(entity, list(self._holders.values()), self._nodes)
         if self._may_run(entity):  # it became free before we were in the list
             self._resume(entity)
 
@@ -366,6 +371,7 @@ class Executor:
             if entity not in self._paused:
                 return
             self._paused.discard(entity)
+            self._self_waits.goes_on(entity)
             try:
                 entity._resume(self)
             except WireError:

@@ -466,6 +466,42 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executo
     assert "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)" in capfd.readouterr().err
 
 
+def test_an_async_callback_that_waits_for_itself_is_warned_of(node, any_executor, capfd, monkeypatch):
+    monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 10_000_000)
+    service = node.create_service(AddTwoInts, "held_up", lambda _, response: response)
+    client = node.create_client(AddTwoInts, "held_up")
+    warned = Future()
+    warning = service._logger.warning
+    monkeypatch.setattr(service._logger, "warning", lambda text: (warning(text), warned.set_result(None)))
+
+    async def ask():
+        await client.call_async(AddTwoInts.Request())
+
+    node.create_guard_condition(ask).trigger()
+    any_executor.spin_until_future_complete(warned, timeout_sec=60)
+    any_executor.spin_once(timeout_sec=0.05)  # says nothing a second time
+    assert (
+        capfd.readouterr().err.count("An async callback awaits, and service '/held_up', which was called, cannot run before it ends") == 1
+    )
+
+
+def test_an_async_callback_that_waits_for_others_is_not(node, any_executor, capfd, monkeypatch):
+    monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 0)
+    node.create_service(AddTwoInts, "free", lambda _, response: response, callback_group=MutuallyExclusiveCallbackGroup())
+    node.create_service(AddTwoInts, "not_called", lambda _, response: response)
+    client = node.create_client(AddTwoInts, "free")
+    answered = Future()
+
+    async def ask():
+        await client.call_async(AddTwoInts.Request())
+        answered.set_result(None)
+
+    node.create_guard_condition(ask).trigger()
+    any_executor.spin_until_future_complete(answered, timeout_sec=60)
+    assert answered.done()
+    assert "An async callback" not in capfd.readouterr().err
+
+
 def test_spinning_until_a_future_of_another_library_is_done(any_executor):
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(threading.get_ident)
