@@ -67,7 +67,7 @@ def _serve_responses(executor: Executor, future: Future, client: Client, deadlin
 
 def _is_served_by(client: Client, entities: set[Entity]) -> bool:
     name = client._wire.service
-    return any(isinstance(entity, Service) and entity._wire.service == name for entity in entities)
+    return any(isinstance(entity, Service) and entity._wire.service == name for entity in list(entities))
 
 
 def _wait_for_other_thread(future: Future, client: Client, executor: Executor | None, deadline: float | None) -> None:
@@ -87,8 +87,8 @@ def _wait_for_other_thread(future: Future, client: Client, executor: Executor | 
             done.clear()
             if not is_over() and not _wait(done, deadline, patience) and patience is not None:
                 patience = None
-                if not is_over() and (executor is None or executor._spinning_thread is None):
-                    _warn_of_idle_executor(client)
+                if not is_over():
+                    _warn_of_long_wait(client, executor)
     finally:
         for wait in waits:
             wait.discard(done)
@@ -96,11 +96,18 @@ def _wait_for_other_thread(future: Future, client: Client, executor: Executor | 
         _raise_if_ended(client, executor)
 
 
-def _warn_of_idle_executor(client: Client) -> None:
-    client._logger.warning(
-        f"Waiting for a response of service '{client._wire.service}', but nobody spins the node that calls it: "
-        "spin it in another thread, or use call_async() and spin_until_future_complete()"
-    )
+def _warn_of_long_wait(client: Client, executor: Executor | None) -> None:
+    name = client._wire.service
+    if executor is None or executor._spinning_thread is None:
+        client._logger.warning(
+            f"Waiting for a response of service '{name}', but nobody spins the node that calls it: "
+            "spin it in another thread, or use call_async() and spin_until_future_complete()"
+        )
+    elif _is_served_by(client, executor._paused):
+        client._logger.warning(
+            f"Waiting for a response of service '{name}', which cannot run because its callback group is busy. If the callback that waits "
+            "is in that group, it waits for ever: give the service a callback group of its own"
+        )
 
 
 def _wait(done: threading.Event, deadline: float | None, at_most: float | None) -> bool:

@@ -376,6 +376,22 @@ def test_a_call_that_nobody_serves_is_warned_of(node, capfd):
     assert "nobody spins the node" in capfd.readouterr().err
 
 
+def test_a_call_of_a_service_in_the_callers_own_group_is_warned_of(node, pool, spinning, capfd):
+    client = node.create_client(AddTwoInts, "add")
+    node.create_service(AddTwoInts, "add", add_two_ints)
+    over = threading.Event()
+
+    def ask():
+        with pytest.raises(TimeoutError):
+            client.call(AddTwoInts.Request(), timeout_sec=1.05)
+        over.set()
+
+    node.create_guard_condition(ask).trigger()
+    spinning(pool)
+    assert over.wait(60)
+    assert "service '/add', which cannot run because its callback group is busy" in capfd.readouterr().err
+
+
 def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(node, pool, spinning):
     barrier = threading.Barrier(3, timeout=60)
     done = threading.Semaphore(0)
