@@ -9,6 +9,7 @@ from ros2cli.discovery import wait_until_discovered
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Callable
     from types import TracebackType
 
     from rclpy.node import Node
@@ -66,6 +67,30 @@ class DirectNode:
             rclpy.spin(self.node)
         except ExternalShutdownException as error:
             raise KeyboardInterrupt from error
+
+    def wait_for(self, predicate: Callable[[], bool], timeout: float | None = None) -> bool:
+        """Handle callbacks until the graph is as wanted; False when it was not within ``timeout`` seconds.
+
+        Raises:
+            KeyboardInterrupt: At Ctrl-C, or another signal that ends this process.
+        """
+        from rclpy.task import Future
+
+        fulfilled: Future = Future()
+
+        def look() -> None:
+            if predicate():
+                fulfilled.set_result(True)
+
+        remove = self.graph.add_listener(look)
+        try:
+            look()
+            self.result(fulfilled, timeout)
+        except TimeoutError:
+            return False
+        finally:
+            remove()
+        return True
 
     def result(self, future: Any, timeout: float | None = None) -> Any:
         """Handle callbacks until a future is done; its result.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from turtlewire.wire.base import Graph
+    from ros2cli.direct_node import DirectNode
 
 __all__ = ["message_class", "type_of_topic"]
 
@@ -26,11 +26,11 @@ def message_class(type_name: str) -> Any:
         raise RuntimeError(f"The passed message type is invalid{interface_meant(type_name, 'msg')}") from None
 
 
-def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
+def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> Any:
     """The message class of a topic that somebody publishes or subscribes to.
 
     Args:
-        graph: The graph.
+        direct: The node that asks.
         topic: Full name of the topic.
         blocking: Wait for the topic to appear.
 
@@ -40,6 +40,7 @@ def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
     Raises:
         RuntimeError: The topic has several types, or one that is not known here.
     """
+    graph = direct.graph
     types = graph.topic_names_and_types().get(topic, [])
     if not types:
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
@@ -48,7 +49,7 @@ def type_of_topic(graph: Graph, topic: str, *, blocking: bool = False) -> Any:
         say_what_was_meant(topic, graph.topic_names_and_types())
         if not blocking:
             return None
-        graph.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))
+        direct.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))
         types = graph.topic_names_and_types()[topic]
     if len(types) > 1:
         raise RuntimeError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 import threading
@@ -112,6 +113,19 @@ def test_a_reader_that_ends_early_is_no_error():
     result = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert result.stdout == "Messages:\n"
     assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "words", ["hz /x", "bw /x", "delay /x", "pub --once /x std_msgs/msg/String", "pub --rate 1 /x std_msgs/msg/String"]
+)
+def test_whoever_waits_ends_when_told(run, words, end):
+    program = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
+    verb = run(sys.executable, "-c", program, "topic", *words.split())
+    verb.wait_for("does not appear to be published yet|Waiting for|publishing #1")
+    verb.process.send_signal(end)
+    assert verb.wait(20) in (0, 1, 2)
+    assert "Traceback" not in verb.text
 
 
 @pytest.mark.parametrize("closed", ["<&-", ">&-"])

@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> None:
 
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct.graph, topic, blocking=True)
+        kind = type_of_topic(direct, topic, blocking=True)
         sizes = Sizes(args.window)
         qos = matching_publishers(direct.graph, topic)
         print(f"Subscribed to [{topic}]")

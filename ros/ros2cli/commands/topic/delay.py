@@ -31,7 +31,7 @@ def main(args: argparse.Namespace) -> None:
 
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct.graph, topic, blocking=True)
+        kind = type_of_topic(direct, topic, blocking=True)
         if "header" not in kind.get_fields_and_field_types():
             raise RuntimeError("msg does not have header")
         delays = Delays(args.window)

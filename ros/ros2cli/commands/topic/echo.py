@@ -56,7 +56,7 @@ def main(args: argparse.Namespace) -> str | None:
     keep = make_filter(args.filter_expr)
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct.graph, topic) if args.message_type is None else message_class(args.message_type)
+        kind = type_of_topic(direct, topic) if args.message_type is None else message_class(args.message_type)
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
         _check_field(kind, args.field)

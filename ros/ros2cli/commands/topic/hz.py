@@ -36,7 +36,7 @@ def main(args: argparse.Namespace) -> None:
     keep = make_filter(args.filter_expr)
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct.graph, topic, blocking=True)
+        kind = type_of_topic(direct, topic, blocking=True)
         intervals = Intervals(args.window)
         clock = direct.node.get_clock()
 

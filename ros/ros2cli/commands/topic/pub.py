@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["add_arguments", "main"]
 
-_SAY_WAITING_EVERY_NS = 1_000_000_000
+_SAY_WAITING_EVERY_S = 1.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -78,10 +78,10 @@ def _wait_for_subscriptions(direct: DirectNode, publisher: Any, wanted: int, lim
     deadline = None if limit is None else time.monotonic() + limit
     while (count := publisher.get_subscription_count()) < wanted:
         print(f"Waiting for at least {wanted} matching subscription(s)...")
-        rest = _SAY_WAITING_EVERY_NS if deadline is None else min(_SAY_WAITING_EVERY_NS, int((deadline - time.monotonic()) * 1e9))
+        rest = _SAY_WAITING_EVERY_S if deadline is None else min(_SAY_WAITING_EVERY_S, deadline - time.monotonic())
         if rest <= 0:
             return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {count} subscribers"
-        direct.graph.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
+        direct.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
     return None
 
 
