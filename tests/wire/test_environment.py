@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import socket
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -128,7 +129,18 @@ def test_static_peers_are_resolved():
     assert peers(configuration(Discovery(Range.SUBNET, ("localhost", "localhost:7410")))) == ["127.0.0.1", "127.0.0.1:7410"]
 
 
-@pytest.mark.parametrize("peer", ["no-such-host.invalid", "256.1.1.1", "a..b", "0.0.0.0"])
+def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+    def nobody(*_: object) -> None:
+        raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
+
+    monkeypatch.setattr(socket, "getaddrinfo", nobody)
+    for _ in range(2):
+        assert peers(configuration(Discovery(Range.LOCALHOST, ("robot",)))) == ["localhost"]
+    [line] = capsys.readouterr().err.splitlines()
+    assert line.endswith("ROS_STATIC_PEERS: robot is left out, it has no IPv4 address: Name or service not known")
+
+
+@pytest.mark.parametrize("peer", ["a..b", "0.0.0.0"])  # no name server is asked for these
 def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning(peer: str):
     """In a process of its own, which has to survive it."""
     code = "from turtlewire.wire import open_context; open_context().close(); open_context().close(); print('alive')"
