@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from turtlesim.page_commands import Command
     from turtlesim.transform_view import TransformView
 
-__all__ = ["Scene", "Screen", "desktop_is_there", "open_browser"]
+__all__ = ["Scene", "Screen", "desktop_is_there", "open_browser", "wanted_port"]
 
 _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
@@ -82,7 +82,7 @@ class Screen:
         self._poses = b""
         self._shown: tuple[str, ...] = ()
         self._drawing = Drawing()
-        self._server = Server(_PAGE, lambda: _Session(self, on_command), port=_wanted_port())
+        self._server = Server(_PAGE, lambda: _Session(self, on_command), port=wanted_port())
         self.url = self._server.url
 
     def show(self, ticks: list[TurtleTick]) -> None:
@@ -209,7 +209,12 @@ def open_browser(url: str) -> None:
         webbrowser.open(url)
 
 
-def _wanted_port() -> int:
+def wanted_port() -> int:
+    """The port to try first.
+
+    Raises:
+        ValueError: TURTLEWIRE_PORT is no port number.
+    """
     text = os.environ.get("TURTLEWIRE_PORT", "")
     if text and not (text.isdecimal() and int(text) < 65536):
         raise ValueError(f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}")

@@ -332,6 +332,8 @@ class TurtlesimNode(CppNode):
 def main(args: list[str] | None = None) -> None:
     """Run the simulator until Ctrl-C."""
     options = _parse_options(sys.argv if args is None else args)
+    if not options.headless:
+        _check_port()
     rclpy.init(args=args)
     node = None
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):  # Ctrl-C may also come while it shuts down
@@ -352,6 +354,16 @@ def _parse_options(args: list[str]) -> argparse.Namespace:
         "--speed", type=_factor, metavar="N", help="run N times faster than real time and publish /clock; for nodes with use_sim_time"
     )
     return parser.parse_known_args(remove_ros_args(args)[1:])[0]
+
+
+def _check_port() -> None:
+    """Say what is wrong before anything is announced."""
+    from turtlesim.screen import wanted_port
+
+    try:
+        wanted_port()
+    except ValueError as error:
+        sys.exit(f"turtlesim_node: error: {error}")
 
 
 def _factor(text: str) -> float:

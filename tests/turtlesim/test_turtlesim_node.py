@@ -23,7 +23,7 @@ from std_srvs.srv import Empty
 from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
-from turtlesim.turtlesim_node import TurtlesimNode
+from turtlesim.turtlesim_node import TurtlesimNode, main
 
 MIDDLE = 5.544444561004639
 
@@ -201,6 +201,13 @@ def test_a_crowd_says_why_it_takes_time_to_leave(make_world, monkeypatch, capfd)
     lines(capfd)
     rclpy.try_shutdown()
     assert lines(capfd) == ["[INFO] Taking 2 turtles off the graph, which takes the middleware a few seconds"]
+
+
+def test_a_wrong_port_is_said_before_anything_is_announced(monkeypatch, capfd):
+    monkeypatch.setenv("TURTLEWIRE_PORT", "abc")
+    with pytest.raises(SystemExit, match="TURTLEWIRE_PORT is a port number between 0"):
+        main(["turtlesim_node"])
+    assert "Starting" not in capfd.readouterr().err
 
 
 def test_teleports_draw_and_the_colour_sensor_sees_it(world):
