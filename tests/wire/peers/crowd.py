@@ -9,7 +9,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
-LONG = 100_000_000_000
+LONG = 300_000_000_000
 
 context = open_context()
 node = context.create_node("member", "/crowd")
