@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.discovery import wait_until_discovered
@@ -91,6 +92,17 @@ class DirectNode:
         finally:
             remove()
         return True
+
+    def pause(self, seconds: float) -> None:
+        """Handle callbacks for so long.
+
+        Raises:
+            KeyboardInterrupt: At Ctrl-C, or another signal that ends this process.
+        """
+        from rclpy.task import Future
+
+        with suppress(TimeoutError):
+            self.result(Future(), seconds)
 
     def result(self, future: Any, timeout: float | None = None) -> Any:
         """Handle callbacks until a future is done; its result.

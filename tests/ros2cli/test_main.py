@@ -117,15 +117,25 @@ def test_a_reader_that_ends_early_is_no_error():
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize(
-    "words", ["hz /x", "bw /x", "delay /x", "pub --once /x std_msgs/msg/String", "pub --rate 1 /x std_msgs/msg/String"]
+    "words",
+    [
+        "topic hz /x",
+        "topic bw /x",
+        "topic delay /x",
+        "topic pub --once /x std_msgs/msg/String",
+        "topic pub --rate 1 /x std_msgs/msg/String",
+        "topic pub --once -w 0 --keep-alive 600 /x std_msgs/msg/String",
+        "service call /x std_srvs/srv/Empty",
+    ],
 )
 def test_whoever_waits_ends_when_told(run, words, end):
     program = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
-    verb = run(sys.executable, "-c", program, "topic", *words.split())
-    verb.wait_for("does not appear to be published yet|Waiting for|publishing #1")
+    verb = run(sys.executable, "-c", program, *words.split())
+    verb.wait_for("does not appear to be published yet|Waiting for|waiting for|publishing #1")
     verb.process.send_signal(end)
     assert verb.wait(20) in (0, 1, 2)
     assert "Traceback" not in verb.text
+    assert "making request" not in verb.text
 
 
 @pytest.mark.parametrize("closed", ["<&-", ">&-"])

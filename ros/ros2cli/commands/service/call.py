@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.completion import service_names, service_types
@@ -53,12 +52,13 @@ def main(args: argparse.Namespace) -> str | None:
         if not client.service_is_ready():
             print("waiting for service to become available...")
             say_what_was_meant(client.srv_name, dict(services(direct.graph)).keys() - {client.srv_name})
-            client.wait_for_service()
+            if not client.wait_for_service():
+                raise KeyboardInterrupt
         while True:
             _call(direct, client, request)
             if args.rate is None:
                 return None
-            time.sleep(1.0 / args.rate)
+            direct.pause(1.0 / args.rate)
 
 
 def _call(direct: DirectNode, client: Any, request: Any) -> None:

@@ -69,7 +69,7 @@ def main(args: argparse.Namespace) -> str | None:
         print("publisher: beginning loop")
         _publish(args, direct, publisher, message, stamps, times)
         if times:
-            time.sleep(args.keep_alive)
+            direct.pause(args.keep_alive)
     return None
 
 
