@@ -1,6 +1,7 @@
 """Run the benchmarks named on the command line, or all, and print one table for each.
 
-A benchmark is a module of this package with ``TITLE`` and ``rows()``, which yields :class:`benchmarks.figures.Row`.
+A benchmark is a module of this package with ``TITLE`` and ``rows()``, which yields
+:class:`benchmarks.figures.Row`.
 """
 
 from __future__ import annotations
@@ -25,22 +26,40 @@ def modules(wanted: list[str]) -> list[ModuleType]:
         if info.ispkg or info.name.endswith("__main__"):
             continue
         module = importlib.import_module(info.name)
-        if hasattr(module, "rows") and (not wanted or info.name.removeprefix("benchmarks.") in wanted):
+        if hasattr(module, "rows") and (
+            not wanted or info.name.removeprefix("benchmarks.") in wanted
+        ):
             found.append(module)
     return found
 
 
 def table(rows: list[Row]) -> str:
-    lines = [("what", "ours (min / median)", "rival", "rival (min / median)", "ratio (min / median)", "budget")]
+    lines = [
+        (
+            "what",
+            "ours (min / median)",
+            "rival",
+            "rival (min / median)",
+            "ratio (min / median)",
+            "budget",
+        )
+    ]
     for row in rows:
         first = (row.what, row.ours.text())
         if not row.rivals:
             lines.append((*first, "", "", "", row.budget))
         for name, rival in row.rivals.items():
-            ratio = f"{rival.minimum / row.ours.minimum:.3g}x / {rival.median / row.ours.median:.3g}x"
+            ratio = (
+                f"{rival.minimum / row.ours.minimum:.3g}x / {rival.median / row.ours.median:.3g}x"
+            )
             lines.append((*first, name, rival.text(), ratio, row.budget))
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    cells = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |" for line in lines]
+    cells = [
+        "| "
+        + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True))
+        + " |"
+        for line in lines
+    ]
     cells.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
     return "\n".join(cells)
 

@@ -1,6 +1,7 @@
 """Many processes on one host, each with one node: how long until everybody sees everybody, and what they weigh.
 
-``scripts/bench crowd`` measures 50. For another number, of which so many are started a second: ``python -m benchmarks.crowd 120 5``.
+``scripts/bench crowd`` measures 50. For another number, of which so many are started a second:
+``python -m benchmarks.crowd 120 5``.
 """
 
 from __future__ import annotations
@@ -31,10 +32,19 @@ ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "95", "ROS_AUTOMATIC_DISCOVERY_RAN
 
 def rows() -> Iterator[Row]:
     at_once = [start(50, each_second=math.inf)[0] for _ in range(ROUNDS)]
-    yield Row("50 that start at once: the last one's start until all see all", figure(at_once), {}, BUDGET)
+    yield Row(
+        "50 that start at once: the last one's start until all see all", figure(at_once), {}, BUDGET
+    )
     joining = [let_one_join(50) for _ in range(ROUNDS)]
-    yield Row("the 50th, beside 49: its start until all see all", figure([seconds for seconds, _ in joining]), {}, BUDGET)
-    yield Row("memory of each of the 50 (proportional)", figure([size for _, size in joining], "MB"))
+    yield Row(
+        "the 50th, beside 49: its start until all see all",
+        figure([seconds for seconds, _ in joining]),
+        {},
+        BUDGET,
+    )
+    yield Row(
+        "memory of each of the 50 (proportional)", figure([size for _, size in joining], "MB")
+    )
 
 
 def figure(values: list[float], unit: str = "ns") -> Figure:
@@ -48,7 +58,9 @@ class Member:
     def __init__(self, *counts: int) -> None:
         command = [sys.executable, MEMBER, *map(str, counts)]
         self.started = time.time()
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT
+        )
 
     def next_time(self) -> float:
         """When it saw the next count."""
@@ -104,7 +116,9 @@ def main() -> None:
         sys.exit("usage: python -m benchmarks.crowd COUNT STARTS_PER_SECOND")
     else:
         seconds, megabytes = start(int(sys.argv[1]), float(sys.argv[2]))
-        print(f"from the last one's start until all see all: {seconds:.1f} s; {megabytes:.1f} MB each")
+        print(
+            f"from the last one's start until all see all: {seconds:.1f} s; {megabytes:.1f} MB each"
+        )
 
 
 if __name__ == "__main__":

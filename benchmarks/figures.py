@@ -18,7 +18,11 @@ class Figure:
     def text(self) -> str:
         if self.unit != "ns":
             return f"{self.minimum:.4g} / {self.median:.4g} {self.unit}"
-        unit = next(unit for unit, factor in reversed(FACTORS.items()) if self.minimum >= factor or unit == "ns")
+        unit = next(
+            unit
+            for unit, factor in reversed(FACTORS.items())
+            if self.minimum >= factor or unit == "ns"
+        )
         return f"{self.minimum / FACTORS[unit]:.4g} / {self.median / FACTORS[unit]:.4g} {unit}"
 
 

@@ -50,8 +50,12 @@ def samples() -> dict[str, Any]:
         "TransformStamped (92 B)": transform(),
         "TFMessage of 1 (100 B)": frames(transforms=[transform()]),
         "TFMessage of 20 (1852 B)": frames(transforms=[transform() for _ in range(20)]),
-        "LaserScan of 1000 rays (8 kB)": msg.get_message("sensor_msgs/msg/LaserScan")(ranges=[1.0] * 1000, intensities=[1.0] * 1000),
-        "Image of 640x480 rgb8 (0.9 MB)": msg.get_message("sensor_msgs/msg/Image")(height=480, width=640, data=bytes(640 * 480 * 3)),
+        "LaserScan of 1000 rays (8 kB)": msg.get_message("sensor_msgs/msg/LaserScan")(
+            ranges=[1.0] * 1000, intensities=[1.0] * 1000
+        ),
+        "Image of 640x480 rgb8 (0.9 MB)": msg.get_message("sensor_msgs/msg/Image")(
+            height=480, width=640, data=bytes(640 * 480 * 3)
+        ),
     }
 
 
@@ -59,17 +63,40 @@ def rows() -> Iterator[Row]:
     """Measure both in this process."""
     store = get_typestore(Stores.ROS2_JAZZY)
     store.register(
-        get_types_from_msg("float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 angular_velocity\n", "turtlesim/msg/Pose")
+        get_types_from_msg(
+            "float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 angular_velocity\n",
+            "turtlesim/msg/Pose",
+        )
     )
     for what, message in samples().items():
         cls, data, name = type(message), msg.serialize(message), msg.type_name(type(message))
         theirs = store.deserialize_cdr(data, name)
-        names = {"msg": msg, "m": message, "cls": cls, "data": data, "name": name, "store": store, "theirs": theirs}
+        names = {
+            "msg": msg,
+            "m": message,
+            "cls": cls,
+            "data": data,
+            "name": name,
+            "store": store,
+            "theirs": theirs,
+        }
         encode, decode = "store.serialize_cdr(theirs, name)", "store.deserialize_cdr(data, name)"
-        yield Row(f"encode {what}", _figure("msg.serialize(m)", names), {ROSBAGS: _figure(encode, names)})
-        yield Row(f"decode {what}", _figure("msg.deserialize(cls, data)", names), {ROSBAGS: _figure(decode, names)})
-    yield Row("construct TransformStamped()", _figure("cls()", {"cls": msg.get_message("geometry_msgs/msg/TransformStamped")}))
-    yield Row("first use of a node's types (16 hashes, 4 encoders)", Figure(*summary([_first_use() for _ in range(10)])))
+        yield Row(
+            f"encode {what}", _figure("msg.serialize(m)", names), {ROSBAGS: _figure(encode, names)}
+        )
+        yield Row(
+            f"decode {what}",
+            _figure("msg.deserialize(cls, data)", names),
+            {ROSBAGS: _figure(decode, names)},
+        )
+    yield Row(
+        "construct TransformStamped()",
+        _figure("cls()", {"cls": msg.get_message("geometry_msgs/msg/TransformStamped")}),
+    )
+    yield Row(
+        "first use of a node's types (16 hashes, 4 encoders)",
+        Figure(*summary([_first_use() for _ in range(10)])),
+    )
 
 
 def _figure(statement: str, names: dict[str, Any]) -> Figure:
@@ -77,5 +104,7 @@ def _figure(statement: str, names: dict[str, Any]) -> Figure:
 
 
 def _first_use() -> float:
-    done = subprocess.run([sys.executable, "-c", FIRST_USE], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", FIRST_USE], capture_output=True, text=True, check=True
+    )
     return float(done.stdout)

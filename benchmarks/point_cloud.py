@@ -47,11 +47,23 @@ def make_cloud(names: str, step: int, *, bigendian: bool) -> Any:
     from sensor_msgs.msg import PointCloud2, PointField
 
     order = ">" if bigendian else "<"
-    points = np.zeros(POINTS, {"names": list(names), "formats": [f"{order}f4"] * len(names), "itemsize": step})
+    points = np.zeros(
+        POINTS, {"names": list(names), "formats": [f"{order}f4"] * len(names), "itemsize": step}
+    )
     for name in names:
         points[name] = np.random.default_rng(0).uniform(-50, 50, POINTS)
-    fields = [PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1) for i, name in enumerate(names)]
-    cloud = PointCloud2(height=1, width=POINTS, fields=fields, is_bigendian=bigendian, point_step=step, row_step=POINTS * step)
+    fields = [
+        PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1)
+        for i, name in enumerate(names)
+    ]
+    cloud = PointCloud2(
+        height=1,
+        width=POINTS,
+        fields=fields,
+        is_bigendian=bigendian,
+        point_step=step,
+        row_step=POINTS * step,
+    )
     cloud.data = array("B", points.tobytes())
     return cloud
 
@@ -67,7 +79,9 @@ def make_transform() -> Any:
 
 def in_one_expression(cloud: Any) -> array[int]:
     data = cloud.data[:]
-    floats = np.frombuffer(data, ">f4" if cloud.is_bigendian else "<f4").reshape(POINTS, cloud.point_step // 4)
+    floats = np.frombuffer(data, ">f4" if cloud.is_bigendian else "<f4").reshape(
+        POINTS, cloud.point_step // 4
+    )
     rotation = np.array([(0.28, -0.96, 0.0), (0.96, 0.28, 0.0), (0.0, 0.0, 1.0)])
     floats[:, :3] = floats[:, :3].astype(np.float64) @ rotation.T + (1.0, 0.0, 0.0)
     return data

@@ -34,7 +34,12 @@ def rows() -> Iterator[Row]:
     }
     for what, budget in budgets.items():
         ours, wire = (_figure([run[what] for run in runs[way]]) for way in ("rclpy", "wire"))
-        yield Row({"cpu": "CPU of the receiver for each message"}.get(what, what), ours, {"bare wire": wire}, budget)
+        yield Row(
+            {"cpu": "CPU of the receiver for each message"}.get(what, what),
+            ours,
+            {"bare wire": wire},
+            budget,
+        )
 
 
 def _figure(values: list[float]) -> Figure:
@@ -42,10 +47,16 @@ def _figure(values: list[float]) -> Figure:
 
 
 def measure(way: str) -> dict[str, float]:
-    environment = {**os.environ, "ROS_DOMAIN_ID": "102", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    environment = {
+        **os.environ,
+        "ROS_DOMAIN_ID": "102",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
     command = [sys.executable, "-m", __name__]
     with (
-        subprocess.Popen([*command, f"{way}-receive"], env=environment, stdout=subprocess.PIPE, text=True) as receiver,
+        subprocess.Popen(
+            [*command, f"{way}-receive"], env=environment, stdout=subprocess.PIPE, text=True
+        ) as receiver,
         subprocess.Popen([*command, f"{way}-send"], env=environment) as sender,
     ):
         output, _ = receiver.communicate(timeout=60)
@@ -70,7 +81,11 @@ class Record:
     def report(self) -> None:
         cpu = (time.process_time() - self.cpu) * 1e9 / MESSAGES
         ranked = sorted(self.latencies[WARM_UP:])
-        print(json.dumps({"p50": ranked[MESSAGES // 2], "p99": ranked[MESSAGES * 99 // 100], "cpu": cpu}))
+        print(
+            json.dumps(
+                {"p50": ranked[MESSAGES // 2], "p99": ranked[MESSAGES * 99 // 100], "cpu": cpu}
+            )
+        )
 
 
 def rclpy_node(name: str) -> Any:
@@ -87,7 +102,9 @@ def rclpy_send() -> None:
     node = rclpy_node("sender")
     publisher = node.create_publisher(String, TOPIC, 10)
     node.create_timer(PERIOD_S, lambda: publisher.publish(String(data=str(time.perf_counter_ns()))))
-    with contextlib.suppress(rclpy.executors.ExternalShutdownException):  # terminated when the receiver has enough
+    with contextlib.suppress(
+        rclpy.executors.ExternalShutdownException
+    ):  # terminated when the receiver has enough
         rclpy.spin(node)
 
 
@@ -96,7 +113,9 @@ def rclpy_receive() -> None:
     from std_msgs.msg import String
 
     node, record, done = rclpy_node("receiver"), Record(), rclpy.task.Future()
-    node.create_subscription(String, TOPIC, lambda message: record.add(message.data) and done.set_result(None), 10)
+    node.create_subscription(
+        String, TOPIC, lambda message: record.add(message.data) and done.set_result(None), 10
+    )
     rclpy.spin_until_future_complete(node, done)
     record.report()
     rclpy.shutdown()
@@ -140,4 +159,9 @@ def wire_receive() -> None:
 
 
 if __name__ == "__main__":
-    {"rclpy-send": rclpy_send, "rclpy-receive": rclpy_receive, "wire-send": wire_send, "wire-receive": wire_receive}[sys.argv[1]]()
+    {
+        "rclpy-send": rclpy_send,
+        "rclpy-receive": rclpy_receive,
+        "wire-send": wire_send,
+        "wire-receive": wire_receive,
+    }[sys.argv[1]]()

@@ -41,13 +41,21 @@ def rows() -> Iterator[Row]:
         for number, (what, budget) in enumerate(budgets.items()):
             values = [run[number] * 1e9 for run in runs]
             yield Row(what, Figure(min(values), statistics.median(values)), {}, budget)
-        idle = subprocess.run([sys.executable, "-m", __name__], env=environment, stdout=subprocess.PIPE, check=True)
+        idle = subprocess.run(
+            [sys.executable, "-m", __name__], env=environment, stdout=subprocess.PIPE, check=True
+        )
         switches, cpu = json.loads(idle.stdout)
-        yield Row("idle node: context switches each second, all threads", Figure(switches, switches, "/s"), {}, "< 5 /s")
+        yield Row(
+            "idle node: context switches each second, all threads",
+            Figure(switches, switches, "/s"),
+            {},
+            "< 5 /s",
+        )
         yield Row("idle node: CPU", Figure(cpu, cpu, "%"))
 
 
-#: Prints the seconds since the interpreter was ready: after the import, after the node, after two endpoints. No module is loaded before.
+#: Prints the seconds since the interpreter was ready: after the import, after the node, after two
+#: endpoints. No module is loaded before.
 START = """
 import time
 begin = time.perf_counter()
@@ -67,7 +75,9 @@ rclpy.shutdown()
 
 
 def start(environment: dict[str, str]) -> list[float]:
-    done = subprocess.run([sys.executable, "-c", START], env=environment, stdout=subprocess.PIPE, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", START], env=environment, stdout=subprocess.PIPE, check=True
+    )
     return json.loads(done.stdout)
 
 
@@ -92,7 +102,10 @@ def measure_idle() -> None:
     time.sleep(2.0)
     switches, cpu = _context_switches(), time.process_time()
     time.sleep(IDLE_S)
-    figures = ((_context_switches() - switches) / IDLE_S, (time.process_time() - cpu) / IDLE_S * 100)
+    figures = (
+        (_context_switches() - switches) / IDLE_S,
+        (time.process_time() - cpu) / IDLE_S * 100,
+    )
     rclpy.shutdown()
     spinning.join()
     print(json.dumps(figures))
@@ -101,7 +114,11 @@ def measure_idle() -> None:
 def _context_switches() -> int:
     total = 0
     for status in Path("/proc/self/task").glob("*/status"):
-        total += sum(int(line.split()[1]) for line in status.read_text().splitlines() if "ctxt_switches" in line)
+        total += sum(
+            int(line.split()[1])
+            for line in status.read_text().splitlines()
+            if "ctxt_switches" in line
+        )
     return total
 
 

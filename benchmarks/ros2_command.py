@@ -23,7 +23,10 @@ ROUNDS = 15
 LAUNCHES = 5
 DEMO = Path(__file__).parent.parent / "examples" / "one_process.launch.py"
 
-ROS2 = ["-c", "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"]
+ROS2 = [
+    "-c",
+    "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())",
+]
 
 #: A node that others can see, until its input ends.
 NODE = """
@@ -47,13 +50,20 @@ def rows() -> Iterator[Row]:
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
             "PYTHONPYCACHEPREFIX": cache,
         }
-        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # else every command compiles its modules anew
+        environment.pop(
+            "PYTHONDONTWRITEBYTECODE", None
+        )  # else every command compiles its modules anew
         yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
         yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
         yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))
-        yield Row("ros2 launch: the demo in one process, to turtle2's spawn", demo_started(environment))
+        yield Row(
+            "ros2 launch: the demo in one process, to turtle2's spawn", demo_started(environment)
+        )
         with node(environment):
-            yield Row("ros2 topic list, beside a node", measured(environment, [*ROS2, "topic", "list"], "/chatter"))
+            yield Row(
+                "ros2 topic list, beside a node",
+                measured(environment, [*ROS2, "topic", "list"], "/chatter"),
+            )
 
 
 def measured(environment: dict[str, str], words: list[str], expected: str) -> Figure:
@@ -65,10 +75,20 @@ def measured(environment: dict[str, str], words: list[str], expected: str) -> Fi
 def demo_started(environment: dict[str, str]) -> Figure:
     """Wall time until the follow demo has spawned turtle2."""
     spent = []
-    quiet = {**environment, "TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "ROS_LOG_DIR": environment["PYTHONPYCACHEPREFIX"]}
+    quiet = {
+        **environment,
+        "TURTLEWIRE_PORT": "0",
+        "TURTLEWIRE_BROWSER": "0",
+        "ROS_LOG_DIR": environment["PYTHONPYCACHEPREFIX"],
+    }
     for _ in range(LAUNCHES + 1):
         begin = time.perf_counter_ns()
-        with subprocess.Popen([sys.executable, *ROS2, "launch", str(DEMO)], env=quiet, stdout=subprocess.PIPE, text=True) as launch:
+        with subprocess.Popen(
+            [sys.executable, *ROS2, "launch", str(DEMO)],
+            env=quiet,
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as launch:
             for line in launch.stdout:
                 if "Spawning turtle [turtle2]" in line:
                     spent.append(time.perf_counter_ns() - begin)
@@ -78,7 +98,9 @@ def demo_started(environment: dict[str, str]) -> Figure:
 
 def run(environment: dict[str, str], words: list[str], expected: str) -> int:
     begin = time.perf_counter_ns()
-    done = subprocess.run([sys.executable, *words], env=environment, stdout=subprocess.PIPE, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, *words], env=environment, stdout=subprocess.PIPE, text=True, check=True
+    )
     spent = time.perf_counter_ns() - begin
     if expected not in done.stdout:
         raise RuntimeError(f"'{expected}' is missing in the output of {words[-2:]}: {done.stdout}")
@@ -89,7 +111,9 @@ def run(environment: dict[str, str], words: list[str], expected: str) -> int:
 def node(environment: dict[str, str]) -> Iterator[None]:
     """A node in a process of its own; it ends with its input, which `Popen` closes."""
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen([sys.executable, "-c", NODE], env=environment, text=True, **pipes) as process:
+    with subprocess.Popen(
+        [sys.executable, "-c", NODE], env=environment, text=True, **pipes
+    ) as process:
         if process.stdout.readline() != "ready\n":
             raise RuntimeError("the node did not start")
         yield

@@ -18,14 +18,32 @@ TITLE = "TF buffer (chain of 3 moving links at 1 kHz, 10 s; ingest per transform
 # what, our case, Debian's case, NumPy's case, budget of DESIGN §4
 CASES = [
     ("lookup, latest", "lookup latest", "lookup latest", "", "50x; < 230 ns (tf2's own C++ call)"),
-    ("lookup, interpolated", "lookup interpolated", "lookup interpolated", "", "28x; < 340 ns (tf2's own C++ call)"),
+    (
+        "lookup, interpolated",
+        "lookup interpolated",
+        "lookup interpolated",
+        "",
+        "28x; < 340 ns (tf2's own C++ call)",
+    ),
     ("lookup, 9 s back", "lookup 9 s back", "lookup 9 s back", "", "within 20 % of the recent one"),
     ("tf2_ros message, latest", "message latest", "lookup latest", "", "8x"),
     ("tf2_ros message, interpolated", "message interpolated", "lookup interpolated", "", "8x"),
     ("can_transform, interpolated", "can_transform", "can_transform", "", ""),
     ("failing lookup, caught", "failing lookup", "failing lookup", "", ""),
-    ("batch of 1e5 random stamps, per item", "batch random", "lookup, random stamps", "batch random", "75x Debian, 15x NumPy"),
-    ("batch of 1e5 sorted stamps, per item", "batch sorted", "lookup, random stamps", "batch sorted", ""),
+    (
+        "batch of 1e5 random stamps, per item",
+        "batch random",
+        "lookup, random stamps",
+        "batch random",
+        "75x Debian, 15x NumPy",
+    ),
+    (
+        "batch of 1e5 sorted stamps, per item",
+        "batch sorted",
+        "lookup, random stamps",
+        "batch sorted",
+        "",
+    ),
     ("1e5 points, a stamp for each, per point", "points", "", "", ""),
     ("ingest, 1 transform a message", "ingest 1 a message", "ingest 1 a message", "", ""),
     ("ingest, 100 a message, hot", "ingest hot", "ingest hot", "", "100x"),
@@ -45,6 +63,12 @@ def rows() -> Iterator[Row]:
     for what, case, debian_case, numpy_case, budget in CASES:
         rivals = {DEBIAN: debian.get(debian_case), "NumPy": numpy.get(numpy_case)}
         rivals |= {"Numba": numba.get(case), "pytransform3d": pytransform3d.get(case)}
-        yield Row(what, ours[case], {name: figure for name, figure in rivals.items() if figure}, budget)
+        yield Row(
+            what, ours[case], {name: figure for name, figure in rivals.items() if figure}, budget
+        )
     full = ours["memory"]
-    yield Row("memory per sample, full 10 s cache at 1 kHz", Figure(full.minimum, full.median, "B"), budget="<= 80 B")
+    yield Row(
+        "memory per sample, full 10 s cache at 1 kHz",
+        Figure(full.minimum, full.median, "B"),
+        budget="<= 80 B",
+    )

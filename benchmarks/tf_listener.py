@@ -1,7 +1,8 @@
 """What a TransformListener costs, and how soon a waiting lookup has its answer; the publisher is another process at 1 kHz.
 
-The cost is the CPU time of the whole receiving process for each message. The wait ends with the return of the lookup and begins with the
-stamp of the transform, before the publisher makes a message of it.
+The cost is the CPU time of the whole receiving process for each message. The wait ends with the
+return of the lookup and begins with the stamp of the transform, before the publisher makes a
+message of it.
 """
 
 from __future__ import annotations
@@ -24,20 +25,39 @@ RATE_HZ = 1000
 SECONDS = 2.0
 ROUNDS = 3
 WAITS = 2000
-WAYS = {"listener": "tf2_ros.TransformListener", "callback": "a subscription that decodes and stores, spun"}
+WAYS = {
+    "listener": "tf2_ros.TransformListener",
+    "callback": "a subscription that decodes and stores, spun",
+}
 
 
 def rows() -> Iterator[Row]:
-    environment = {**os.environ, "ROS_DOMAIN_ID": "101", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    for count, budget in ((1, "<= 48 us (1/6 of rclpy's 289 us)"), (20, "<= 53 us (1/12 of rclpy's 645 us)")):
-        with subprocess.Popen([sys.executable, "-m", __name__, "publish", str(count)], env=environment) as publisher:
+    environment = {
+        **os.environ,
+        "ROS_DOMAIN_ID": "101",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
+    for count, budget in (
+        (1, "<= 48 us (1/6 of rclpy's 289 us)"),
+        (20, "<= 53 us (1/12 of rclpy's 645 us)"),
+    ):
+        with subprocess.Popen(
+            [sys.executable, "-m", __name__, "publish", str(count)], env=environment
+        ) as publisher:
             try:
                 figures = {way: measure(way, environment) for way in WAYS}
                 p50, p99 = run("wait", environment)
             finally:
                 publisher.terminate()
-        yield Row(f"{count} transform(s) in a message", figures["listener"], {WAYS["callback"]: figures["callback"]}, budget)
-        yield Row(f"{count} transform(s): stamp to a waiting lookup's return, p50 / p99", Figure(p50, p99))
+        yield Row(
+            f"{count} transform(s) in a message",
+            figures["listener"],
+            {WAYS["callback"]: figures["callback"]},
+            budget,
+        )
+        yield Row(
+            f"{count} transform(s): stamp to a waiting lookup's return, p50 / p99", Figure(p50, p99)
+        )
 
 
 def measure(way: str, environment: dict[str, str]) -> Figure:
@@ -46,7 +66,9 @@ def measure(way: str, environment: dict[str, str]) -> Figure:
 
 
 def run(way: str, environment: dict[str, str]) -> list[float]:
-    done = subprocess.run([sys.executable, "-m", __name__, way], env=environment, stdout=subprocess.PIPE, check=True)
+    done = subprocess.run(
+        [sys.executable, "-m", __name__, way], env=environment, stdout=subprocess.PIPE, check=True
+    )
     return json.loads(done.stdout)
 
 
@@ -56,14 +78,21 @@ def publish(count: int) -> None:
     from turtlewire.wire.base import TypeId
 
     context = wire.open_context()
-    publisher = context.create_node("publisher").create_publisher(TOPIC, TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS)
-    transforms = [msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=f"frame{i}") for i in range(count)]
+    publisher = context.create_node("publisher").create_publisher(
+        TOPIC, TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS
+    )
+    transforms = [
+        msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=f"frame{i}")
+        for i in range(count)
+    ]
     message = msg.get_message(TYPE_NAME)(transforms=transforms)
     due = time.monotonic()
     while True:
         for transform in transforms:
             transform.header.frame_id = "world"
-            transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+            transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(
+                time.time_ns(), 1_000_000_000
+            )
         publisher.publish(msg.serialize(message))
         due += 1.0 / RATE_HZ
         time.sleep(max(0.0, due - time.monotonic()))

@@ -16,7 +16,9 @@ from benchmarks.figures import Figure, Row
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-TITLE = "Turtles: a swarm that follows one another through TF, CPU for each turtle and tick of 16 ms"
+TITLE = (
+    "Turtles: a swarm that follows one another through TF, CPU for each turtle and tick of 16 ms"
+)
 COUNTS = (10, 100, 1000)
 ROUNDS = 5
 SECONDS = 1.0
@@ -25,16 +27,32 @@ PATH = [ROOT / "ros2_ws" / "src" / "learning_tf2_py", ROOT / "examples" / "grade
 
 
 def rows() -> Iterator[Row]:
-    environment = {**os.environ, "ROS_DOMAIN_ID": "101", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    environment["PYTHONPATH"] = os.pathsep.join(filter(None, (*map(str, PATH), environment.get("PYTHONPATH"))))
+    environment = {
+        **os.environ,
+        "ROS_DOMAIN_ID": "101",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
+    environment["PYTHONPATH"] = os.pathsep.join(
+        filter(None, (*map(str, PATH), environment.get("PYTHONPATH")))
+    )
     for count in COUNTS:
         measured = run(str(count), environment)
         yield Row(f"{count} turtles, the simulator alone", figure(measured["simulator"]))
         budget = "<= 16 us (one core)" if count == max(COUNTS) else ""
-        yield Row(f"{count} turtles, all of the process", figure(measured["process"]), budget=budget)
-        yield Row(f"{count} turtles, ticks per second", figure(measured["rate"], "Hz"), budget="62.5 Hz")
-        yield Row(f"{count} turtles, spawned one by one through the service", figure(measured["spawning"]))
-    yield Row("a simulated second of a chase in lock-step", figure(run("chase", environment)["second"]), budget="<= 50 ms (20x)")
+        yield Row(
+            f"{count} turtles, all of the process", figure(measured["process"]), budget=budget
+        )
+        yield Row(
+            f"{count} turtles, ticks per second", figure(measured["rate"], "Hz"), budget="62.5 Hz"
+        )
+        yield Row(
+            f"{count} turtles, spawned one by one through the service", figure(measured["spawning"])
+        )
+    yield Row(
+        "a simulated second of a chase in lock-step",
+        figure(run("chase", environment)["second"]),
+        budget="<= 50 ms (20x)",
+    )
 
 
 def run(what: str, environment: dict[str, str]) -> dict[str, list[float]]:
@@ -63,10 +81,20 @@ def measure(count: int) -> dict[str, list[float]]:
     start = time.monotonic_ns()
     while len(swarm.members) < count:
         executor.spin_once()
-    results: dict[str, list[float]] = {"simulator": [], "process": [], "rate": [], "spawning": [(time.monotonic_ns() - start) / count]}
+    results: dict[str, list[float]] = {
+        "simulator": [],
+        "process": [],
+        "rate": [],
+        "spawning": [(time.monotonic_ns() - start) / count],
+    }
     spin(executor, 2 * SECONDS)  # the garbage of the beginning, and the first commands
     for _ in range(ROUNDS):
-        ticks, tick_ns, cpu, wall = clock.ticks, clock.cpu_ns, time.process_time_ns(), time.monotonic()
+        ticks, tick_ns, cpu, wall = (
+            clock.ticks,
+            clock.cpu_ns,
+            time.process_time_ns(),
+            time.monotonic(),
+        )
         spin(executor, SECONDS)
         ticks = clock.ticks - ticks
         results["simulator"].append((clock.cpu_ns - tick_ns) / ticks / count)
@@ -118,5 +146,10 @@ def spin(executor: Any, seconds: float) -> None:
 
 
 if __name__ == "__main__":
-    print(json.dumps(measure_chase() if sys.argv[1] == "chase" else measure(int(sys.argv[1]))), flush=True)
-    os._exit(0)  # a thousand turtles take seconds to leave one by one, which is not what is measured
+    print(
+        json.dumps(measure_chase() if sys.argv[1] == "chase" else measure(int(sys.argv[1]))),
+        flush=True,
+    )
+    os._exit(
+        0
+    )  # a thousand turtles take seconds to leave one by one, which is not what is measured

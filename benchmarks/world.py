@@ -15,7 +15,15 @@ LINKS_IN_MESSAGE = 100
 def pose(link, i):
     """(x, y, z, qx, qy, qz, qw) of sample i of a link."""
     angle = 0.001 * i * (link % 3 + 1)
-    return (math.sin(angle), math.cos(angle), 0.1 * link, 0.0, 0.0, math.sin(angle / 2), math.cos(angle / 2))
+    return (
+        math.sin(angle),
+        math.cos(angle),
+        0.1 * link,
+        0.0,
+        0.0,
+        math.sin(angle / 2),
+        math.cos(angle / 2),
+    )
 
 
 def chain():
@@ -36,4 +44,6 @@ def random_stamps(n):
 
 def message(i, links):
     """The transforms of TFMessage i: (parent, child, stamp, pose)."""
-    return [("base_link", f"robot_link_{k:03d}", FIRST + i * STEP, pose(k, i)) for k in range(links)]
+    return [
+        ("base_link", f"robot_link_{k:03d}", FIRST + i * STEP, pose(k, i)) for k in range(links)
+    ]

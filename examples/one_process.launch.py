@@ -13,9 +13,28 @@ LISTENER = "learning_tf2_py.turtle_tf2_listener.TurtleListener"
 def generate_launch_description() -> LaunchDescription:
     """The same nodes, names and parameters as in ``turtle_tf2_demo.launch.py``."""
     nodes = [
-        ComposableNode(package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode", name="sim"),
-        ComposableNode(package="learning_tf2_py", plugin=BROADCASTER, name="broadcaster1", parameters=[{"turtlename": "turtle1"}]),
-        ComposableNode(package="learning_tf2_py", plugin=BROADCASTER, name="broadcaster2", parameters=[{"turtlename": "turtle2"}]),
-        ComposableNode(package="learning_tf2_py", plugin=LISTENER, name="listener", parameters=[{"target_frame": "turtle1"}]),
+        ComposableNode(
+            package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode", name="sim"
+        ),
+        ComposableNode(
+            package="learning_tf2_py",
+            plugin=BROADCASTER,
+            name="broadcaster1",
+            parameters=[{"turtlename": "turtle1"}],
+        ),
+        ComposableNode(
+            package="learning_tf2_py",
+            plugin=BROADCASTER,
+            name="broadcaster2",
+            parameters=[{"turtlename": "turtle2"}],
+        ),
+        ComposableNode(
+            package="learning_tf2_py",
+            plugin=LISTENER,
+            name="listener",
+            parameters=[{"target_frame": "turtle1"}],
+        ),
     ]
-    return LaunchDescription([ComposableNodeContainer(name="demo", output="screen", composable_node_descriptions=nodes)])
+    return LaunchDescription(
+        [ComposableNodeContainer(name="demo", output="screen", composable_node_descriptions=nodes)]
+    )

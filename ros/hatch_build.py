@@ -1,7 +1,8 @@
 """Builds the data of the wheel: for each ROS package what ament, colcon and rosdep look for, and the shell files of the prefix.
 
-Every folder here with an ``__init__.py`` is a ROS package. Entry points of the groups ``turtlewire.executables.<package>`` become
-``lib/<package>/<executable>``, as ``ros2 run`` expects them.
+Every folder here and in ``interfaces/`` with an ``__init__.py`` is a ROS package. Entry points of
+the groups ``turtlewire.executables.<package>`` become ``lib/<package>/<executable>``, as ``ros2
+run`` expects them.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         """Make the files and name them to the wheel builder."""
         self._folder = Path(tempfile.mkdtemp(prefix="turtlewire-prefix-"))
         root = Path(self.root)
-        for package in sorted(path.parent.name for path in root.glob("*/__init__.py")):
-            self._add_package(package, root / package)
+        for init in sorted([*root.glob("*/__init__.py"), *root.glob("interfaces/*/__init__.py")]):
+            self._add_package(init.parent.name, init.parent)
         for group, entries in self.metadata.core.entry_points.items():
             if group.startswith(_GROUP):
                 for name, target in entries.items():
@@ -59,7 +60,9 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         cache = "share/turtlewire/ros_home/rosdep/sources.cache"
         self._write(f"{cache}/index", f"yaml {_RULES_URL}\n")
         rules = (root / "turtlewire_ros" / "rosdep" / "rules.yaml").read_text(encoding="utf-8")
-        self._write(f"{cache}/{hashlib.sha1(_RULES_URL.encode(), usedforsecurity=False).hexdigest()}", rules)
+        self._write(
+            f"{cache}/{hashlib.sha1(_RULES_URL.encode(), usedforsecurity=False).hexdigest()}", rules
+        )
         for path in self._folder.rglob("*"):
             if path.is_file():
                 build_data["shared_data"][str(path)] = path.relative_to(self._folder).as_posix()
@@ -69,19 +72,32 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         shutil.rmtree(self._folder)
 
     def _add_package(self, name: str, source: Path) -> None:
-        docstring = ast.get_docstring(ast.parse((source / "__init__.py").read_text(encoding="utf-8"))) or name
+        docstring = (
+            ast.get_docstring(ast.parse((source / "__init__.py").read_text(encoding="utf-8")))
+            or name
+        )
         description = escape(docstring.splitlines()[0])
         self._write(f"share/ament_index/resource_index/packages/{name}", "")
-        self._write(f"share/{name}/package.xml", _PACKAGE_XML.format(name=name, version=self.metadata.version, description=description))
-        self._write(f"share/{name}/COLCON_IGNORE", "")  # else colcon takes a venv in a workspace for sources
+        self._write(
+            f"share/{name}/package.xml",
+            _PACKAGE_XML.format(name=name, version=self.metadata.version, description=description),
+        )
+        self._write(
+            f"share/{name}/COLCON_IGNORE", ""
+        )  # else colcon takes a venv in a workspace for sources
         share = source / "share"
         for path in share.rglob("*") if share.is_dir() else ():
             if path.is_file():
-                self._write(f"share/{name}/{path.relative_to(share).as_posix()}", path.read_text(encoding="utf-8"))
+                self._write(
+                    f"share/{name}/{path.relative_to(share).as_posix()}",
+                    path.read_text(encoding="utf-8"),
+                )
 
     def _add_executable(self, package: str, name: str, target: str) -> None:
         module, function = target.split(":")
-        path = self._write(f"lib/{package}/{name}", _EXECUTABLE.format(module=module, function=function))
+        path = self._write(
+            f"lib/{package}/{name}", _EXECUTABLE.format(module=module, function=function)
+        )
         path.chmod(0o755)
 
     def _write(self, path: str, text: str) -> Path:

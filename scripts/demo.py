@@ -36,12 +36,15 @@ ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 def main() -> int:
     """Run the demo or the check; the exit status."""
     parser = argparse.ArgumentParser(
-        prog="scripts/demo", description="One turtle follows another: the tutorial's launch file, ready to run."
+        prog="scripts/demo",
+        description="One turtle follows another: the tutorial's launch file, ready to run.",
     )
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--seconds", type=seconds, help="end by itself after so many seconds")
     mode.add_argument(
-        "--check", action="store_true", help="run headless, drive turtle1 through a square, print figures; status 0 if turtle2 followed"
+        "--check",
+        action="store_true",
+        help="run headless, drive turtle1 through a square, print figures; status 0 if turtle2 followed",
     )
     arguments = parser.parse_args()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
@@ -58,7 +61,9 @@ def seconds(text: str) -> float:
     """A time that can be waited for."""
     value = float(text)
     if not 0.0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} is not a time to wait for; give a positive number")
+        raise argparse.ArgumentTypeError(
+            f"{text} is not a time to wait for; give a positive number"
+        )
     return value
 
 
@@ -74,7 +79,9 @@ def choose_core() -> None:
     """Say once, instead of in each process, that the compiled core is missing; the plain-Python one does the same."""
     if "TURTLEWIRE_CORE" not in os.environ and find_spec("turtlewire._native") is None:
         os.environ["TURTLEWIRE_CORE"] = "python"
-        print("[demo] transforms run on the plain-Python core; `apt install g++ python3-dev` (or the like) brings the compiled one")
+        print(
+            "[demo] transforms run on the plain-Python core; `apt install g++ python3-dev` (or the like) brings the compiled one"
+        )
 
 
 def interrupt(_signum: int, _frame: object) -> NoReturn:
@@ -86,7 +93,10 @@ def interrupt(_signum: int, _frame: object) -> NoReturn:
 def held_back() -> Iterator[None]:
     """Let Ctrl-C and its like wait for the end of the block."""
     came: list[int] = []
-    handlers = {signum: signal.signal(signum, lambda number, _frame: came.append(number)) for signum in ENDING}
+    handlers = {
+        signum: signal.signal(signum, lambda number, _frame: came.append(number))
+        for signum in ENDING
+    }
     yield
     for signum, handler in handlers.items():
         signal.signal(signum, handler)
@@ -111,9 +121,14 @@ class Launch:
         """Start them; `stop` is to be called whatever happens."""
         command = [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]]
         with held_back():  # a process that nobody knows of yet could not be stopped
-            # without a terminal as its input, the launch tells its processes to end itself, instead of leaving that to the terminal
+            # without a terminal as its input, the launch tells its processes to end itself, instead
+            # of leaving that to the terminal
             self._process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._output, start_new_session=True
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=self._output,
+                stderr=self._output,
+                start_new_session=True,
             )
             self._waiter.start()
 
@@ -136,7 +151,10 @@ class Launch:
         if not self.ended.is_set():
             self._process.send_signal(signal.SIGINT)
         if not self.ended.wait(10.0):
-            print("[demo] not all processes ended when they were asked to: killing them", file=sys.stderr)
+            print(
+                "[demo] not all processes ended when they were asked to: killing them",
+                file=sys.stderr,
+            )
             os.killpg(self._process.pid, signal.SIGKILL)
         self._waiter.join()
         return status
@@ -173,7 +191,10 @@ def greet() -> None:
     )
     print(f"[demo] ROS domain {domain}, discovery range {discovery.range.name} ({reach})")
     print("[demo] drive turtle1 with the arrow keys, in the page or in a second terminal:")
-    print(f"[demo]     export PATH={VENV / 'bin'}:$PATH" + (f" ROS_DOMAIN_ID={domain}" if domain else ""))
+    print(
+        f"[demo]     export PATH={VENV / 'bin'}:$PATH"
+        + (f" ROS_DOMAIN_ID={domain}" if domain else "")
+    )
     print("[demo]     ros2 run turtlesim turtle_teleop_key")
     print("[demo] Ctrl-C ends it", flush=True)
 
@@ -185,7 +206,10 @@ def report_each_second(launch: Launch, deadline: float) -> None:
 
     buffer = Buffer()
     with TransformListener(buffer):
-        while not launch.ended.wait(max(0.0, min(1.0, deadline - time.monotonic()))) and time.monotonic() < deadline:
+        while (
+            not launch.ended.wait(max(0.0, min(1.0, deadline - time.monotonic())))
+            and time.monotonic() < deadline
+        ):
             print(f"[demo] {describe(buffer)}", flush=True)
 
 

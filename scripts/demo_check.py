@@ -29,7 +29,8 @@ REST_S = 10.0
 NEAR_M = 0.3
 #: It has followed when its way was at least this share of turtle1's; it may cut corners.
 SHARE_OF_WAY = 0.5
-#: Given up when turtle2 has not moved by then, or when a stream that the demo lives on has been silent for so long.
+#: Given up when turtle2 has not moved by then, or when a stream that the demo lives on has been
+#: silent for so long.
 START_LIMIT_S = 30.0
 SILENCE_LIMIT_S = 3.0
 COMMAND_PERIOD_S = 0.1
@@ -53,7 +54,10 @@ def check(started: float) -> int:
     os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
     log.parent.mkdir(parents=True, exist_ok=True)
-    print(f"[demo] checking in ROS domain {os.environ['ROS_DOMAIN_ID']}; what the processes say goes to {log}", flush=True)
+    print(
+        f"[demo] checking in ROS domain {os.environ['ROS_DOMAIN_ID']}; what the processes say goes to {log}",
+        flush=True,
+    )
     with log.open("wb") as output:
         launch = Launch(output.fileno())
         try:
@@ -93,7 +97,8 @@ def judge(observer: Observer, launch: Launch) -> str:
 def free_domain() -> tuple[int, socket.socket]:
     """A domain in which nobody on this computer listens; below 102, the ports stay clear of those that systems hand out.
 
-    The socket occupies the port of a domain's first process: as long as it is open, no other check takes the domain.
+    The socket occupies the port of a domain's first process: as long as it is open, no other check
+    takes the domain.
     """
     for offset in range(101):
         domain = 1 + (os.getpid() + offset) % 101
@@ -137,10 +142,18 @@ class Observer:
         node = self._context.create_node("demo_check")
         for turtle in (LEADER, FOLLOWER):
             self._listen(node, f"/{turtle}/pose", "turtlesim/msg/Pose", self._on_pose, turtle)
-        self._listen(node, f"/{FOLLOWER}/cmd_vel", "geometry_msgs/msg/Twist", None, f"the listener's commands to {FOLLOWER}")
+        self._listen(
+            node,
+            f"/{FOLLOWER}/cmd_vel",
+            "geometry_msgs/msg/Twist",
+            None,
+            f"the listener's commands to {FOLLOWER}",
+        )
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node, context=self._context)
-        self._commands = node.create_publisher(f"/{LEADER}/cmd_vel", type_id("geometry_msgs/msg/Twist"), QoS())
+        self._commands = node.create_publisher(
+            f"/{LEADER}/cmd_vel", type_id("geometry_msgs/msg/Twist"), QoS()
+        )
 
     def __enter__(self) -> Observer:  # noqa: PYI034 -- typing.Self comes with Python 3.11
         return self
@@ -149,7 +162,9 @@ class Observer:
         self._listener.close()
         self._context.close()
 
-    def _listen(self, node: base.Node, topic: str, type_name: str, on_message: Any, what: str) -> None:
+    def _listen(
+        self, node: base.Node, topic: str, type_name: str, on_message: Any, what: str
+    ) -> None:
         message_class = msg.get_message(type_name)
 
         def receive(cdr: bytes, _info: base.MessageInfo) -> None:
@@ -207,7 +222,9 @@ class Observer:
         # the stamp is that of the turtle whose broadcaster has been silent for longer
         age_s = time.time() - newest_ns / 1e9
         if age_s > SILENCE_LIMIT_S:
-            raise CheckError(f"the newest transform between the turtles is {age_s:.1f} s old: a broadcaster has stopped")
+            raise CheckError(
+                f"the newest transform between the turtles is {age_s:.1f} s old: a broadcaster has stopped"
+            )
 
     def _check_streams(self) -> None:
         now = time.monotonic()

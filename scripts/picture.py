@@ -22,21 +22,46 @@ if TYPE_CHECKING:
 
 IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
 #: What a person presses: key, and how many frames pass before the next one.
-KEYS = [("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 5), ("ArrowLeft", 4), ("ArrowUp", 6), ("ArrowRight", 4), ("ArrowUp", 8)]
+KEYS = [
+    ("ArrowUp", 5),
+    ("ArrowLeft", 4),
+    ("ArrowUp", 5),
+    ("ArrowLeft", 4),
+    ("ArrowUp", 6),
+    ("ArrowRight", 4),
+    ("ArrowUp", 8),
+]
 FRAME_MS = 160
 #: The frame at which the still is taken: turtle1 has just gone ahead, turtle2 comes after it.
 STILL = 22
-CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync"]
+CHROMIUM_FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-sync",
+]
 
 
 def main() -> None:
     """Make both pictures."""
     domain = str(1 + os.getpid() % 101)
     bin_dir = Path(sys.executable).parent
-    environment = dict(os.environ, ROS_DOMAIN_ID=domain, TURTLEWIRE_BROWSER="0", PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}")
+    environment = dict(
+        os.environ,
+        ROS_DOMAIN_ID=domain,
+        TURTLEWIRE_BROWSER="0",
+        PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}",
+    )
     command = ["ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]
     launch = subprocess.Popen(
-        command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     try:
         take_pictures(address_in(launch))
@@ -59,8 +84,13 @@ def address_in(launch: subprocess.Popen[str]) -> str:
 def take_pictures(address: str) -> None:
     """Drive in the page, and save what it shows."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS)
-        page, small_page = (browser.new_page(viewport={"width": 1160, "height": 860}, device_scale_factor=scale) for scale in (1, 0.4))
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=CHROMIUM_FLAGS
+        )
+        page, small_page = (
+            browser.new_page(viewport={"width": 1160, "height": 860}, device_scale_factor=scale)
+            for scale in (1, 0.4)
+        )
         for opened in (page, small_page):
             opened.goto(address)
             opened.get_by_text("turtle2").first.wait_for()
@@ -92,9 +122,13 @@ def animated_png(frames: list[bytes], frame_ms: int) -> bytes:
         chunks = list(png_chunks(frame))
         header = next(data for kind, data in chunks if kind == b"IHDR")
         if index == 0:
-            out += png_chunk(b"IHDR", header) + png_chunk(b"acTL", struct.pack(">II", len(frames), 0))
+            out += png_chunk(b"IHDR", header) + png_chunk(
+                b"acTL", struct.pack(">II", len(frames), 0)
+            )
         width, height = struct.unpack(">II", header[:8])
-        out += png_chunk(b"fcTL", struct.pack(">IIIIIHHBB", sequence, width, height, 0, 0, frame_ms, 1000, 0, 0))
+        out += png_chunk(
+            b"fcTL", struct.pack(">IIIIIHHBB", sequence, width, height, 0, 0, frame_ms, 1000, 0, 0)
+        )
         sequence += 1
         for data in (data for kind, data in chunks if kind == b"IDAT"):
             if index == 0:

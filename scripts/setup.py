@@ -35,7 +35,9 @@ class SetupError(Exception):
 def main(extras: list[str]) -> None:
     """Bring .venv up to date with the sources, with ``extras`` installed besides."""
     if sys.version_info < (3, 10):  # noqa: UP036 -- whatever python3 is on the machine runs this
-        raise SetupError(f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed (PYTHON=python3.12 names another)")
+        raise SetupError(
+            f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed (PYTHON=python3.12 names another)"
+        )
     if not missing(extras)[1]:
         return
     lock = wait_for_turn()
@@ -48,7 +50,11 @@ def main(extras: list[str]) -> None:
 def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
     """What was installed last, and what is to be installed instead; nothing when all is there."""
     stamp = read_stamp()
-    wanted = {"python": f"{sys.version} in {ROOT}", "sources": fingerprint(), "extras": sorted({*stamp.get("extras", []), *extras})}
+    wanted = {
+        "python": f"{sys.version} in {ROOT}",
+        "sources": fingerprint(),
+        "extras": sorted({*stamp.get("extras", []), *extras}),
+    }
     return stamp, {} if stamp == wanted else wanted
 
 
@@ -71,7 +77,9 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
     if only_extras:
         say(f"adding to .venv: {', '.join(sorted({*wanted['extras']} - {*stamp['extras']}))}")
     elif not venv_works:
-        say("making .venv here and downloading what it needs (about 55 packages, under a minute); nothing else is touched")
+        say(
+            "making .venv here and downloading what it needs (about 55 packages, under a minute); nothing else is touched"
+        )
         make_venv()
     else:
         say("bringing .venv up to date with the sources")
@@ -83,7 +91,11 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
 
 def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
     """Whether there is a .venv that works, of this Python, and that was not moved here."""
-    return stamp.get("python", wanted["python"]) == wanted["python"] and PYTHON.exists() and run_python("-c", "").returncode == 0
+    return (
+        stamp.get("python", wanted["python"]) == wanted["python"]
+        and PYTHON.exists()
+        and run_python("-c", "").returncode == 0
+    )
 
 
 def say(text: str) -> None:
@@ -103,10 +115,16 @@ def read_stamp() -> dict[str, Any]:
 def fingerprint() -> str:
     """Hash of all that an editable installation does not follow by itself, the tools to compile with included."""
     ros, native = ROOT / "ros", ROOT / "native"
-    files = [ROOT / "pyproject.toml", native / "CMakeLists.txt", *LEARNING.glob("setup.*"), LEARNING / "package.xml"]
+    files = [
+        ROOT / "pyproject.toml",
+        native / "CMakeLists.txt",
+        *LEARNING.glob("setup.*"),
+        LEARNING / "package.xml",
+    ]
     files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
     files += [path for folder in ("core", "bindings") for path in (native / folder).glob("*.?pp")]
-    packages = sorted(path.parent.name for path in ros.glob("*/__init__.py"))
+    inits = [*ros.glob("*/__init__.py"), *ros.glob("interfaces/*/__init__.py")]
+    packages = sorted(path.parent.name for path in inits)
     digest = hashlib.sha256(f"{can_compile()} {packages}".encode())
     for path in sorted(files):
         if path.is_file() and "__pycache__" not in path.parts:
@@ -118,17 +136,29 @@ def fingerprint() -> str:
 def can_compile() -> bool:
     """Whether a C++ compiler and Python's headers are there."""
     headers = Path(sysconfig.get_path("include")) / "Python.h"
-    return headers.exists() and any(shutil.which(name) for name in (os.environ.get("CXX", "c++"), "c++", "g++", "clang++"))
+    return headers.exists() and any(
+        shutil.which(name) for name in (os.environ.get("CXX", "c++"), "c++", "g++", "clang++")
+    )
 
 
 def run_python(*arguments: str) -> subprocess.CompletedProcess[str]:
     """Run the venv's Python quietly."""
-    return subprocess.run([str(PYTHON), *arguments], capture_output=True, text=True, check=False, env=clean_environment())
+    return subprocess.run(
+        [str(PYTHON), *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=clean_environment(),
+    )
 
 
 def clean_environment() -> dict[str, str]:
     """The environment without what a sourced ROS 2 would mix in."""
-    return {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "PYTHONHOME", "AMENT_PREFIX_PATH"}}
+    return {
+        name: value
+        for name, value in os.environ.items()
+        if name not in {"PYTHONPATH", "PYTHONHOME", "AMENT_PREFIX_PATH"}
+    }
 
 
 def make_venv() -> None:
@@ -136,7 +166,9 @@ def make_venv() -> None:
     # Inside of a venv, and this may be run with .venv's own Python, the one that it was made from.
     base: str = vars(sys)["_base_executable"]
     command = [base, "-m", "venv", "--without-pip", "--clear", str(VENV)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, env=clean_environment())
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, env=clean_environment()
+    )
     if done.returncode:
         raise SetupError(f"could not make .venv:\n{done.stdout}{done.stderr}")
 
@@ -149,11 +181,15 @@ def ensure_pip() -> None:
         if version < OLDEST_PIP:
             pip("install", "--upgrade", "pip")
         return
-    outer = subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, text=True, check=False)
+    outer = subprocess.run(
+        [sys.executable, "-m", "pip", "--version"], capture_output=True, text=True, check=False
+    )
     if outer.returncode == 0 and version_of(outer.stdout) >= (22, 3):
         checked([sys.executable, "-m", "pip", "--python", str(PYTHON), "install", "-q", "pip"])
         return
-    raise SetupError("this Python has no pip of 22.3 or newer; install it (Debian: `apt install python3-pip`) and try again")
+    raise SetupError(
+        "this Python has no pip of 22.3 or newer; install it (Debian: `apt install python3-pip`) and try again"
+    )
 
 
 def pip_version() -> tuple[int, ...] | None:
@@ -171,11 +207,25 @@ def version_of(text: str) -> tuple[int, ...]:
 def install(extras: Sequence[str], *, only_extras: bool) -> None:
     """Install the three packages editable, unless they are there, and the extras."""
     workspace = "[workspace]" if "workspace" in extras else ""
-    groups = [argument for name in extras if name != "workspace" for argument in ("--group", f"{ROOT / 'pyproject.toml'}:{name}")]
+    groups = [
+        argument
+        for name in extras
+        if name != "workspace"
+        for argument in ("--group", f"{ROOT / 'pyproject.toml'}:{name}")
+    ]
     if only_extras:  # compiling takes most of the time
         pip("install", f"turtlewire-ros{workspace}", *groups)
     else:
-        pip("install", "-e", str(ROOT), "-e", f"{ROOT / 'ros'}{workspace}", "-e", str(LEARNING), *groups)
+        pip(
+            "install",
+            "-e",
+            str(ROOT),
+            "-e",
+            f"{ROOT / 'ros'}{workspace}",
+            "-e",
+            str(LEARNING),
+            *groups,
+        )
 
 
 def pip(*arguments: str) -> None:

@@ -1,8 +1,8 @@
 """What all tests share.
 
-Every test process gets a domain, a log directory and a loopback-only range of its own; children inherit them.
-The fixture ``run`` starts programs in processes of their own; ``ros2_launch`` does so with launch files, ``launch`` runs entities of
-launch files in the test's process.
+Every test process gets a domain, a log directory and a loopback-only range of its own; children
+inherit them. The fixture ``run`` starts programs in processes of their own; ``ros2_launch`` does so
+with launch files, ``launch`` runs entities of launch files in the test's process.
 """
 
 from __future__ import annotations
@@ -30,12 +30,16 @@ reservations = []
 def free_domain():
     """A domain in which nobody on this computer listens; up to 101, its ports stay clear of those that systems hand out.
 
-    Until this process ends, no other test process takes it: a TCP port that DDS does not use stands for the domain.
+    Until this process ends, no other test process takes it: a TCP port that DDS does not use stands
+    for the domain.
     """
     for offset in range(101):
         domain = 1 + (os.getpid() + offset) % 101
         reservation = socket.socket()
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, contextlib.suppress(OSError):
+        with (
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe,
+            contextlib.suppress(OSError),
+        ):
             probe.bind(("", 7410 + 250 * domain))
             reservation.bind(("127.0.0.1", 7410 + 250 * domain))
             reservations.append(reservation)
@@ -57,9 +61,11 @@ def pytest_unconfigure():
         reservation.close()
 
 
-# The same examples in each run: what fails is due to the change at hand. `scripts/test --hypothesis-profile=fuzz` draws new ones.
-# A machine that is busy is no fault of the test.
-settings.register_profile("turtlewire", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+# The same examples in each run: what fails is due to the change at hand. `scripts/test
+# --hypothesis-profile=fuzz` draws new ones. A machine that is busy is no fault of the test.
+settings.register_profile(
+    "turtlewire", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.register_profile("fuzz", settings.get_profile("turtlewire"), derandomize=False)
 settings.load_profile("turtlewire")
 
@@ -110,7 +116,9 @@ class Program:
             return [match for _, line in list(self.lines) if (match := re.search(pattern, line))]
 
         with self._more:
-            assert self._more.wait_for(lambda: len(found()) >= count or not self._reader.is_alive(), timeout), self.text
+            assert self._more.wait_for(
+                lambda: len(found()) >= count or not self._reader.is_alive(), timeout
+            ), self.text
         assert len(found()) >= count, self.text
         return found()[:count]
 
@@ -185,7 +193,11 @@ class Outcome:
     @property
     def messages(self):
         """What `LogInfo` logged, in order."""
-        return [match[1] for line in self.lines if (match := re.fullmatch(r"\[INFO\] \[launch\.user\]: (.*)", line))]
+        return [
+            match[1]
+            for line in self.lines
+            if (match := re.fullmatch(r"\[INFO\] \[launch\.user\]: (.*)", line))
+        ]
 
     @property
     def error(self):
@@ -209,7 +221,9 @@ def launch(capsys, monkeypatch, tmp_path):
         service = LaunchService(**{"noninteractive": True, **options})
         service.include_launch_description(LaunchDescription(entities))
         status = service.run()
-        return Outcome(status, capsys.readouterr().out, service.context, logging.launch_config.log_dir)
+        return Outcome(
+            status, capsys.readouterr().out, service.context, logging.launch_config.log_dir
+        )
 
     yield start
     logging.reset()
@@ -224,6 +238,13 @@ def ros2_launch(run, tmp_path):
 
     def start(content, *arguments, name="test.launch.py", **options):
         (tmp_path / name).write_text(content)
-        return run(Path(sys.executable).parent / "ros2", "launch", f"./{name}", *arguments, cwd=tmp_path, **options)
+        return run(
+            Path(sys.executable).parent / "ros2",
+            "launch",
+            f"./{name}",
+            *arguments,
+            cwd=tmp_path,
+            **options,
+        )
 
     return start

@@ -36,10 +36,17 @@ def check_lookup() -> None:
 def check_commands(bin_dir: Path) -> None:
     """`ros2` finds its packages, and the tutorial's launch file starts, follows a Ctrl-C and leaves cleanly."""
     ros2 = str(bin_dir / "ros2")
-    executables = subprocess.run([ros2, "pkg", "executables", "learning_tf2_py"], check=True, capture_output=True, text=True).stdout
+    executables = subprocess.run(
+        [ros2, "pkg", "executables", "learning_tf2_py"], check=True, capture_output=True, text=True
+    ).stdout
     assert "learning_tf2_py turtle_tf2_listener" in executables, executables
 
-    env = dict(os.environ, ROS_DOMAIN_ID=str(1 + os.getpid() % 101), TURTLEWIRE_BROWSER="0", PYTHONUNBUFFERED="1")
+    env = dict(
+        os.environ,
+        ROS_DOMAIN_ID=str(1 + os.getpid() % 101),
+        TURTLEWIRE_BROWSER="0",
+        PYTHONUNBUFFERED="1",
+    )
     launch = subprocess.Popen(
         [ros2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"],
         env=env,

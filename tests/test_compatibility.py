@@ -1,6 +1,7 @@
 """`docs/compatibility.md` is true: each of its entries has a test, which the table below names.
 
-An entry is known by its first cell, what ROS 2 does. Whoever adds one adds its test here; whoever changes a test's name sees it here.
+An entry is known by its first cell, what ROS 2 does. Whoever adds one adds its test here; whoever
+changes a test's name sees it here.
 """
 
 from __future__ import annotations
@@ -251,7 +252,11 @@ def entries():
     """The first cells of the page's tables; a line of dashes follows each head."""
     lines = PAGE.read_text(encoding="utf-8").splitlines()
     heads = {index - 1 for index, line in enumerate(lines) if line.startswith("|---")}
-    cells = [line.strip("|").split(" | ")[0].strip() for index, line in enumerate(lines) if line.startswith("| ") and index not in heads]
+    cells = [
+        line.strip("|").split(" | ")[0].strip()
+        for index, line in enumerate(lines)
+        if line.startswith("| ") and index not in heads
+    ]
     assert len(cells) == len(set(cells))
     return cells
 
@@ -282,7 +287,9 @@ def test_every_entry_has_its_tests():
     assert gone == [], "these are not on the page any more: change or delete them in TESTED above"
 
 
-@pytest.mark.parametrize(("file", "name"), sorted({pair for pairs in table().values() for pair in pairs}))
+@pytest.mark.parametrize(
+    ("file", "name"), sorted({pair for pairs in table().values() for pair in pairs})
+)
 def test_the_tests_are_there(file, name):
     assert name in functions_of(file)
 
@@ -296,7 +303,9 @@ def test_there_is_no_module_for_a_single_message():
 
 
 def run(*command):
-    return subprocess.run([sys.executable, *command], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(
+        [sys.executable, *command], capture_output=True, text=True, timeout=60, check=False
+    )
 
 
 def test_an_unknown_keyword_is_an_error_without_assertions_too():
@@ -322,7 +331,17 @@ def test_only_python_packages_are_created(capsys, tmp_path):
     from ros2cli.main import main
 
     with pytest.raises(SystemExit) as end:
-        main(["pkg", "create", "p", "--build-type", "ament_cmake", "--destination-directory", str(tmp_path)])
+        main(
+            [
+                "pkg",
+                "create",
+                "p",
+                "--build-type",
+                "ament_cmake",
+                "--destination-directory",
+                str(tmp_path),
+            ]
+        )
     assert end.value.code == 2
     assert "'ament_cmake'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

@@ -33,13 +33,24 @@ def lookups(figures):
     buffer = tf2_py.BufferCore(rospy.Duration(10))
     for sample in chain():
         buffer.set_transform(stamped(*sample), "default_authority")
-    names = {"lookup": buffer.lookup_transform_core, "can": buffer.can_transform_core, "error": Exception}
-    names.update(latest=rospy.Time(0), recent=at(RECENT), old=at(OLD), stamps=[at(stamp) for stamp in random_stamps(1000)])
+    names = {
+        "lookup": buffer.lookup_transform_core,
+        "can": buffer.can_transform_core,
+        "error": Exception,
+    }
+    names.update(
+        latest=rospy.Time(0),
+        recent=at(RECENT),
+        old=at(OLD),
+        stamps=[at(stamp) for stamp in random_stamps(1000)],
+    )
     figures["lookup latest"] = per_call('lookup("map", "camera", latest)', names)
     figures["lookup interpolated"] = per_call('lookup("map", "camera", recent)', names)
     figures["lookup 9 s back"] = per_call('lookup("map", "camera", old)', names)
     figures["can_transform"] = per_call('can("map", "camera", recent)', names)
-    figures["failing lookup"] = per_call('try:\n    lookup("map", "nobody", latest)\nexcept error:\n    pass', names)
+    figures["failing lookup"] = per_call(
+        'try:\n    lookup("map", "nobody", latest)\nexcept error:\n    pass', names
+    )
     many = per_call('for t in stamps: lookup("map", "camera", t)', names)
     figures["lookup, random stamps"] = [value / 1000 for value in many]
 
@@ -51,7 +62,11 @@ def serialized(i, links):
 
 
 def ingest(figures):
-    for case, links, cache in (("1 a message", 1, 10), ("hot", LINKS_IN_MESSAGE, 0.1), ("cold", LINKS_IN_MESSAGE, 10)):
+    for case, links, cache in (
+        ("1 a message", 1, 10),
+        ("hot", LINKS_IN_MESSAGE, 0.1),
+        ("cold", LINKS_IN_MESSAGE, 10),
+    ):
         buffer = tf2_py.BufferCore(rospy.Duration.from_sec(cache))
         warm = 10_500 if cache == 10 else 1000
         for i in range(warm):

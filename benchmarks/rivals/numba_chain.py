@@ -23,7 +23,10 @@ def interpolate(stamps, samples, time, out):
     angle = math.acos(min(abs(cosine), 1.0))
     wa, wb = 1.0 - u, u
     if math.sin(angle) > 1e-9:
-        wa, wb = math.sin((1.0 - u) * angle) / math.sin(angle), math.sin(u * angle) / math.sin(angle)
+        wa, wb = (
+            math.sin((1.0 - u) * angle) / math.sin(angle),
+            math.sin(u * angle) / math.sin(angle),
+        )
     if cosine < 0:
         wb = -wb
     for k in range(3):
@@ -69,7 +72,9 @@ def main():
     lookup(STAMPS, LINKS, names["stamps"], names["out"])  # compiles it
     figures = {}
     for case, which in (("batch random", "stamps"), ("batch sorted", "sorted_stamps")):
-        figures[case] = [value / 1e5 for value in per_call(f"lookup(STAMPS, LINKS, {which}, out)", names)]
+        figures[case] = [
+            value / 1e5 for value in per_call(f"lookup(STAMPS, LINKS, {which}, out)", names)
+        ]
     report(figures)
 
 

@@ -15,7 +15,9 @@ def filled():
     times = np.arange(SAMPLES, dtype=float) * STEP
     for link in range(3):
         poses = np.array([pose(link, i) for i in range(SAMPLES)])[:, [0, 1, 2, 6, 3, 4, 5]]
-        manager.add_transform(FRAMES[link + 1], FRAMES[link], NumpyTimeseriesTransform(times, poses))
+        manager.add_transform(
+            FRAMES[link + 1], FRAMES[link], NumpyTimeseriesTransform(times, poses)
+        )
     return manager
 
 
@@ -25,7 +27,9 @@ def main():
     names["sorted_stamps"] = np.sort(names["stamps"])
     figures = {"lookup interpolated": per_call('lookup("camera", "map", recent)', names)}
     for case, which in (("batch random", "stamps"), ("batch sorted", "sorted_stamps")):
-        figures[case] = [value / 1e5 for value in per_call(f'lookup("camera", "map", {which})', names)]
+        figures[case] = [
+            value / 1e5 for value in per_call(f'lookup("camera", "map", {which})', names)
+        ]
     report(figures)
 
 

@@ -23,7 +23,13 @@ def filled():
 
 def lookups(figures):
     buffer = filled()
-    names = {"lookup": buffer.lookup_transform, "can": buffer.can_transform, "recent": RECENT, "old": OLD, "error": Exception}
+    names = {
+        "lookup": buffer.lookup_transform,
+        "can": buffer.can_transform,
+        "recent": RECENT,
+        "old": OLD,
+        "error": Exception,
+    }
     figures["lookup latest"] = per_call('lookup("map", "camera", 0)', names)
     figures["lookup interpolated"] = per_call('lookup("map", "camera", recent)', names)
     figures["lookup 9 s back"] = per_call('lookup("map", "camera", old)', names)
@@ -37,19 +43,31 @@ def batches(figures):
 
     buffer = filled()
     stamps = np.array(random_stamps(100_000), dtype=np.int64)
-    names = {"batch": buffer.lookup_batch, "stamps": stamps, "sorted_stamps": np.sort(stamps), "out": np.empty((100_000, 7))}
+    names = {
+        "batch": buffer.lookup_batch,
+        "stamps": stamps,
+        "sorted_stamps": np.sort(stamps),
+        "out": np.empty((100_000, 7)),
+    }
     for case, which in (("batch random", "stamps"), ("batch sorted", "sorted_stamps")):
-        figures[case] = [value / 1e5 for value in per_call(f'batch("map", "camera", {which}, out=out)', names)]
+        figures[case] = [
+            value / 1e5 for value in per_call(f'batch("map", "camera", {which}, out=out)', names)
+        ]
     points = np.random.default_rng(1).normal(size=(100_000, 3)).astype(np.float32)
     names.update(move=buffer.transform_points, points=points, moved=np.empty_like(points))
-    figures["points"] = [value / 1e5 for value in per_call('move("map", "camera", points, sorted_stamps, out=moved)', names)]
+    figures["points"] = [
+        value / 1e5
+        for value in per_call('move("map", "camera", points, sorted_stamps, out=moved)', names)
+    ]
 
 
 def memory(figures):
     from turtlewire.tf.inspection import links
 
     full = links(filled())
-    figures["memory"] = [sum(link.memory_bytes for link in full) / sum(link.samples for link in full)] * 2
+    figures["memory"] = [
+        sum(link.memory_bytes for link in full) / sum(link.samples for link in full)
+    ] * 2
 
 
 def messages(figures):
@@ -59,7 +77,11 @@ def messages(figures):
     buffer = Buffer()
     for parent, child, stamp, p in chain():
         buffer.engine.set_transform(parent, child, stamp, p[:3], p[3:])
-    names = {"lookup": buffer.lookup_transform, "latest": Time(), "recent": Time(nanoseconds=RECENT)}
+    names = {
+        "lookup": buffer.lookup_transform,
+        "latest": Time(),
+        "recent": Time(nanoseconds=RECENT),
+    }
     figures["message latest"] = per_call('lookup("map", "camera", latest)', names)
     figures["message interpolated"] = per_call('lookup("map", "camera", recent)', names)
 
@@ -79,7 +101,11 @@ def serialized(i, links):
 
 def ingest(figures):
     """Each message is made just before it is taken, as one that has just come from the wire."""
-    for case, links, cache in (("1 a message", 1, 10**10), ("hot", LINKS_IN_MESSAGE, 10**8), ("cold", LINKS_IN_MESSAGE, 10**10)):
+    for case, links, cache in (
+        ("1 a message", 1, 10**10),
+        ("hot", LINKS_IN_MESSAGE, 10**8),
+        ("cold", LINKS_IN_MESSAGE, 10**10),
+    ):
         buffer = turtlewire.Buffer(cache)
         warm = 10_500 if cache == 10**10 else 1000
         for i in range(warm):

@@ -22,7 +22,9 @@ class Follower(Node):
     def on_timer(self) -> None:
         """Steer, once both turtles are known."""
         try:
-            target = self.buffer.lookup_transform("turtle2", "turtle1", Time()).transform.translation
+            target = self.buffer.lookup_transform(
+                "turtle2", "turtle1", Time()
+            ).transform.translation
         except TransformException:
             return
         command = Twist()

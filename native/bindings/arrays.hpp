@@ -18,7 +18,8 @@ namespace nb = nanobind;
 
 using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-// int64 stamps from an array or sequence of integers; floats are refused, as they cannot hold a present stamp.
+// int64 stamps from an array or sequence of integers; floats are refused, as they cannot hold a
+// present stamp.
 Stamps stamps_of(nb::handle object);
 
 // A new array that owns its memory.
@@ -36,10 +37,13 @@ nb::ndarray<nb::numpy, T> new_array(std::initializer_list<std::size_t> shape) {
 template <typename Array>
 void check_shape(const Array& array, std::initializer_list<std::size_t> shape, const char* name) {
   std::string wanted, given;
-  for (const std::size_t extent : shape) wanted += (wanted.empty() ? "" : ", ") + std::to_string(extent);
-  for (std::size_t i = 0; i < array.ndim(); ++i) given += (given.empty() ? "" : ", ") + std::to_string(array.shape(i));
+  for (const std::size_t extent : shape)
+    wanted += (wanted.empty() ? "" : ", ") + std::to_string(extent);
+  for (std::size_t i = 0; i < array.ndim(); ++i)
+    given += (given.empty() ? "" : ", ") + std::to_string(array.shape(i));
   if (wanted == given) return;
-  throw nb::value_error((std::string(name) + " must have the shape (" + wanted + "), not (" + given + ")").c_str());
+  throw nb::value_error(
+      (std::string(name) + " must have the shape (" + wanted + "), not (" + given + ")").c_str());
 }
 
 }  // namespace turtlewire::python

@@ -33,7 +33,8 @@ nb::object output(nb::object out, std::initializer_list<std::size_t> shape, doub
     return nb::cast(array);
   }
   Output array;
-  if (!nb::try_cast(out, array, false)) throw nb::type_error("out must be a writable, C-contiguous float64 array");
+  if (!nb::try_cast(out, array, false))
+    throw nb::type_error("out must be a writable, C-contiguous float64 array");
   check_shape(array, shape, "out");
   begin = array.data();
   return out;
@@ -67,8 +68,8 @@ void check_signals() {
 }
 
 // Raises what a single lookup at the first stamp without an answer raises.
-[[noreturn]] void raise_first(BufferObject& self, std::string_view target, std::string_view source, Stamp t,
-                              Status status) {
+[[noreturn]] void raise_first(BufferObject& self, std::string_view target, std::string_view source,
+                              Stamp t, Status status) {
   Found found;
   Failure failure;
   if (self.shared.lookup(Request{target, source, t}, found, failure) == Status::ok) {
@@ -110,9 +111,11 @@ void write_matrices(const Lanes& lanes, std::size_t n, double* out) {
   }
 }
 
-// Runs over all stamps in blocks without the GIL; the index of the first stamp without an answer if that ends it.
+// Runs over all stamps in blocks without the GIL; the index of the first stamp without an answer if
+// that ends it.
 template <typename Each>
-std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps, StatusOutput& status, Each each) {
+std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps,
+                                      StatusOutput& status, Each each) {
   const nb::gil_scoped_release unlocked;
   Lanes poses;
   const std::size_t size = stamps.shape(0);
@@ -121,7 +124,8 @@ std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps,
     Status* statuses = status.begin() + begin;
     lookup.block({stamps.data() + begin, n}, poses, statuses);
     if (!status.wanted()) {
-      const Status* fault = std::find_if(statuses, statuses + n, [](Status s) { return s != Status::ok; });
+      const Status* fault =
+          std::find_if(statuses, statuses + n, [](Status s) { return s != Status::ok; });
       if (fault != statuses + n) return begin + static_cast<std::size_t>(fault - statuses);
     }
     each(begin, n, poses);
@@ -129,8 +133,9 @@ std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps,
   return std::nullopt;
 }
 
-nb::object lookup_batch(BufferObject& self, std::string_view target, std::string_view source, nb::handle stamps_object,
-                        bool matrices, nb::object out, nb::object status_object) {
+nb::object lookup_batch(BufferObject& self, std::string_view target, std::string_view source,
+                        nb::handle stamps_object, bool matrices, nb::object out,
+                        nb::object status_object) {
   const Stamps stamps = stamps_of(stamps_object);
   const std::size_t n = stamps.shape(0);
   double* begin = nullptr;
@@ -213,7 +218,8 @@ void move_each(const Lanes& poses, const T* in, T* out, std::size_t n) {
   std::transform(points, points + 3 * n, out, [](double value) { return static_cast<T>(value); });
 }
 
-// Numbers to read where others may be written: the same ones, or a copy if an input would be lost before it is read.
+// Numbers to read where others may be written: the same ones, or a copy if an input would be lost
+// before it is read.
 template <typename T>
 class Input {
  public:
@@ -231,7 +237,8 @@ class Input {
 };
 
 // What the points go through after their own lookup: into the target at its own time.
-Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_view fixed, Stamp t) {
+Pose target_from_fixed(BufferObject& self, std::string_view target, std::string_view fixed,
+                       Stamp t) {
   Found found;
   Failure failure;
   if (self.shared.lookup(Request{target, fixed, t}, found, failure) != Status::ok) {
@@ -248,8 +255,8 @@ struct Deskew {
 };
 
 template <typename T>
-nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& points, nb::handle when, nb::object out,
-                       nb::object status_object) {
+nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& points,
+                       nb::handle when, nb::object out, nb::object status_object) {
   const std::size_t n = points.shape(0);
   T* begin = nullptr;
   nb::object result = out;
@@ -260,14 +267,16 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
   } else {
     PointsOut<T> array;
     if (!nb::try_cast(out, array, false)) {
-      throw nb::type_error("out must be a writable, C-contiguous (N, 3) array of the same type as points");
+      throw nb::type_error(
+          "out must be a writable, C-contiguous (N, 3) array of the same type as points");
     }
     check_shape(array, {n, 3}, "out");
     begin = array.data();
   }
   const Input<T> input(points.data(), begin, 3 * n);
   const std::string_view own_target = way.fixed.value_or(way.target);
-  const Pose last = way.fixed ? target_from_fixed(self, way.target, *way.fixed, way.target_stamp) : Pose{};
+  const Pose last =
+      way.fixed ? target_from_fixed(self, way.target, *way.fixed, way.target_stamp) : Pose{};
   if (const auto one = single_stamp(when)) {
     if (!status_object.is_none()) throw nb::value_error("status is for a stamp for each point");
     const Pose own = target_from_fixed(self, own_target, way.source, *one);
@@ -281,43 +290,53 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
   BatchLookup lookup(self.shared, own_target, way.source);
   Lanes outer;
   outer.fill(last);
-  const auto fault = for_blocks(lookup, stamps, status, [&](std::size_t first, std::size_t count, Lanes& poses) {
-    if (way.fixed) kernels().compose(outer, poses);
-    move_each(poses, input.begin() + 3 * first, begin + 3 * first, count);
-  });
-  if (fault) raise_first(self, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
+  const auto fault =
+      for_blocks(lookup, stamps, status, [&](std::size_t first, std::size_t count, Lanes& poses) {
+        if (way.fixed) kernels().compose(outer, poses);
+        move_each(poses, input.begin() + 3 * first, begin + 3 * first, count);
+      });
+  if (fault)
+    raise_first(self, own_target, way.source, stamps.data()[*fault], status.begin()[*fault]);
   check_signals();
   return result;
 }
 
-nb::object transform_points(BufferObject& self, std::string_view target, std::string_view source, nb::handle points,
-                            nb::handle stamps, std::optional<std::string_view> fixed_frame, Stamp target_stamp,
+nb::object transform_points(BufferObject& self, std::string_view target, std::string_view source,
+                            nb::handle points, nb::handle stamps,
+                            std::optional<std::string_view> fixed_frame, Stamp target_stamp,
                             nb::object out, nb::object status) {
   if (!fixed_frame && target_stamp != 0) {
-    throw nb::value_error("target_stamp_ns needs fixed_frame, the frame by way of which points get to another time");
+    throw nb::value_error(
+        "target_stamp_ns needs fixed_frame, the frame by way of which points get to another time");
   }
   const Deskew way{target, source, fixed_frame, target_stamp};
   Points<float> single;
-  if (nb::try_cast(points, single, false)) return move_points<float>(self, way, single, stamps, out, status);
+  if (nb::try_cast(points, single, false))
+    return move_points<float>(self, way, single, stamps, out, status);
   Points<double> doubles;
-  const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(points, "dtype"_a = "float64");
-  if (!nb::try_cast(array, doubles, false)) throw nb::value_error("points must have the shape (N, 3)");
+  const nb::object array =
+      nb::module_::import_("numpy").attr("ascontiguousarray")(points, "dtype"_a = "float64");
+  if (!nb::try_cast(array, doubles, false))
+    throw nb::value_error("points must have the shape (N, 3)");
   return move_points<double>(self, way, doubles, stamps, out, status);
 }
 
 // ---------------------------------------------------------------- velocities
 
-nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::string_view observer, nb::handle when,
-                           Stamp interval, std::optional<std::string_view> axes,
-                           std::tuple<double, double, double> point, std::optional<std::string_view> point_frame,
-                           nb::object out, nb::object status_object) {
+nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::string_view observer,
+                           nb::handle when, Stamp interval, std::optional<std::string_view> axes,
+                           std::tuple<double, double, double> point,
+                           std::optional<std::string_view> point_frame, nb::object out,
+                           nb::object status_object) {
   if (interval <= 0) throw nb::value_error("interval_ns must be positive");
   const auto [x, y, z] = point;
-  const VelocityRequest request{tracking,  observer, axes.value_or(observer), point_frame.value_or(tracking),
-                                {x, y, z}, interval};
+  const VelocityRequest request{
+      tracking,  observer, axes.value_or(observer), point_frame.value_or(tracking),
+      {x, y, z}, interval};
   const std::optional<Stamp> single = single_stamp(when);
   const Stamps many = single ? Stamps() : stamps_of(when);
-  const std::span<const Stamp> stamps = single ? std::span(&*single, 1) : std::span(many.data(), many.shape(0));
+  const std::span<const Stamp> stamps =
+      single ? std::span(&*single, 1) : std::span(many.data(), many.shape(0));
   double* begin = nullptr;
   nb::object result = single ? output(out, {6}, begin) : output(out, {stamps.size(), 6}, begin);
   StatusOutput status(status_object, stamps.size());
@@ -325,9 +344,11 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
   {
     const nb::gil_scoped_release unlocked;
     static_assert(sizeof(Velocity) == 6 * sizeof(double));
-    fault = lookup_velocities(self.shared, request, stamps, reinterpret_cast<Velocity*>(begin), status.begin());
+    fault = lookup_velocities(self.shared, request, stamps, reinterpret_cast<Velocity*>(begin),
+                              status.begin());
   }
-  if (fault && !status.wanted()) raise_first(self, fault->target, fault->source, fault->t, Status::no_data);
+  if (fault && !status.wanted())
+    raise_first(self, fault->target, fault->source, fault->t, Status::no_data);
   return result;
 }
 
@@ -335,8 +356,8 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
 
 void add_batch_methods(nb::class_<BufferObject>& cls) {
   cls.def(
-         "lookup_batch", &lookup_batch, "target_frame"_a, "source_frame"_a, "stamps"_a, nb::kw_only(),
-         "matrices"_a = false, "out"_a = nb::none(), "status"_a = nb::none(),
+         "lookup_batch", &lookup_batch, "target_frame"_a, "source_frame"_a, "stamps"_a,
+         nb::kw_only(), "matrices"_a = false, "out"_a = nb::none(), "status"_a = nb::none(),
          "lookup_transform at many times.\n\n"
          "Args:\n"
          "    target_frame: The frame in which the answers are expressed.\n"
@@ -344,61 +365,73 @@ void add_batch_methods(nb::class_<BufferObject>& cls) {
          "    stamps: Times in nanoseconds, int64, shape (N,); 0 asks for the latest common time.\n"
          "    matrices: Answer with homogeneous matrices instead of poses.\n"
          "    out: A float64 array to write to, of the shape of the result.\n"
-         "    status: A uint8 array of shape (N,): it receives a `LookupStatus` for each stamp (0 is success), rows\n"
+         "    status: A uint8 array of shape (N,): it receives a `LookupStatus` for each stamp (0 "
+         "is success), rows\n"
          "        without an answer become NaN, and nothing is raised for them.\n\n"
          "Returns:\n"
          "    (N, 7): x, y, z, qx, qy, qz, qw in metres and unit quaternions; or (N, 4, 4).\n\n"
          "Raises:\n"
-         "    TransformException: Without `status`, what lookup_transform raises at the first stamp without an answer.")
-      .def(
-          "lookup_all", &lookup_all, "target_frame"_a, "stamp_ns"_a = 0,
-          "The poses of all frames in one frame at one time.\n\n"
-          "Args:\n"
-          "    target_frame: The frame in which the answers are expressed.\n"
-          "    stamp_ns: The time; 0 asks for the latest time common to the target and each frame.\n\n"
-          "Returns:\n"
-          "    The names of the M frames that have a pose then, their poses (M, 7), and the times (M,) in nanoseconds.")
-      .def("transform_points", &transform_points, "target_frame"_a, "source_frame"_a, "points"_a, "stamps"_a = 0,
-           nb::kw_only(), "fixed_frame"_a = nb::none(), "target_stamp_ns"_a = 0, "out"_a = nb::none(),
-           "status"_a = nb::none(),
+         "    TransformException: Without `status`, what lookup_transform raises at the first "
+         "stamp without an answer.")
+      .def("lookup_all", &lookup_all, "target_frame"_a, "stamp_ns"_a = 0,
+           "The poses of all frames in one frame at one time.\n\n"
+           "Args:\n"
+           "    target_frame: The frame in which the answers are expressed.\n"
+           "    stamp_ns: The time; 0 asks for the latest time common to the target and each "
+           "frame.\n\n"
+           "Returns:\n"
+           "    The names of the M frames that have a pose then, their poses (M, 7), and the times "
+           "(M,) in nanoseconds.")
+      .def("transform_points", &transform_points, "target_frame"_a, "source_frame"_a, "points"_a,
+           "stamps"_a = 0, nb::kw_only(), "fixed_frame"_a = nb::none(), "target_stamp_ns"_a = 0,
+           "out"_a = nb::none(), "status"_a = nb::none(),
            "Expresses points of the source frame in the target frame.\n\n"
            "Args:\n"
            "    target_frame: The frame to express them in.\n"
            "    source_frame: The frame that they are in.\n"
            "    points: Shape (N, 3), in metres; float32 stays float32, all else becomes float64.\n"
-           "    stamps: One time in nanoseconds for all, or int64 of shape (N,): each point's own time.\n"
-           "    fixed_frame: A frame that does not move, such as odom: points are taken from the source at their own "
+           "    stamps: One time in nanoseconds for all, or int64 of shape (N,): each point's own "
+           "time.\n"
+           "    fixed_frame: A frame that does not move, such as odom: points are taken from the "
+           "source at their own "
            "times\n"
-           "        into it, and from it into the target at `target_stamp_ns` (the deskewing of a lidar's sweep).\n"
+           "        into it, and from it into the target at `target_stamp_ns` (the deskewing of a "
+           "lidar's sweep).\n"
            "    target_stamp_ns: The time of the target with a fixed frame; 0 is the latest.\n"
            "    out: An array like `points` to write to; it may be `points` itself or overlap it.\n"
-           "    status: As in lookup_batch, with a stamp for each point; points without an answer become NaN.\n\n"
+           "    status: As in lookup_batch, with a stamp for each point; points without an answer "
+           "become NaN.\n\n"
            "Returns:\n"
            "    (N, 3) points in the target frame.\n\n"
            "Raises:\n"
            "    TransformException: A lookup has no answer.")
-      .def("lookup_velocity", &lookup_velocity, "tracking_frame"_a, "observation_frame"_a, "stamps"_a = 0,
-           nb::kw_only(), "interval_ns"_a = 100'000'000, "reference_frame"_a = nb::none(),
-           "point"_a = std::tuple(0.0, 0.0, 0.0), "point_frame"_a = nb::none(), "out"_a = nb::none(),
-           "status"_a = nb::none(),
-           "How a body moves: the velocity of a point that is fixed to it, and its angular velocity.\n\n"
-           "The mean over an interval around the time, or over the interval before the latest data where the middle "
-           "would\n"
-           "lie beyond it.\n\n"
-           "Args:\n"
-           "    tracking_frame: The body that moves.\n"
-           "    observation_frame: The observer, who is taken for at rest.\n"
-           "    stamps: A time in nanoseconds, 0 being the latest; or int64 of shape (N,).\n"
-           "    interval_ns: The length of the interval.\n"
-           "    reference_frame: The frame in whose axes the answer is given; the observation frame without it.\n"
-           "    point: The point (x, y, z) whose velocity is asked for, in metres.\n"
-           "    point_frame: The frame in which the point is given; the tracking frame without it.\n"
-           "    out: A float64 array to write to, of the shape of the result.\n"
-           "    status: As in lookup_batch.\n\n"
-           "Returns:\n"
-           "    vx, vy, vz in m/s and wx, wy, wz in rad/s: shape (6,), or (N, 6) for an array of stamps.\n\n"
-           "Raises:\n"
-           "    TransformException: A lookup has no answer.");
+      .def(
+          "lookup_velocity", &lookup_velocity, "tracking_frame"_a, "observation_frame"_a,
+          "stamps"_a = 0, nb::kw_only(), "interval_ns"_a = 100'000'000,
+          "reference_frame"_a = nb::none(), "point"_a = std::tuple(0.0, 0.0, 0.0),
+          "point_frame"_a = nb::none(), "out"_a = nb::none(), "status"_a = nb::none(),
+          "How a body moves: the velocity of a point that is fixed to it, and its angular "
+          "velocity.\n\n"
+          "The mean over an interval around the time, or over the interval before the latest data "
+          "where the middle "
+          "would\n"
+          "lie beyond it.\n\n"
+          "Args:\n"
+          "    tracking_frame: The body that moves.\n"
+          "    observation_frame: The observer, who is taken for at rest.\n"
+          "    stamps: A time in nanoseconds, 0 being the latest; or int64 of shape (N,).\n"
+          "    interval_ns: The length of the interval.\n"
+          "    reference_frame: The frame in whose axes the answer is given; the observation frame "
+          "without it.\n"
+          "    point: The point (x, y, z) whose velocity is asked for, in metres.\n"
+          "    point_frame: The frame in which the point is given; the tracking frame without it.\n"
+          "    out: A float64 array to write to, of the shape of the result.\n"
+          "    status: As in lookup_batch.\n\n"
+          "Returns:\n"
+          "    vx, vy, vz in m/s and wx, wy, wz in rad/s: shape (6,), or (N, 6) for an array of "
+          "stamps.\n\n"
+          "Raises:\n"
+          "    TransformException: A lookup has no answer.");
 }
 
 }  // namespace turtlewire::python

@@ -7,16 +7,19 @@ namespace turtlewire::python {
 namespace {
 
 Status ask(SharedBuffer& shared, const Request& request, Found* found, Failure& failure) {
-  return found != nullptr ? shared.lookup(request, *found, failure) : shared.can_transform(request, failure);
+  return found != nullptr ? shared.lookup(request, *found, failure)
+                          : shared.can_transform(request, failure);
 }
 
 Status ask(SharedBuffer& shared, const FullRequest& request, Found* found, Failure& failure) {
-  return found != nullptr ? shared.lookup(request, *found, failure) : shared.can_transform(request, failure);
+  return found != nullptr ? shared.lookup(request, *found, failure)
+                          : shared.can_transform(request, failure);
 }
 
 }  // namespace
 
-BufferObject::BufferObject(std::optional<Stamp> cache_time_ns) : shared(cache_time_ns.value_or(kForever)) {
+BufferObject::BufferObject(std::optional<Stamp> cache_time_ns)
+    : shared(cache_time_ns.value_or(kForever)) {
   if (shared.buffer.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
 }
 
@@ -28,14 +31,16 @@ BufferObject::~BufferObject() {
 }
 
 BufferObject::KnownPath& BufferObject::place_of(PyObject* target, PyObject* source) {
-  const auto a = reinterpret_cast<std::uintptr_t>(target) >> 4, b = reinterpret_cast<std::uintptr_t>(source) >> 4;
+  const auto a = reinterpret_cast<std::uintptr_t>(target) >> 4,
+             b = reinterpret_cast<std::uintptr_t>(source) >> 4;
   return known_paths_[(a * 3 ^ b ^ b >> 8) % known_paths_.size()];
 }
 
 // Call with the lock held.
 const Path* BufferObject::known_path(PyObject* target, PyObject* source) {
   KnownPath& known = place_of(target, source);
-  if (known.target != target || known.source != source || known.epoch != shared.buffer.path_epoch()) return nullptr;
+  if (known.target != target || known.source != source || known.epoch != shared.buffer.path_epoch())
+    return nullptr;
   if (!shared.buffer.is_current(*known.path)) [[unlikely]] {
     known.path = &shared.buffer.path(known.path->target, known.path->source);
     known.epoch = shared.buffer.path_epoch();
@@ -61,7 +66,8 @@ void BufferObject::remember_path(PyObject* target, PyObject* source, std::string
   Py_XDECREF(old.source);
 }
 
-// Asks; while the answer is no, waits for data as long as that can help. False if a Python error is set.
+// Asks; while the answer is no, waits for data as long as that can help. False if a Python error is
+// set.
 template <typename Request, typename Ask>
 bool BufferObject::answer(const Request& request, Stamp timeout, Failure& failure, Ask found) {
   if (ask(shared, request, found, failure) == Status::ok || timeout <= 0) return true;
@@ -72,22 +78,25 @@ bool BufferObject::answer(const Request& request, Stamp timeout, Failure& failur
   return wait_until(shared, interrupts, timeout, attempt) == Waited::done;
 }
 
-bool BufferObject::lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found) {
+bool BufferObject::lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
+                          Found& found) {
   {
     const std::scoped_lock lock(shared.mutex);
     const Path* path = known_path(target, source);
     found.stamp = t;
-    if (path != nullptr && shared.buffer.lookup(*path, found.stamp, found.target_from_source, nullptr) == Status::ok)
-        [[likely]] {
+    if (path != nullptr && shared.buffer.lookup(*path, found.stamp, found.target_from_source,
+                                                nullptr) == Status::ok) [[likely]] {
       return true;
     }
   }
   return lookup_by_name(target, source, t, timeout, found);
 }
 
-bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found) {
+bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
+                                  Found& found) {
   Request request{.t = t};
-  if (!text_of(target, request.target, "target_frame") || !text_of(source, request.source, "source_frame"))
+  if (!text_of(target, request.target, "target_frame") ||
+      !text_of(source, request.source, "source_frame"))
     return false;
   Failure failure;
   if (!answer(request, timeout, failure, &found)) return false;
@@ -99,10 +108,11 @@ bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, S
   return false;
 }
 
-bool BufferObject::lookup(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time, PyObject* fixed,
-                          Stamp timeout, Found& found) {
+bool BufferObject::lookup(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time,
+                          PyObject* fixed, Stamp timeout, Found& found) {
   FullRequest request{.target_time = target_time, .source_time = source_time};
-  if (!text_of(target, request.target, "target_frame") || !text_of(source, request.source, "source_frame") ||
+  if (!text_of(target, request.target, "target_frame") ||
+      !text_of(source, request.source, "source_frame") ||
       !text_of(fixed, request.fixed, "fixed_frame")) {
     return false;
   }
@@ -119,34 +129,41 @@ bool BufferObject::certainly_can_transform(PyObject* target, PyObject* source, S
   return path != nullptr && shared.buffer.can_transform(*path, t, nullptr) == Status::ok;
 }
 
-bool BufferObject::can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Failure& failure) {
+bool BufferObject::can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
+                                 Failure& failure) {
   Request request{.t = t};
-  if (!text_of(target, request.target, "target_frame") || !text_of(source, request.source, "source_frame"))
+  if (!text_of(target, request.target, "target_frame") ||
+      !text_of(source, request.source, "source_frame"))
     return false;
   if (!answer(request, timeout, failure, static_cast<Found*>(nullptr))) return false;
   if (failure.status == Status::ok) remember_path(target, source, request.target, request.source);
   return true;
 }
 
-bool BufferObject::can_transform(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time,
-                                 PyObject* fixed, Stamp timeout, Failure& failure) {
+bool BufferObject::can_transform(PyObject* target, Stamp target_time, PyObject* source,
+                                 Stamp source_time, PyObject* fixed, Stamp timeout,
+                                 Failure& failure) {
   FullRequest request{.target_time = target_time, .source_time = source_time};
-  if (!text_of(target, request.target, "target_frame") || !text_of(source, request.source, "source_frame") ||
+  if (!text_of(target, request.target, "target_frame") ||
+      !text_of(source, request.source, "source_frame") ||
       !text_of(fixed, request.fixed, "fixed_frame")) {
     return false;
   }
   return answer(request, timeout, failure, static_cast<Found*>(nullptr));
 }
 
-std::string BufferObject::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
-                              std::string_view authority, bool is_static) {
+std::string BufferObject::set(std::string_view parent, std::string_view child, Stamp stamp,
+                              const Pose& pose, std::string_view authority, bool is_static) {
   Verdict verdict;
   {
     const std::scoped_lock lock(shared.mutex);
-    verdict = shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(authority), is_static);
+    verdict =
+        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(authority), is_static);
     if (verdict == Verdict::accepted) shared.wake_waiters();
   }
-  return verdict == Verdict::accepted ? "" : explain(Refusal{verdict, parent, child, authority, stamp, pose});
+  return verdict == Verdict::accepted
+             ? ""
+             : explain(Refusal{verdict, parent, child, authority, stamp, pose});
 }
 
 void BufferObject::refuse_message(std::string_view fault, std::string_view authority) {

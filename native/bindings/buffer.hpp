@@ -28,17 +28,19 @@ class BufferObject {
 
   // Looks up; on failure sets the Python error and returns false.
   bool lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found);
-  bool lookup(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time, PyObject* fixed, Stamp timeout,
-              Found& found);
+  bool lookup(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time,
+              PyObject* fixed, Stamp timeout, Found& found);
 
-  // Whether a path exists; `failure` says why not. False with a Python error set if the arguments or a wait failed.
+  // Whether a path exists; `failure` says why not. False with a Python error set if the arguments
+  // or a wait failed.
   bool can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Failure& failure);
-  bool can_transform(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time, PyObject* fixed,
-                     Stamp timeout, Failure& failure);
+  bool can_transform(PyObject* target, Stamp target_time, PyObject* source, Stamp source_time,
+                     PyObject* fixed, Stamp timeout, Failure& failure);
   // The quick yes: without words.
   bool certainly_can_transform(PyObject* target, PyObject* source, Stamp t);
 
-  // Adds one transform; the reason if it is refused. Wakes who waits, but does not call the listeners.
+  // Adds one transform; the reason if it is refused. Wakes who waits, but does not call the
+  // listeners.
   std::string set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
                   std::string_view authority, bool is_static);
   void refuse_message(std::string_view fault, std::string_view authority);
@@ -47,7 +49,8 @@ class BufferObject {
   void wake();
 
  private:
-  // A pair of names seen before, known again by the identity of the two string objects, which it keeps alive.
+  // A pair of names seen before, known again by the identity of the two string objects, which it
+  // keeps alive.
   struct KnownPath {
     PyObject* target = nullptr;
     PyObject* source = nullptr;
@@ -57,7 +60,8 @@ class BufferObject {
 
   KnownPath& place_of(PyObject* target, PyObject* source);
   const Path* known_path(PyObject* target, PyObject* source);
-  void remember_path(PyObject* target, PyObject* source, std::string_view target_name, std::string_view source_name);
+  void remember_path(PyObject* target, PyObject* source, std::string_view target_name,
+                     std::string_view source_name);
   bool lookup_by_name(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found);
   template <typename Request, typename Ask>
   bool answer(const Request& request, Stamp timeout, Failure& failure, Ask ask);

@@ -20,40 +20,48 @@ using Values = std::array<PyObject*, N>;
 
 // ---------------------------------------------------------------- lookups
 
-PyObject* lookup_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* lookup_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                           PyObject* keywords) {
   static const Signature<4> signature("lookup_transform", 2,
                                       {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
   Values<4> v;
   Stamp t = 0, timeout = 0;
   BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
-      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
     return nullptr;
   }
   Found found;
-  return buffer->lookup(v[0], v[1], t, timeout, found) ? make_transform(v[0], v[1], found) : nullptr;
+  return buffer->lookup(v[0], v[1], t, timeout, found) ? make_transform(v[0], v[1], found)
+                                                       : nullptr;
 }
 
 struct FullArguments {
   Values<6> v;
   Stamp target_time = 0, source_time = 0, timeout = 0;
 
-  bool read(const Signature<6>& signature, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-    return signature.read(arguments, count, keywords, v) && nanoseconds_of(v[1], target_time, "target_stamp_ns") &&
-           nanoseconds_of(v[3], source_time, "source_stamp_ns") && nanoseconds_of(v[5], timeout, "timeout_ns");
+  bool read(const Signature<6>& signature, PyObject* const* arguments, Py_ssize_t count,
+            PyObject* keywords) {
+    return signature.read(arguments, count, keywords, v) &&
+           nanoseconds_of(v[1], target_time, "target_stamp_ns") &&
+           nanoseconds_of(v[3], source_time, "source_stamp_ns") &&
+           nanoseconds_of(v[5], timeout, "timeout_ns");
   }
 };
 
-constexpr std::array<const char*, 6> kFullNames{"target_frame",    "target_stamp_ns", "source_frame",
-                                                "source_stamp_ns", "fixed_frame",     "timeout_ns"};
+constexpr std::array<const char*, 6> kFullNames{"target_frame", "target_stamp_ns",
+                                                "source_frame", "source_stamp_ns",
+                                                "fixed_frame",  "timeout_ns"};
 
-PyObject* lookup_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* lookup_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                                PyObject* keywords) {
   static const Signature<6> signature("lookup_transform_full", 5, kFullNames);
   FullArguments a;
   BufferObject* buffer = buffer_of(self);
   if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
   Found found;
-  if (!buffer->lookup(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, found)) return nullptr;
+  if (!buffer->lookup(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, found))
+    return nullptr;
   return make_transform(a.v[0], a.v[2], found);
 }
 
@@ -70,13 +78,15 @@ PyObject* yes_or_no(bool answered, const Failure& failure) {
   return answered ? PyBool_FromLong(failure.status == Status::ok) : nullptr;
 }
 
-PyObject* can_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<4> signature("can_transform", 2, {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
+PyObject* can_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                        PyObject* keywords) {
+  static const Signature<4> signature("can_transform", 2,
+                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
   Values<4> v;
   Stamp t = 0, timeout = 0;
   BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
-      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
     return nullptr;
   }
   if (buffer->certainly_can_transform(v[0], v[1], t)) Py_RETURN_TRUE;
@@ -84,45 +94,51 @@ PyObject* can_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t c
   return yes_or_no(buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
 }
 
-PyObject* can_transform_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* can_transform_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                               PyObject* keywords) {
   static const Signature<4> signature("can_transform_reason", 2,
                                       {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
   Values<4> v;
   Stamp t = 0, timeout = 0;
   BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !nanoseconds_of(v[2], t, "stamp_ns") ||
-      !nanoseconds_of(v[3], timeout, "timeout_ns")) {
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
     return nullptr;
   }
   Failure failure;
   return reason(*buffer, buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
 }
 
-PyObject* can_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* can_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                             PyObject* keywords) {
   static const Signature<6> signature("can_transform_full", 5, kFullNames);
   FullArguments a;
   BufferObject* buffer = buffer_of(self);
   if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
   Failure failure;
-  return yes_or_no(buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, failure),
+  return yes_or_no(buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4],
+                                         a.timeout, failure),
                    failure);
 }
 
-PyObject* can_transform_full_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* can_transform_full_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                                    PyObject* keywords) {
   static const Signature<6> signature("can_transform_full_reason", 5, kFullNames);
   FullArguments a;
   BufferObject* buffer = buffer_of(self);
   if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
   Failure failure;
   return reason(*buffer,
-                buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, failure),
+                buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4],
+                                      a.timeout, failure),
                 failure);
 }
 
 // ---------------------------------------------------------------- data in
 
 bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what) {
-  PyObject* items = PySequence_Fast(sequence, "translation and rotation must be sequences of numbers");
+  PyObject* items =
+      PySequence_Fast(sequence, "translation and rotation must be sequences of numbers");
   if (items == nullptr) return false;
   bool fits = PySequence_Fast_GET_SIZE(items) == count;
   if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
@@ -140,19 +156,21 @@ bool flag_of(PyObject* object, bool& flag) {
   return truth >= 0;
 }
 
-PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<7> signature(
-      "set_transform", 5,
-      {"parent_frame", "child_frame", "stamp_ns", "translation", "rotation", "static", "authority"});
+PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                        PyObject* keywords) {
+  static const Signature<7> signature("set_transform", 5,
+                                      {"parent_frame", "child_frame", "stamp_ns", "translation",
+                                       "rotation", "static", "authority"});
   Values<7> v;
   Stamp stamp = 0;
   bool is_static = false;
   double t[3], q[4];
   std::string_view parent, child, authority = "default_authority";
   BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !text_of(v[0], parent, "parent_frame") ||
-      !text_of(v[1], child, "child_frame") || !nanoseconds_of(v[2], stamp, "stamp_ns") ||
-      !numbers_of(v[3], t, 3, "translation") || !numbers_of(v[4], q, 4, "rotation") || !flag_of(v[5], is_static) ||
+  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !text_of(v[0], parent, "parent_frame") || !text_of(v[1], child, "child_frame") ||
+      !nanoseconds_of(v[2], stamp, "stamp_ns") || !numbers_of(v[3], t, 3, "translation") ||
+      !numbers_of(v[4], q, 4, "rotation") || !flag_of(v[5], is_static) ||
       (v[6] != nullptr && !text_of(v[6], authority, "authority"))) {
     return nullptr;
   }
@@ -240,7 +258,8 @@ nb::object add_change_listener(nb::handle self, nb::callable listener) {
     buffer->listeners.append(listener);
     buffer->listeners_changed();
   }
-  return nb::module_::import_("functools").attr("partial")(self.attr("_remove_change_listener"), listener);
+  return nb::module_::import_("functools")
+      .attr("partial")(self.attr("_remove_change_listener"), listener);
 }
 
 void remove_change_listener(BufferObject& self, nb::handle listener) {
@@ -285,29 +304,35 @@ PyMethodDef hot_methods[] = {
         "    ExtrapolationException: The data does not reach the time."),
     fast_method<lookup_transform_full>(
         "lookup_transform_full",
-        "lookup_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
+        "lookup_transform_full($self, target_frame, target_stamp_ns, source_frame, "
+        "source_stamp_ns, fixed_frame, "
         "timeout_ns=0)\n--\n\n"
-        "The pose of source_frame at one time in target_frame at another, by way of a frame that did not move.\n\n"
+        "The pose of source_frame at one time in target_frame at another, by way of a frame that "
+        "did not move.\n\n"
         "Returns and raises as lookup_transform; the stamp is that of the target."),
-    fast_method<can_transform>("can_transform",
-                               "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
-                               "Whether lookup_transform with the same arguments gives an answer."),
-    fast_method<can_transform_full>(
-        "can_transform_full",
-        "can_transform_full($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, "
-        "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the same arguments gives an answer."),
+    fast_method<can_transform>(
+        "can_transform",
+        "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
+        "Whether lookup_transform with the same arguments gives an answer."),
+    fast_method<can_transform_full>("can_transform_full",
+                                    "can_transform_full($self, target_frame, target_stamp_ns, "
+                                    "source_frame, source_stamp_ns, fixed_frame, "
+                                    "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the "
+                                    "same arguments gives an answer."),
     fast_method<can_transform_reason>(
         "can_transform_reason",
         "can_transform_reason($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
         "An empty string if can_transform is true, else tf2's text of why it is not."),
     fast_method<can_transform_full_reason>(
         "can_transform_full_reason",
-        "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, source_stamp_ns, "
+        "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, "
+        "source_stamp_ns, "
         "fixed_frame, timeout_ns=0)\n--\n\n"
         "An empty string if can_transform_full is true, else tf2's text of why it is not."),
     fast_method<set_transform>(
         "set_transform",
-        "set_transform($self, parent_frame, child_frame, stamp_ns, translation, rotation, static=False, "
+        "set_transform($self, parent_frame, child_frame, stamp_ns, translation, rotation, "
+        "static=False, "
         "authority='default_authority')\n--\n\n"
         "Adds one sample: the pose of child_frame in parent_frame at a time.\n\n"
         "Args:\n"
@@ -320,14 +345,14 @@ PyMethodDef hot_methods[] = {
         "    authority: Who says so.\n\n"
         "Returns:\n"
         "    An empty string if the sample was accepted, else tf2's reason for refusing it."),
-    fast_method<ingest>(
-        "ingest",
-        "ingest($self, cdr, static=False, authority='default_authority')\n--\n\n"
-        "Adds the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.\n\n"
-        "Returns:\n"
-        "    How many were accepted.\n\n"
-        "Raises:\n"
-        "    CdrError: The bytes are malformed; nothing of them was added."),
+    fast_method<ingest>("ingest",
+                        "ingest($self, cdr, static=False, authority='default_authority')\n--\n\n"
+                        "Adds the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes "
+                        "with their 4-byte header.\n\n"
+                        "Returns:\n"
+                        "    How many were accepted.\n\n"
+                        "Raises:\n"
+                        "    CdrError: The bytes are malformed; nothing of them was added."),
     {nullptr, nullptr, 0, nullptr},
 };
 
@@ -353,7 +378,8 @@ void add_buffer_type(nb::module_& module) {
       module, "Buffer", nb::type_slots(buffer_slots), nb::is_weak_referenceable(),
       "The transforms of a tree of frames over time. Safe for use from many threads.\n\n"
       "Args:\n"
-      "    cache_time_ns: How long samples are kept, counted back from the newest of their link; None: forever.");
+      "    cache_time_ns: How long samples are kept, counted back from the newest of their link; "
+      "None: forever.");
   cls.def(nb::init<std::optional<Stamp>>(), "cache_time_ns"_a.none() = 10'000'000'000)
       .def_prop_ro(
           "cache_time_ns",
@@ -362,9 +388,9 @@ void add_buffer_type(nb::module_& module) {
             return self.shared.buffer.keep();
           },
           "How long samples are kept; None: forever.")
-      .def(
-          "latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
-          "The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static.")
+      .def("latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
+           "The newest time in nanoseconds that all dynamic links between the frames have reached; "
+           "0 if all are static.")
       .def(
           "clear",
           [](BufferObject& self) {
@@ -372,7 +398,8 @@ void add_buffer_type(nb::module_& module) {
             self.shared.buffer.clear();
           },
           "Forgets all samples. Frame names and static transforms stay, as in tf2.")
-      .def("frame_strings", &frame_strings, "The names of all frames ever heard of, in order of arrival.")
+      .def("frame_strings", &frame_strings,
+           "The names of all frames ever heard of, in order of arrival.")
       .def(
           "frame_exists",
           [](BufferObject& self, std::string_view frame) {
@@ -383,14 +410,18 @@ void add_buffer_type(nb::module_& module) {
           "frame"_a, "Whether the frame was ever heard of.")
       .def(
           "all_frames_as_string",
-          [](BufferObject& self) { return locked(self, [](const Buffer& b) { return b.frames_as_string(); }); },
+          [](BufferObject& self) {
+            return locked(self, [](const Buffer& b) { return b.frames_as_string(); });
+          },
           "tf2's list of frames and parents, one line each.")
       .def(
           "all_frames_as_yaml",
           [](BufferObject& self, double now) {
             return locked(self, [now](const Buffer& b) { return b.frames_as_yaml(now); });
           },
-          "now"_a = 0.0, "tf2's YAML of frames, parents, senders, rates and ages; `now` in seconds adds the delay.")
+          "now"_a = 0.0,
+          "tf2's YAML of frames, parents, senders, rates and ages; `now` in seconds adds the "
+          "delay.")
       .def(
           "all_frames_as_dot",
           [](BufferObject& self, double now) {
@@ -399,20 +430,26 @@ void add_buffer_type(nb::module_& module) {
           "now"_a = 0.0, "tf2's Graphviz text of the tree; `now` in seconds adds ages.")
       .def(
           "_repr_svg_",
-          [](nb::handle self) { return nb::module_::import_("turtlewire.tf.notebook").attr("buffer_svg")(self); },
+          [](nb::handle self) {
+            return nb::module_::import_("turtlewire.tf.notebook").attr("buffer_svg")(self);
+          },
           "The tree of frames as SVG, for notebooks.")
       .def("add_change_listener", &add_change_listener, "listener"_a,
-           "Has `listener()` called after data came in, without any lock: on the thread that brought it or, for data "
+           "Has `listener()` called after data came in, without any lock: on the thread that "
+           "brought it or, for data "
            "that\n"
-           "the wire's receiving thread stored by itself, on the wire's reader thread, once for all that came "
+           "the wire's receiving thread stored by itself, on the wire's reader thread, once for "
+           "all that came "
            "meanwhile.\n\n"
            "Returns:\n"
            "    A function that removes the listener again.")
       .def("_remove_change_listener", &remove_change_listener, "listener"_a)
       .def(
           "wake", [](BufferObject& self) { self.wake(); },
-          "Makes every waiting lookup look at pending signals now, and go on waiting if there is none.\n\n"
-          "For signal handling that does not interrupt the main thread's system call, such as rclpy's.");
+          "Makes every waiting lookup look at pending signals now, and go on waiting if there is "
+          "none.\n\n"
+          "For signal handling that does not interrupt the main thread's system call, such as "
+          "rclpy's.");
   add_batch_methods(cls);
   add_inspection_methods(cls);
 }

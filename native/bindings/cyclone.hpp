@@ -18,7 +18,8 @@ struct SampleInfo {  // dds_sample_info_t
   std::uint32_t sample_rank, generation_rank, absolute_generation_rank;
 };
 
-// The addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, ddsi_serdata_unref and dds_set_guardcondition.
+// The addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, ddsi_serdata_unref and
+// dds_set_guardcondition.
 using Addresses = std::array<std::uintptr_t, 5>;
 
 struct Cyclone {
@@ -44,7 +45,8 @@ class Samples {
   static constexpr std::uint32_t kMost = 32;
 
   Samples(const Cyclone& cyclone, Entity reader, std::uint32_t most)
-      : cyclone_(cyclone), count_(cyclone.take(reader, samples_.data(), most, infos_.data(), kAnyState)) {}
+      : cyclone_(cyclone),
+        count_(cyclone.take(reader, samples_.data(), most, infos_.data(), kAnyState)) {}
   Samples(const Samples&) = delete;
   Samples& operator=(const Samples&) = delete;
   ~Samples() {
@@ -55,7 +57,9 @@ class Samples {
   std::size_t size() const { return count_ < 0 ? 0 : static_cast<std::size_t>(count_); }
   const SampleInfo& info(std::size_t i) const { return infos_[i]; }
   std::size_t bytes(std::size_t i) const { return cyclone_.size_of(samples_[i]); }
-  void copy(std::size_t i, std::size_t bytes, void* to) const { cyclone_.copy_of(samples_[i], 0, bytes, to); }
+  void copy(std::size_t i, std::size_t bytes, void* to) const {
+    cyclone_.copy_of(samples_[i], 0, bytes, to);
+  }
 
  private:
   static constexpr std::uint32_t kAnyState = 127;

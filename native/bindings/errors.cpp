@@ -61,7 +61,8 @@ PyObject* unknown_frame_details(const Failure& f, PyObject* buffer) {
   return details;
 }
 
-// What the properties of the exception show; the order is documented there. Null without an error: nothing to tell.
+// What the properties of the exception show; the order is documented there. Null without an error:
+// nothing to tell.
 PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
   switch (f.status) {
     case Status::unknown_frame:
@@ -73,8 +74,9 @@ PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
     case Status::no_data:
     case Status::future:
     case Status::past:
-      return Py_BuildValue("(NNNNLLLO)", text_of(f.target), text_of(f.source), text_of(f.link_parent),
-                           text_of(f.link_child), static_cast<long long>(f.requested), static_cast<long long>(f.oldest),
+      return Py_BuildValue("(NNNNLLLO)", text_of(f.target), text_of(f.source),
+                           text_of(f.link_parent), text_of(f.link_child),
+                           static_cast<long long>(f.requested), static_cast<long long>(f.oldest),
                            static_cast<long long>(f.newest), f.emptied ? Py_False : Py_True);
     default:
       return nullptr;
@@ -84,7 +86,8 @@ PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
 PyObject* raise_class(Class which, const std::string& text, PyObject* details) {
   PyObject* message = text_of(text);
   PyObject* error = message != nullptr ? PyObject_CallOneArg(classes[which], message) : nullptr;
-  if (error != nullptr && (details == nullptr || PyObject_SetAttr(error, details_name, details) == 0)) {
+  if (error != nullptr &&
+      (details == nullptr || PyObject_SetAttr(error, details_name, details) == 0)) {
     PyErr_SetObject(classes[which], error);
   }
   Py_XDECREF(error);
@@ -97,7 +100,8 @@ PyObject* raise_class(Class which, const std::string& text, PyObject* details) {
 
 void load_error_classes() {
   const nb::module_ errors = nb::module_::import_("turtlewire.errors");
-  for (std::size_t i = 0; i < kClasses; ++i) classes[i] = nb::object(errors.attr(kNames[i])).release().ptr();
+  for (std::size_t i = 0; i < kClasses; ++i)
+    classes[i] = nb::object(errors.attr(kNames[i])).release().ptr();
   details_name = PyUnicode_InternFromString("_details");
 }
 
@@ -107,6 +111,8 @@ PyObject* raise(const Failure& failure, Question question, PyObject* buffer) {
   return raise_class(class_of(failure.status, question), explain(failure, question), details);
 }
 
-PyObject* raise_cdr_error(const std::string& what) { return raise_class(cdr, "not a TFMessage: " + what, nullptr); }
+PyObject* raise_cdr_error(const std::string& what) {
+  return raise_class(cdr, "not a TFMessage: " + what, nullptr);
+}
 
 }  // namespace turtlewire::python

@@ -27,8 +27,8 @@ nb::str text(std::string_view value) { return nb::str(value.data(), value.size()
 }
 
 // Both names as frames; raises if one is none. Call with the lock held.
-bool resolve_both(const Buffer& buffer, std::string_view target, std::string_view source, FrameId& target_id,
-                  FrameId& source_id, Failure& failure) {
+bool resolve_both(const Buffer& buffer, std::string_view target, std::string_view source,
+                  FrameId& target_id, FrameId& source_id, Failure& failure) {
   failure.status = buffer.resolve(target, target_id);
   failure.name = target;
   if (failure.status != Status::ok) return false;
@@ -38,7 +38,8 @@ bool resolve_both(const Buffer& buffer, std::string_view target, std::string_vie
   return failure.status == Status::ok;
 }
 
-nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source, Stamp t, Stamp limit) {
+nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source, Stamp t,
+                                 Stamp limit) {
   if (limit < 0) throw nb::value_error("limit_ns must not be negative");
   Found found{t, {}};
   Failure failure;
@@ -46,16 +47,18 @@ nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str sou
     const std::scoped_lock lock(self.shared.mutex);
     FrameId target_id = 0, source_id = 0;
     const Buffer& buffer = self.shared.buffer;
-    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) && target_id != source_id) {
-      failure.status = buffer.lookup(target_id, source_id, Rule{.t = t, .beyond = limit}, found.target_from_source,
-                                     nullptr, &failure);
+    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+        target_id != source_id) {
+      failure.status = buffer.lookup(target_id, source_id, Rule{.t = t, .beyond = limit},
+                                     found.target_from_source, nullptr, &failure);
     }
   }
   if (failure.status != Status::ok) raise_failure(self, failure);
   return nb::steal(make_transform(target.ptr(), source.ptr(), found));
 }
 
-nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age, Stamp now) {
+nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age,
+                        Stamp now) {
   if (max_age != 0 && now == 0)
     throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
   Found found;
@@ -66,9 +69,11 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
     const std::scoped_lock lock(self.shared.mutex);
     FrameId target_id = 0, source_id = 0;
     const Buffer& buffer = self.shared.buffer;
-    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) && target_id != source_id) {
+    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+        target_id != source_id) {
       const Rule rule{.t = now, .newest = true, .max_age = max_age};
-      failure.status = buffer.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
+      failure.status =
+          buffer.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
     }
     for (const FrameId frame : used) {
       const Link& link = buffer.link(frame);
@@ -107,7 +112,8 @@ nb::list remove_stale(BufferObject& self, Stamp before) {
   return names;
 }
 
-// ---------------------------------------------------------------- descriptions, for turtlewire.tf.inspection
+// ---------------------------------------------------------------- descriptions, for
+// turtlewire.tf.inspection
 
 struct LinkDescription {
   std::string child, parent;
@@ -137,8 +143,8 @@ nb::list describe_links(BufferObject& self) {
                        link.samples().bytes(),
                        {}});
       for (const Sender& sender : link.senders()) {
-        links.back().senders.emplace_back(buffer.sender_name(sender.id), name(sender.parent), sender.samples,
-                                          sender.newest);
+        links.back().senders.emplace_back(buffer.sender_name(sender.id), name(sender.parent),
+                                          sender.samples, sender.newest);
       }
     }
   }
@@ -148,16 +154,17 @@ nb::list describe_links(BufferObject& self) {
     for (const auto& [who, parent, samples, newest] : d.senders) {
       senders.append(nb::make_tuple(text(who), text(parent), samples, newest));
     }
-    list.append(nb::make_tuple(text(d.child), text(d.parent), d.is_static, d.length, d.oldest, d.newest,
-                               d.parent_changes, d.bytes, senders));
+    list.append(nb::make_tuple(text(d.child), text(d.parent), d.is_static, d.length, d.oldest,
+                               d.newest, d.parent_changes, d.bytes, senders));
   }
   return list;
 }
 
 // By child frame: the counts by kind of refusal, and the text of the last one.
 nb::dict describe_refusals(BufferObject& self) {
-  static constexpr const char* kinds[kVerdicts] = {"accepted",  "self_transform", "no_child_frame", "no_parent_frame",
-                                                   "nan_value", "old_data",       "reserved_name",  "bad_name"};
+  static constexpr const char* kinds[kVerdicts] = {
+      "accepted",  "self_transform", "no_child_frame", "no_parent_frame",
+      "nan_value", "old_data",       "reserved_name",  "bad_name"};
   std::map<std::string, RefusalRecord, std::less<>> records;
   {
     const std::scoped_lock lock(self.shared.mutex);
@@ -169,10 +176,12 @@ nb::dict describe_refusals(BufferObject& self) {
     for (std::size_t kind = 1; kind < kVerdicts; ++kind) {
       if (record.counts[kind] > 0) counts[kinds[kind]] = record.counts[kind];
     }
-    const std::string last =
-        explain(Refusal{record.last, record.parent, child, record.authority, record.stamp, record.pose});
-    PyObject* decoded = PyUnicode_DecodeUTF8(last.data(), static_cast<Py_ssize_t>(last.size()), "replace");
-    PyObject* key = PyUnicode_DecodeUTF8(child.data(), static_cast<Py_ssize_t>(child.size()), "replace");
+    const std::string last = explain(
+        Refusal{record.last, record.parent, child, record.authority, record.stamp, record.pose});
+    PyObject* decoded =
+        PyUnicode_DecodeUTF8(last.data(), static_cast<Py_ssize_t>(last.size()), "replace");
+    PyObject* key =
+        PyUnicode_DecodeUTF8(child.data(), static_cast<Py_ssize_t>(child.size()), "replace");
     all[nb::steal(key)] = nb::make_tuple(counts, nb::steal(decoded));
   }
   return all;
@@ -205,7 +214,8 @@ struct Run {
 
 std::vector<Run> runs_of(const Buffer& buffer, const Link& link) {
   std::vector<Run> runs;
-  if (link.is_static()) return {{std::string(buffer.frames()[link.parent()]), {0}, {link.static_pose()}}};
+  if (link.is_static())
+    return {{std::string(buffer.frames()[link.parent()]), {0}, {link.static_pose()}}};
   for (std::size_t i = 0; i < link.samples().size(); ++i) {
     const Sample& sample = link.samples()[i];
     const std::string_view parent = buffer.frames()[sample.parent];
@@ -224,7 +234,8 @@ nb::list samples(BufferObject& self, std::string_view child) {
     FrameId id = 0;
     failure.status = self.shared.buffer.resolve(child, id);
     failure.name = child;
-    if (failure.status == Status::ok) runs = runs_of(self.shared.buffer, self.shared.buffer.link(id));
+    if (failure.status == Status::ok)
+      runs = runs_of(self.shared.buffer, self.shared.buffer.link(id));
   }
   if (failure.status != Status::ok) raise_failure(self, failure);
   nb::list list;
@@ -243,10 +254,12 @@ nb::list samples(BufferObject& self, std::string_view child) {
 }
 
 std::size_t set_transforms(BufferObject& self, std::string_view parent, std::string_view child,
-                           nb::handle stamps_object, nb::handle poses_object, std::string_view authority) {
+                           nb::handle stamps_object, nb::handle poses_object,
+                           std::string_view authority) {
   const Stamps stamps = stamps_of(stamps_object);
   PoseRows rows;
-  const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(poses_object, "dtype"_a = "float64");
+  const nb::object array =
+      nb::module_::import_("numpy").attr("ascontiguousarray")(poses_object, "dtype"_a = "float64");
   if (!nb::try_cast(array, rows, false)) throw nb::value_error("poses must have the shape (N, 7)");
   check_shape(rows, {stamps.shape(0), 7}, "poses");
   std::size_t accepted = 0;
@@ -257,7 +270,8 @@ std::size_t set_transforms(BufferObject& self, std::string_view parent, std::str
     for (std::size_t i = 0; i < stamps.shape(0); ++i) {
       const double* v = rows.data() + 7 * i;
       const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-      accepted += self.shared.buffer.set(parent, child, stamps.data()[i], pose, sender, false) == Verdict::accepted;
+      accepted += self.shared.buffer.set(parent, child, stamps.data()[i], pose, sender, false) ==
+                  Verdict::accepted;
     }
     if (accepted > 0) self.shared.wake_waiters();
   }
@@ -268,29 +282,34 @@ std::size_t set_transforms(BufferObject& self, std::string_view parent, std::str
 }  // namespace
 
 void add_inspection_methods(nb::class_<BufferObject>& cls) {
-  cls.def("extrapolate_transform", &extrapolate_transform, "target_frame"_a, "source_frame"_a, "stamp_ns"_a,
-          "limit_ns"_a,
-          "lookup_transform, but a time up to `limit_ns` outside of a link's data is answered as well.\n\n"
-          "The motion between the two outermost samples of the link is taken to go on. tf2 never does this; a lookup "
+  cls.def("extrapolate_transform", &extrapolate_transform, "target_frame"_a, "source_frame"_a,
+          "stamp_ns"_a, "limit_ns"_a,
+          "lookup_transform, but a time up to `limit_ns` outside of a link's data is answered as "
+          "well.\n\n"
+          "The motion between the two outermost samples of the link is taken to go on. tf2 never "
+          "does this; a lookup "
           "that\n"
           "does not name a limit never does either.\n\n"
           "Raises:\n"
           "    TransformException: As lookup_transform; the time lies still further outside.")
-      .def(
-          "lookup_latest", &lookup_latest, "target_frame"_a, "source_frame"_a, nb::kw_only(), "max_age_ns"_a = 0,
-          "now_ns"_a = 0,
-          "The transform made of the newest data of each link, whatever its time.\n\n"
-          "lookup_transform at time 0 takes all links at one time, the newest that all of them know; one link that is\n"
-          "late makes the whole answer late. Here each link gives its newest pose.\n\n"
-          "Args:\n"
-          "    target_frame: The frame in which the answer is expressed.\n"
-          "    source_frame: The frame whose pose is asked for.\n"
-          "    max_age_ns: How old the newest data of a link may be at `now_ns`; 0 allows any age.\n"
-          "    now_ns: The present, by the clock of the stamps.\n\n"
-          "Returns:\n"
-          "    The Transform, stamped with the oldest of the times used, and those times by child frame.\n\n"
-          "Raises:\n"
-          "    TransformException: A frame is unknown, the frames are not connected, or a link is too old.")
+      .def("lookup_latest", &lookup_latest, "target_frame"_a, "source_frame"_a, nb::kw_only(),
+           "max_age_ns"_a = 0, "now_ns"_a = 0,
+           "The transform made of the newest data of each link, whatever its time.\n\n"
+           "lookup_transform at time 0 takes all links at one time, the newest that all of them "
+           "know; one link that is\n"
+           "late makes the whole answer late. Here each link gives its newest pose.\n\n"
+           "Args:\n"
+           "    target_frame: The frame in which the answer is expressed.\n"
+           "    source_frame: The frame whose pose is asked for.\n"
+           "    max_age_ns: How old the newest data of a link may be at `now_ns`; 0 allows any "
+           "age.\n"
+           "    now_ns: The present, by the clock of the stamps.\n\n"
+           "Returns:\n"
+           "    The Transform, stamped with the oldest of the times used, and those times by child "
+           "frame.\n\n"
+           "Raises:\n"
+           "    TransformException: A frame is unknown, the frames are not connected, or a link is "
+           "too old.")
       .def("remove_frame", &remove_frame, "child_frame"_a,
            "Forgets how a frame lies in its parent: its history or its static transform.\n\n"
            "Names that then stand for nothing are forgotten too.\n\n"
@@ -301,11 +320,12 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
       .def("samples", &samples, "child_frame"_a,
            "The whole history of one frame, oldest first.\n\n"
            "Returns:\n"
-           "    For each run of samples with one parent: the parent, the stamps (N,) in nanoseconds, and the poses (N, "
+           "    For each run of samples with one parent: the parent, the stamps (N,) in "
+           "nanoseconds, and the poses (N, "
            "7).\n"
            "    A static transform is one sample with stamp 0.")
-      .def("set_transforms", &set_transforms, "parent_frame"_a, "child_frame"_a, "stamps"_a, "poses"_a,
-           "authority"_a = "default_authority",
+      .def("set_transforms", &set_transforms, "parent_frame"_a, "child_frame"_a, "stamps"_a,
+           "poses"_a, "authority"_a = "default_authority",
            "set_transform for many samples of one frame.\n\n"
            "Args:\n"
            "    parent_frame: The parent.\n"

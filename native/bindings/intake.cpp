@@ -34,7 +34,8 @@ class IntakeObject {
     std::vector<SharedBuffer*> fed;
     for (const nb::handle buffer : buffers) fed.push_back(&nb::cast<BufferObject&>(buffer).shared);
     core.feed(std::move(fed));
-    std::swap(buffers_, buffers);  // the former ones die, if they do, when nothing of them is in use any more
+    std::swap(buffers_,
+              buffers);  // the former ones die, if they do, when nothing of them is in use any more
   }
 
   void call_listeners() {
@@ -45,9 +46,12 @@ class IntakeObject {
 
   nb::handle buffers() const { return buffers_; }
 
-  // The dds_on_data_available_fn, on the thread of Cyclone that received something, or on the one of a publisher in
-  // this process. It must not want the GIL: who holds that may be waiting for a lock of Cyclone's that is held here.
-  static void on_data(Entity reader, void* intake) noexcept { static_cast<IntakeObject*>(intake)->take_all(reader); }
+  // The dds_on_data_available_fn, on the thread of Cyclone that received something, or on the one
+  // of a publisher in this process. It must not want the GIL: who holds that may be waiting for a
+  // lock of Cyclone's that is held here.
+  static void on_data(Entity reader, void* intake) noexcept {
+    static_cast<IntakeObject*>(intake)->take_all(reader);
+  }
 
  private:
   void take_all(Entity reader) noexcept {
@@ -65,7 +69,8 @@ class IntakeObject {
   bool receive(const Samples& samples, std::size_t i) noexcept try {
     bytes_.resize(samples.bytes(i));
     samples.copy(i, bytes_.size(), bytes_.data());
-    return core.receive(samples.info(i).publication_handle, samples.info(i).source_timestamp, bytes_);
+    return core.receive(samples.info(i).publication_handle, samples.info(i).source_timestamp,
+                        bytes_);
   } catch (const std::bad_alloc&) {
     return false;  // the message is lost
   }
@@ -84,7 +89,8 @@ nb::list take(IntakeObject& self) {
   }
   nb::list list;
   for (const Intake::Kept& kept : taken) {
-    list.append(nb::make_tuple(nb::bytes(kept.bytes.data(), kept.bytes.size()), kept.publisher, kept.sent));
+    list.append(
+        nb::make_tuple(nb::bytes(kept.bytes.data(), kept.bytes.size()), kept.publisher, kept.sent));
   }
   return list;
 }
@@ -112,13 +118,15 @@ PyType_Slot slots[] = {
 nb::list take_messages(const Cyclone& cyclone, Entity reader, std::int64_t most) {
   nb::list list;
   for (bool more = true; more && most > 0;) {
-    const std::uint32_t wanted = static_cast<std::uint32_t>(std::min<std::int64_t>(most, Samples::kMost));
+    const std::uint32_t wanted =
+        static_cast<std::uint32_t>(std::min<std::int64_t>(most, Samples::kMost));
     const Samples samples(cyclone, reader, wanted);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const SampleInfo& info = samples.info(i);
       if (!info.valid_data) continue;
       const std::size_t size = samples.bytes(i);
-      const auto bytes = nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
+      const auto bytes =
+          nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
       if (!bytes.is_valid()) throw nb::python_error();
       samples.copy(i, size, PyBytes_AS_STRING(bytes.ptr()));
       list.append(nb::make_tuple(bytes, info.publication_handle, info.source_timestamp));
@@ -134,8 +142,10 @@ nb::list take_messages(const Cyclone& cyclone, Entity reader, std::int64_t most)
 void add_intake_type(nb::module_& module) {
   nb::class_<IntakeObject>(
       module, "Intake", nb::type_slots(slots),
-      "Stores TFMessages that a DDS reader receives, on the thread that receives them and without Python.\n\n"
-      "It keeps back what needs Python, and whatever comes behind that: messages of publishers whose name it was not\n"
+      "Stores TFMessages that a DDS reader receives, on the thread that receives them and without "
+      "Python.\n\n"
+      "It keeps back what needs Python, and whatever comes behind that: messages of publishers "
+      "whose name it was not\n"
       "told, and malformed ones. Safe for use from many threads.\n\n"
       "Args:\n"
       "    static: Whether the transforms hold for all times.\n"
@@ -151,14 +161,18 @@ void add_intake_type(nb::module_& module) {
           "publisher"_a, "gid"_a, "Which publisher the middleware means by a number.")
       .def(
           "name",
-          [](IntakeObject& self, const nb::bytes& gid, std::string_view name) { self.core.name(view_of(gid), name); },
+          [](IntakeObject& self, const nb::bytes& gid, std::string_view name) {
+            self.core.name(view_of(gid), name);
+          },
           "gid"_a, "name"_a, "The authority of what an introduced publisher sends.")
       .def("take", &take,
-           "The next messages kept back that need Python, as (bytes, number of the publisher, time of sending in ns). "
+           "The next messages kept back that need Python, as (bytes, number of the publisher, time "
+           "of sending in ns). "
            "To be\n"
            "called until there are none: only then new ones take the short way again.")
       .def("call_listeners", &IntakeObject::call_listeners,
-           "Calls the change listeners of the buffers, if data came for any of them since the last time.")
+           "Calls the change listeners of the buffers, if data came for any of them since the last "
+           "time.")
       .def(
           "connect",
           [](nb::handle_t<IntakeObject> self, const Addresses& functions, Entity guard) {
@@ -170,11 +184,14 @@ void add_intake_type(nb::module_& module) {
           "functions"_a, "guard"_a,
           "Gets ready for a reader of Cyclone DDS.\n\n"
           "Args:\n"
-          "    functions: Addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, ddsi_serdata_unref and\n"
+          "    functions: Addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser, "
+          "ddsi_serdata_unref and\n"
           "        dds_set_guardcondition.\n"
-          "    guard: The guard condition to be triggered when there is something to take or listeners to call.\n\n"
+          "    guard: The guard condition to be triggered when there is something to take or "
+          "listeners to call.\n\n"
           "Returns:\n"
-          "    What is called when data is available, and its argument; this object must outlive the reader.");
+          "    What is called when data is available, and its argument; this object must outlive "
+          "the reader.");
   nb::class_<Cyclone>(module, "Taker",
                       "Takes messages of readers of Cyclone DDS, with the GIL held.\n\n"
                       "Args:\n"

@@ -29,7 +29,8 @@ bool take_integer(PyObject* value, long long& integer) {
   return integer != -1 || PyErr_Occurred() == nullptr;
 }
 
-// tf2_py's converters: a message with sec and nanosec, else an rclpy Time or Duration with nanoseconds.
+// tf2_py's converters: a message with sec and nanosec, else an rclpy Time or Duration with
+// nanoseconds.
 bool time_of(PyObject* object, Stamp& t, const char* what) {
   static PyObject* const sec_name = PyUnicode_InternFromString("sec");
   static PyObject* const nanosec_name = PyUnicode_InternFromString("nanosec");
@@ -60,13 +61,15 @@ bool time_of(PyObject* object, Stamp& t, const char* what) {
 template <std::size_t N>
 class Layout {
  public:
-  Layout(nb::handle cls, const std::array<const char*, N>& fields) : type_(reinterpret_cast<PyTypeObject*>(cls.ptr())) {
+  Layout(nb::handle cls, const std::array<const char*, N>& fields)
+      : type_(reinterpret_cast<PyTypeObject*>(cls.ptr())) {
     for (std::size_t i = 0; i < N; ++i) {
       const nb::object slot = cls.attr(fields[i]);
       const auto* member = reinterpret_cast<PyMemberDescrObject*>(slot.ptr())->d_member;
       if (Py_TYPE(slot.ptr()) != &PyMemberDescr_Type || member->type != T_OBJECT_EX) {
         throw nb::type_error(
-            (std::string(nb::str(cls).c_str()) + ": the field '" + fields[i] + "' is not a slot").c_str());
+            (std::string(nb::str(cls).c_str()) + ": the field '" + fields[i] + "' is not a slot")
+                .c_str());
       }
       offsets_[i] = member->offset;
     }
@@ -119,9 +122,10 @@ class StampedMaker {
     const auto& [t, q] = found.target_from_source;
     PyObject* stamp = time_.make({PyLong_FromLongLong(sec), PyLong_FromLongLong(nanosec)});
     PyObject* header = header_.make({stamp, plain_string(target)});
-    PyObject* translation = vector_.make({PyFloat_FromDouble(t.x), PyFloat_FromDouble(t.y), PyFloat_FromDouble(t.z)});
-    PyObject* rotation = quaternion_.make(
-        {PyFloat_FromDouble(q.x), PyFloat_FromDouble(q.y), PyFloat_FromDouble(q.z), PyFloat_FromDouble(q.w)});
+    PyObject* translation =
+        vector_.make({PyFloat_FromDouble(t.x), PyFloat_FromDouble(t.y), PyFloat_FromDouble(t.z)});
+    PyObject* rotation = quaternion_.make({PyFloat_FromDouble(q.x), PyFloat_FromDouble(q.y),
+                                           PyFloat_FromDouble(q.z), PyFloat_FromDouble(q.w)});
     return stamped_.make({header, plain_string(source), transform_.make({translation, rotation})});
   }
 
@@ -138,8 +142,10 @@ class StampedMaker {
 
 class MessageLookup {
  public:
-  MessageLookup(nb::object buffer, const nb::object& example) : maker(example), owner_(std::move(buffer)) {
-    if (!nb::isinstance<BufferObject>(owner_)) throw nb::type_error("the first argument must be a native Buffer");
+  MessageLookup(nb::object buffer, const nb::object& example)
+      : maker(example), owner_(std::move(buffer)) {
+    if (!nb::isinstance<BufferObject>(owner_))
+      throw nb::type_error("the first argument must be a native Buffer");
     this->buffer = nb::inst_ptr<BufferObject>(owner_);
   }
 
@@ -160,31 +166,38 @@ MessageLookup* self_of(PyObject* self) {
   return nb::inst_ptr<MessageLookup>(self);
 }
 
-PyObject* lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<4> signature("lookup", 3, {"target_frame", "source_frame", "time", "timeout"});
+PyObject* lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count,
+                 PyObject* keywords) {
+  static const Signature<4> signature("lookup", 3,
+                                      {"target_frame", "source_frame", "time", "timeout"});
   std::array<PyObject*, 4> v;
   Stamp t = 0, timeout = 0;
   MessageLookup* self = self_of(object);
-  if (self == nullptr || !signature.read(arguments, count, keywords, v) || !time_of(v[2], t, "time") ||
-      (v[3] != nullptr && !time_of(v[3], timeout, "duration"))) {
+  if (self == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !time_of(v[2], t, "time") || (v[3] != nullptr && !time_of(v[3], timeout, "duration"))) {
     return nullptr;
   }
   Found found;
-  return self->buffer->lookup(v[0], v[1], t, timeout, found) ? self->maker.make(v[0], v[1], found) : nullptr;
+  return self->buffer->lookup(v[0], v[1], t, timeout, found) ? self->maker.make(v[0], v[1], found)
+                                                             : nullptr;
 }
 
-PyObject* lookup_full(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* lookup_full(PyObject* object, PyObject* const* arguments, Py_ssize_t count,
+                      PyObject* keywords) {
   static const Signature<6> signature(
-      "lookup_full", 5, {"target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"});
+      "lookup_full", 5,
+      {"target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"});
   std::array<PyObject*, 6> v;
   Stamp target_time = 0, source_time = 0, timeout = 0;
   MessageLookup* self = self_of(object);
-  if (self == nullptr || !signature.read(arguments, count, keywords, v) || !time_of(v[1], target_time, "time") ||
-      !time_of(v[3], source_time, "time") || (v[5] != nullptr && !time_of(v[5], timeout, "duration"))) {
+  if (self == nullptr || !signature.read(arguments, count, keywords, v) ||
+      !time_of(v[1], target_time, "time") || !time_of(v[3], source_time, "time") ||
+      (v[5] != nullptr && !time_of(v[5], timeout, "duration"))) {
     return nullptr;
   }
   Found found;
-  if (!self->buffer->lookup(v[0], target_time, v[2], source_time, v[4], timeout, found)) return nullptr;
+  if (!self->buffer->lookup(v[0], target_time, v[2], source_time, v[4], timeout, found))
+    return nullptr;
   return self->maker.make(v[0], v[2], found);
 }
 
@@ -194,12 +207,14 @@ PyMethodDef methods[] = {
                         "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
     fast_method<lookup_full>(
         "lookup_full",
-        "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=None)\n"
+        "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, "
+        "timeout=None)\n"
         "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
     {nullptr, nullptr, 0, nullptr},
 };
 
-// Shows the garbage collector cycles through the buffer, which breaks them: it forgets its listeners.
+// Shows the garbage collector cycles through the buffer, which breaks them: it forgets its
+// listeners.
 int traverse(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));
   if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<MessageLookup>(self)->owner().ptr());

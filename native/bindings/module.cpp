@@ -7,7 +7,8 @@
 NB_MODULE(_native, module) {
   using namespace turtlewire::python;
   module.attr("__doc__") = "The compiled core of turtlewire. Use it through turtlewire.Buffer.";
-  // What a program or a daemon thread holds on to until the process ends is no leak that a user should read of.
+  // What a program or a daemon thread holds on to until the process ends is no leak that a user
+  // should read of.
   nb::set_leak_warnings(false);
   load_error_classes();
   if (!add_transform_type(module)) throw nb::python_error();

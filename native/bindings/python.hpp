@@ -15,10 +15,12 @@ namespace turtlewire::python {
 
 namespace nb = nanobind;
 
-// A hot method in the vectorcall convention, as the method table wants it. No C++ exception may pass through Python.
+// A hot method in the vectorcall convention, as the method table wants it. No C++ exception may
+// pass through Python.
 using FastMethod = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 template <FastMethod Method>
-PyObject* guarded(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* guarded(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
+                  PyObject* keywords) {
   try {
     return Method(self, arguments, count, keywords);
   } catch (const std::bad_alloc&) {
@@ -31,11 +33,12 @@ PyObject* guarded(PyObject* self, PyObject* const* arguments, Py_ssize_t count, 
 template <FastMethod Method>
 PyMethodDef fast_method(const char* name, const char* doc) {
   const FastMethod method = guarded<Method>;
-  return {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method)), METH_FASTCALL | METH_KEYWORDS,
-          doc};
+  return {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method)),
+          METH_FASTCALL | METH_KEYWORDS, doc};
 }
 
-// Positional and keyword arguments of a hot method, in the order of the names; missing optional ones are null.
+// Positional and keyword arguments of a hot method, in the order of the names; missing optional
+// ones are null.
 template <std::size_t N>
 class Signature {
  public:
@@ -44,10 +47,12 @@ class Signature {
     for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(names[i]);
   }
 
-  bool read(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, std::array<PyObject*, N>& values) const {
+  bool read(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
+            std::array<PyObject*, N>& values) const {
     values.fill(nullptr);
     if (static_cast<std::size_t>(count) > N) {
-      PyErr_Format(PyExc_TypeError, "%s() takes at most %zu arguments (%zd given)", method_, N, count);
+      PyErr_Format(PyExc_TypeError, "%s() takes at most %zu arguments (%zd given)", method_, N,
+                   count);
       return false;
     }
     for (Py_ssize_t i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = arguments[i];
@@ -62,17 +67,20 @@ class Signature {
   }
 
  private:
-  bool read_keywords(PyObject* const* given, PyObject* keywords, std::array<PyObject*, N>& values) const {
+  bool read_keywords(PyObject* const* given, PyObject* keywords,
+                     std::array<PyObject*, N>& values) const {
     for (Py_ssize_t k = 0; k < PyTuple_GET_SIZE(keywords); ++k) {
       PyObject* keyword = PyTuple_GET_ITEM(keywords, k);
       std::size_t i = 0;
       while (i < N && names_[i] != keyword && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
       if (i == N) {
-        PyErr_Format(PyExc_TypeError, "%s() got an unexpected keyword argument '%U'", method_, keyword);
+        PyErr_Format(PyExc_TypeError, "%s() got an unexpected keyword argument '%U'", method_,
+                     keyword);
         return false;
       }
       if (values[i] != nullptr) {
-        PyErr_Format(PyExc_TypeError, "%s() got multiple values for argument '%U'", method_, keyword);
+        PyErr_Format(PyExc_TypeError, "%s() got multiple values for argument '%U'", method_,
+                     keyword);
         return false;
       }
       values[i] = given[k];
@@ -85,7 +93,8 @@ class Signature {
   std::array<PyObject*, N> names_;
 };
 
-// A string's own bytes; they live as long as the object. False with a TypeError or UnicodeEncodeError set.
+// A string's own bytes; they live as long as the object. False with a TypeError or
+// UnicodeEncodeError set.
 inline bool text_of(PyObject* object, std::string_view& text, const char* what) {
   if (!PyUnicode_Check(object)) {
     PyErr_Format(PyExc_TypeError, "%s must be str, not %.200s", what, Py_TYPE(object)->tp_name);
@@ -104,7 +113,8 @@ inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   value = PyLong_AsLongLong(object);
   if (value != -1 || PyErr_Occurred() == nullptr) return true;
   if (PyErr_ExceptionMatches(PyExc_TypeError)) {
-    PyErr_Format(PyExc_TypeError, "%s must be an int of nanoseconds, not %.200s", what, Py_TYPE(object)->tp_name);
+    PyErr_Format(PyExc_TypeError, "%s must be an int of nanoseconds, not %.200s", what,
+                 Py_TYPE(object)->tp_name);
   }
   return false;
 }

@@ -35,13 +35,15 @@ PyObject* floats(std::initializer_list<double> values) {
 }
 
 PyObject* create(PyTypeObject*, PyObject* arguments, PyObject* keywords) {
-  static const char* names[] = {"frame_id", "child_frame_id", "stamp_ns", "translation", "rotation", nullptr};
+  static const char* names[] = {"frame_id",    "child_frame_id", "stamp_ns",
+                                "translation", "rotation",       nullptr};
   PyObject *frame_id, *child_frame_id;
   long long stamp;
   Pose pose;
   auto& [t, q] = pose;
-  if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "UUL(ddd)(dddd)", const_cast<char**>(names), &frame_id,
-                                   &child_frame_id, &stamp, &t.x, &t.y, &t.z, &q.x, &q.y, &q.z, &q.w)) {
+  if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "UUL(ddd)(dddd)", const_cast<char**>(names),
+                                   &frame_id, &child_frame_id, &stamp, &t.x, &t.y, &t.z, &q.x, &q.y,
+                                   &q.z, &q.w)) {
     return nullptr;
   }
   return make_transform(frame_id, child_frame_id, {stamp, pose});
@@ -75,7 +77,8 @@ PyObject* inverse_of(PyObject* self, PyObject*) {
 PyObject* reduce(PyObject* self, PyObject*) {
   const TransformObject* transform = cast(self);
   return Py_BuildValue("O(OOLNN)", Py_TYPE(self), transform->frame_id, transform->child_frame_id,
-                       static_cast<long long>(transform->stamp), translation(self, nullptr), rotation(self, nullptr));
+                       static_cast<long long>(transform->stamp), translation(self, nullptr),
+                       rotation(self, nullptr));
 }
 
 PyObject* represent(PyObject* self) {
@@ -84,9 +87,10 @@ PyObject* represent(PyObject* self) {
   PyObject* q = rotation(self, nullptr);
   PyObject* text = nullptr;
   if (t != nullptr && q != nullptr) {
-    text = PyUnicode_FromFormat("Transform(frame_id=%R, child_frame_id=%R, stamp_ns=%lld, translation=%R, rotation=%R)",
-                                transform->frame_id, transform->child_frame_id,
-                                static_cast<long long>(transform->stamp), t, q);
+    text = PyUnicode_FromFormat(
+        "Transform(frame_id=%R, child_frame_id=%R, stamp_ns=%lld, translation=%R, rotation=%R)",
+        transform->frame_id, transform->child_frame_id, static_cast<long long>(transform->stamp), t,
+        q);
   }
   Py_XDECREF(t);
   Py_XDECREF(q);
@@ -94,15 +98,18 @@ PyObject* represent(PyObject* self) {
 }
 
 PyObject* compare(PyObject* a, PyObject* b, int operation) {
-  if ((operation != Py_EQ && operation != Py_NE) || Py_TYPE(b) != transform_type) Py_RETURN_NOTIMPLEMENTED;
+  if ((operation != Py_EQ && operation != Py_NE) || Py_TYPE(b) != transform_type)
+    Py_RETURN_NOTIMPLEMENTED;
   const TransformObject *x = cast(a), *y = cast(b);
-  const bool equal = x->stamp == y->stamp && x->pose == y->pose && PyUnicode_Compare(x->frame_id, y->frame_id) == 0 &&
+  const bool equal = x->stamp == y->stamp && x->pose == y->pose &&
+                     PyUnicode_Compare(x->frame_id, y->frame_id) == 0 &&
                      PyUnicode_Compare(x->child_frame_id, y->child_frame_id) == 0;
   return PyBool_FromLong(equal == (operation == Py_EQ));
 }
 
 // NumPy is imported there, only when an array or a picture is asked for.
-PyObject* call_helper(const char* home, const char* helper, PyObject* self, PyObject* arguments, PyObject* keywords) {
+PyObject* call_helper(const char* home, const char* helper, PyObject* self, PyObject* arguments,
+                      PyObject* keywords) {
   PyObject* module = PyImport_ImportModule(home);
   if (module == nullptr) return nullptr;
   PyObject* function = PyObject_GetAttrString(module, helper);
@@ -129,18 +136,24 @@ PyObject* call_helper(const char* home, const char* helper, PyObject* self) {
   return result;
 }
 
-PyObject* as_matrix(PyObject* self, PyObject*) { return call_helper("turtlewire.tf.arrays", "pose_matrix", self); }
+PyObject* as_matrix(PyObject* self, PyObject*) {
+  return call_helper("turtlewire.tf.arrays", "pose_matrix", self);
+}
 
-PyObject* as_html(PyObject* self, PyObject*) { return call_helper("turtlewire.tf.notebook", "transform_html", self); }
+PyObject* as_html(PyObject* self, PyObject*) {
+  return call_helper("turtlewire.tf.notebook", "transform_html", self);
+}
 
 constexpr auto kPose = static_cast<Py_ssize_t>(offsetof(TransformObject, pose));
 constexpr Py_ssize_t number(int i) { return kPose + i * static_cast<Py_ssize_t>(sizeof(double)); }
 
 PyMemberDef members[] = {
-    {"frame_id", T_OBJECT, offsetof(TransformObject, frame_id), READONLY, "The target frame, in which the pose is."},
+    {"frame_id", T_OBJECT, offsetof(TransformObject, frame_id), READONLY,
+     "The target frame, in which the pose is."},
     {"child_frame_id", T_OBJECT, offsetof(TransformObject, child_frame_id), READONLY,
      "The source frame: whose pose it is."},
-    {"stamp_ns", T_LONGLONG, offsetof(TransformObject, stamp), READONLY, "The time of the pose, in nanoseconds."},
+    {"stamp_ns", T_LONGLONG, offsetof(TransformObject, stamp), READONLY,
+     "The time of the pose, in nanoseconds."},
     {"x", T_DOUBLE, number(0), READONLY, "Translation along x, in metres."},
     {"y", T_DOUBLE, number(1), READONLY, "Translation along y, in metres."},
     {"z", T_DOUBLE, number(2), READONLY, "Translation along z, in metres."},
@@ -162,17 +175,21 @@ PyMethodDef methods[] = {
      "inverse($self)\n--\n\nThe transform the other way round: source_from_target."},
     {"as_matrix", as_matrix, METH_NOARGS,
      "as_matrix($self)\n--\n\nThe 4x4 matrix that acts on column vectors from the left."},
-    {"__array__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(as_array)), METH_VARARGS | METH_KEYWORDS,
+    {"__array__", reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(as_array)),
+     METH_VARARGS | METH_KEYWORDS,
      "__array__($self, dtype=None, copy=None)\n--\n\nThe seven numbers x, y, z, qx, qy, qz, qw."},
-    {"_repr_html_", as_html, METH_NOARGS, "_repr_html_($self)\n--\n\nNumbers and a picture, for notebooks."},
+    {"_repr_html_", as_html, METH_NOARGS,
+     "_repr_html_($self)\n--\n\nNumbers and a picture, for notebooks."},
     {"__reduce__", reduce, METH_NOARGS, nullptr},
     {nullptr, nullptr, 0, nullptr},
 };
 
 const char kDoc[] =
     "Transform(frame_id, child_frame_id, stamp_ns, translation, rotation)\n--\n\n"
-    "The pose of `child_frame_id` (source) in `frame_id` (target) at one time: `target_from_source`.\n\n"
-    "Immutable. It takes data of the source frame into the target frame. Translation in metres; rotation a unit\n"
+    "The pose of `child_frame_id` (source) in `frame_id` (target) at one time: "
+    "`target_from_source`.\n\n"
+    "Immutable. It takes data of the source frame into the target frame. Translation in metres; "
+    "rotation a unit\n"
     "quaternion in the order x, y, z, w. `numpy.asarray(transform)` gives the seven numbers.";
 
 PyType_Slot slots[] = {
@@ -195,7 +212,8 @@ PyType_Spec spec = {"turtlewire.Transform", sizeof(TransformObject), 0, Py_TPFLA
 bool add_transform_type(nb::module_& module) {
   transform_type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
   if (transform_type == nullptr) return false;
-  return PyObject_SetAttrString(module.ptr(), "Transform", reinterpret_cast<PyObject*>(transform_type)) == 0;
+  return PyObject_SetAttrString(module.ptr(), "Transform",
+                                reinterpret_cast<PyObject*>(transform_type)) == 0;
 }
 
 PyObject* make_transform(PyObject* target, PyObject* source, const Found& found) {

@@ -13,7 +13,8 @@ namespace turtlewire::python {
 
 namespace nb = nanobind;
 
-// Python's own lock, as threading.Lock is: the one portable thing to sleep on that a signal interrupts.
+// Python's own lock, as threading.Lock is: the one portable thing to sleep on that a signal
+// interrupts.
 class Sleeper final : public Waiter {
  public:
   Sleeper() : lock_(PyThread_allocate_lock()) {
@@ -47,12 +48,12 @@ class Sleeper final : public Waiter {
 
 enum class Waited : std::uint8_t { done, python_error };
 
-// Repeats `attempt` whenever data comes in, until it returns true or the time is over; it runs without the GIL.
-// `interrupts` counts the calls of Buffer.wake(): after one, and after a signal, Python's signal handlers run, and an
-// exception that they raise ends the wait.
+// Repeats `attempt` whenever data comes in, until it returns true or the time is over; it runs
+// without the GIL. `interrupts` counts the calls of Buffer.wake(): after one, and after a signal,
+// Python's signal handlers run, and an exception that they raise ends the wait.
 template <typename Attempt>
-Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interrupts, std::int64_t timeout_ns,
-                  Attempt attempt) {
+Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interrupts,
+                  std::int64_t timeout_ns, Attempt attempt) {
   using Clock = std::chrono::steady_clock;
   constexpr std::int64_t longest_sleep_us = 3'600'000'000;
   Sleeper sleeper;
@@ -69,9 +70,12 @@ Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interr
       const nb::gil_scoped_release unlocked;
       while (!over && !signalled) {
         over = attempt();
-        const std::int64_t left = timeout_ns - std::chrono::nanoseconds(Clock::now() - start).count();
+        const std::int64_t left =
+            timeout_ns - std::chrono::nanoseconds(Clock::now() - start).count();
         over = over || left <= 0;
-        if (!over) signalled = sleeper.sleep(std::min((left + 999) / 1000, longest_sleep_us)) || interrupts != seen;
+        if (!over)
+          signalled =
+              sleeper.sleep(std::min((left + 999) / 1000, longest_sleep_us)) || interrupts != seen;
       }
     }
     if (over) return Waited::done;

@@ -45,7 +45,8 @@ const Path* BatchLookup::path() {
 Stamp BatchLookup::latest() {
   const std::scoped_lock lock(shared_.mutex);
   Stamp t = 0;
-  if (target_ != source_ && path() != nullptr) shared_.buffer.latest_common_time(target_id_, source_id_, t, nullptr);
+  if (target_ != source_ && path() != nullptr)
+    shared_.buffer.latest_common_time(target_id_, source_id_, t, nullptr);
   return t;
 }
 
@@ -67,7 +68,8 @@ void BatchLookup::block(std::span<const Stamp> stamps, Lanes& poses, Status* sta
   }
 }
 
-void BatchLookup::scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+void BatchLookup::scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+                               Status* statuses) {
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     Stamp t = stamps[i];
     Pose pose;
@@ -76,7 +78,8 @@ void BatchLookup::scalar_block(const Path& path, std::span<const Stamp> stamps, 
   }
 }
 
-void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+                               Status* statuses) {
   Stamp times[kLanes];
   bool missing[kLanes] = {};
   const Stamp latest = turtlewire::latest_common_time(path);
@@ -94,13 +97,15 @@ void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, 
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (!missing[i]) continue;
     Pose unused;
-    statuses[i] = shared_.buffer.lookup(path, times[i], unused, nullptr);  // tf2's order decides which link it blames
+    statuses[i] = shared_.buffer.lookup(path, times[i], unused,
+                                        nullptr);  // tf2's order decides which link it blames
     poses.set(i, kNoPose);
   }
 }
 
 // An arm without steps is the identity.
-void BatchLookup::arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints, bool* missing, Lanes& result) {
+void BatchLookup::arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints,
+                      bool* missing, Lanes& result) {
   if (steps.empty()) result.fill({});
   for (std::size_t s = 0; s < steps.size(); ++s) {
     Lanes step;
@@ -114,7 +119,8 @@ void BatchLookup::arm(const std::vector<Step>& steps, const Stamp* stamps, Hints
   }
 }
 
-void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing, Lanes& result) {
+void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing,
+                            Lanes& result) {
   const Samples& samples = link.samples();
   const Stamp oldest = samples.oldest(), newest = samples.newest();
   const std::size_t last = samples.size() - 1;
@@ -147,7 +153,8 @@ void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& 
   }
   kernels().interpolate(older, newer, ratios, result, cosines);
   for (std::size_t i = 0; i < kLanes; ++i) {
-    if (cosines[i] <= kNineTermsCosine) result.set(i, interpolate(older.pose(i), newer.pose(i), ratios[i]));
+    if (cosines[i] <= kNineTermsCosine)
+      result.set(i, interpolate(older.pose(i), newer.pose(i), ratios[i]));
   }
 }
 
@@ -181,8 +188,8 @@ class Forest {
     for (; !line_.empty(); line_.pop_back()) {
       Node& node = nodes_[line_.back()];
       const bool fits = above.state == State::known && node.link.status == ReadStatus::ok;
-      node = {fits ? State::known : State::failed, above.root, fits ? above.root_from * node.link.pose : Pose{},
-              node.link};
+      node = {fits ? State::known : State::failed, above.root,
+              fits ? above.root_from * node.link.pose : Pose{}, node.link};
       above = node;
     }
     root = above.root;
@@ -207,8 +214,8 @@ class Forest {
 
 }  // namespace
 
-Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t, std::vector<FramePose>& found,
-                  Failure& failure) {
+Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
+                  std::vector<FramePose>& found, Failure& failure) {
   found.clear();
   const std::scoped_lock lock(shared.mutex);
   Buffer& buffer = shared.buffer;
@@ -252,18 +259,22 @@ Vec3 rotation_vector(const Quat& q) {
   return {sign * factor * q.x, sign * factor * q.y, sign * factor * q.z};
 }
 
-// The body's mean motion from one time to another: the chord of the point's way, and the turn in the observer's axes.
-Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_point, Stamp interval) {
+// The body's mean motion from one time to another: the chord of the point's way, and the turn in
+// the observer's axes.
+Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_point,
+                       Stamp interval) {
   const double per_second = 1.0 / (kNanosecond * static_cast<double>(interval));
   const Vec3 way = (last.translation + rotate(last.rotation, fixed_point)) -
                    (first.translation + rotate(first.rotation, fixed_point));
-  return {per_second * way, per_second * rotation_vector(last.rotation * conjugate(first.rotation))};
+  return {per_second * way,
+          per_second * rotation_vector(last.rotation * conjugate(first.rotation))};
 }
 
 }  // namespace
 
 std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityRequest& request,
-                                         std::span<const Stamp> stamps, Velocity* velocities, Status* statuses) {
+                                         std::span<const Stamp> stamps, Velocity* velocities,
+                                         Status* statuses) {
   BatchLookup motion(shared, request.observer, request.tracking);
   BatchLookup axes(shared, request.axes, request.observer);
   BatchLookup point(shared, request.tracking, request.point_frame);
@@ -291,7 +302,8 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
     for (std::size_t i = 0; i < n; ++i) {
       const Pose at = body.pose(i);
       const Vec3 fixed_point = at.translation + rotate(at.rotation, request.point);
-      const Velocity seen = mean_velocity(first.pose(i), last.pose(i), fixed_point, request.interval);
+      const Velocity seen =
+          mean_velocity(first.pose(i), last.pose(i), fixed_point, request.interval);
       const Quat to_axes = turn.pose(i).rotation;
       velocities[begin + i] = {rotate(to_axes, seen.linear), rotate(to_axes, seen.angular)};
       std::size_t step = 0;

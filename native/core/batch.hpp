@@ -12,8 +12,9 @@
 
 namespace turtlewire {
 
-// target_from_source at many times. The buffer is locked for each block only, so others get their turn in between; each
-// block's answers belong to one state of the buffer. Where there is no answer the pose is NaN, and the status says why.
+// target_from_source at many times. The buffer is locked for each block only, so others get their
+// turn in between; each block's answers belong to one state of the buffer. Where there is no answer
+// the pose is NaN, and the status says why.
 class BatchLookup {
  public:
   BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source);
@@ -28,10 +29,14 @@ class BatchLookup {
   using Hints = std::vector<std::size_t>;
 
   const Path* path();  // call with the lock held
-  void scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses);
-  void direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses, Status* statuses);
-  void arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints, bool* missing, Lanes& result);
-  void read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing, Lanes& result);
+  void scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+                    Status* statuses);
+  void direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+                    Status* statuses);
+  void arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints, bool* missing,
+           Lanes& result);
+  void read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing,
+                 Lanes& result);
 
   SharedBuffer& shared_;
   std::string target_, source_;
@@ -41,28 +46,31 @@ class BatchLookup {
   Hints up_hints_, down_hints_;
 };
 
-// The poses of all frames that have one, in `target` at one time; 0 takes the latest common time of each.
+// The poses of all frames that have one, in `target` at one time; 0 takes the latest common time of
+// each.
 struct FramePose {
   std::string frame;
   Stamp stamp;
   Pose target_from_frame;
 };
-Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t, std::vector<FramePose>& found,
-                  Failure& failure);
+Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
+                  std::vector<FramePose>& found, Failure& failure);
 
 // How a frame moves, as seen by an observer.
 struct VelocityRequest {
   std::string_view tracking, observer;  // the frame that moves; the frame that is taken for at rest
   std::string_view axes;                // the frame in whose axes the answer is given
-  std::string_view point_frame;         // the point moves with `tracking`; it is given in this frame
+  std::string_view point_frame;  // the point moves with `tracking`; it is given in this frame
   Vec3 point;
-  Stamp interval;  // the time over which the mean is taken, around the stamp, or before the latest data
+  Stamp interval;  // the time over which the mean is taken, around the stamp, or before the latest
+                   // data
 };
 struct Velocity {
   Vec3 linear, angular;
 };
 // The first lookup that has no answer, if any; its names are those of the request.
 std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityRequest& request,
-                                         std::span<const Stamp> stamps, Velocity* velocities, Status* statuses);
+                                         std::span<const Stamp> stamps, Velocity* velocities,
+                                         Status* statuses);
 
 }  // namespace turtlewire

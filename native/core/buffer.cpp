@@ -40,10 +40,12 @@ FrameId Buffer::frame(std::string_view name) {
   return id;
 }
 
-FrameId Buffer::predicted(FrameId id, std::string_view name) const { return id != 0 && frames_[id] == name ? id : 0; }
+FrameId Buffer::predicted(FrameId id, std::string_view name) const {
+  return id != 0 && frames_[id] == name ? id : 0;
+}
 
-Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose, SourceId source,
-                    bool is_static) {
+Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
+                    SourceId source, bool is_static) {
   parent = without_slash(parent);
   child = without_slash(child);
   FrameId child_id = predicted(last_link_->follower, child);
@@ -81,8 +83,8 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
   return Verdict::accepted;
 }
 
-Verdict Buffer::refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
-                       SourceId source) {
+Verdict Buffer::refuse(Verdict verdict, std::string_view parent, std::string_view child,
+                       Stamp stamp, const Pose& pose, SourceId source) {
   refusals_.add({verdict, parent, child, senders_[source], stamp, pose});
   return verdict;
 }
@@ -94,9 +96,10 @@ bool Buffer::remove(FrameId child) {
   *links_[child] = Link();
   links_[child]->follower = follower;
   for (const FrameId frame : {child, parent}) {
-    const bool is_parent =
-        std::any_of(links_.begin(), links_.end(), [&](const auto& link) { return link->mentions(frame); });
-    if (frame != 0 && links_[frame]->kind() == LinkKind::none && !is_parent) forgotten_[frame] = true;
+    const bool is_parent = std::any_of(links_.begin(), links_.end(),
+                                       [&](const auto& link) { return link->mentions(frame); });
+    if (frame != 0 && links_[frame]->kind() == LinkKind::none && !is_parent)
+      forgotten_[frame] = true;
   }
   ++version_;
   return true;
@@ -120,7 +123,8 @@ Status Buffer::resolve(std::string_view name, FrameId& id) const {
 
 // The top of the frame's present tree; some frame of the loop, should there be one.
 FrameId Buffer::root(FrameId frame) const {
-  for (int depth = 0; links_[frame]->has_data() && depth < kMaxGraphDepth; ++depth) frame = links_[frame]->parent();
+  for (int depth = 0; links_[frame]->has_data() && depth < kMaxGraphDepth; ++depth)
+    frame = links_[frame]->parent();
   return frame;
 }
 
@@ -141,13 +145,16 @@ const Path& Buffer::path(FrameId target, FrameId source) {
   return *known;
 }
 
-// The frames from `frame` to its root. False if a walk up this line can end otherwise than at the root.
+// The frames from `frame` to its root. False if a walk up this line can end otherwise than at the
+// root.
 bool Buffer::ancestors(FrameId frame, std::vector<FrameId>& line) const {
   for (;; frame = links_[frame]->parent()) {
     line.push_back(frame);
     const Link& link = *links_[frame];
     if (link.kind() == LinkKind::none) return true;
-    if (!link.has_data() || link.reparented() || link.has_infinity() || line.size() > kMaxGraphDepth) return false;
+    if (!link.has_data() || link.reparented() || link.has_infinity() ||
+        line.size() > kMaxGraphDepth)
+      return false;
   }
 }
 

@@ -20,8 +20,8 @@ namespace turtlewire {
 inline constexpr std::string_view kNoParent = "NO_PARENT";
 inline constexpr int kMaxGraphDepth = 1000;  // tf2 takes more hops for a loop
 
-// What a link is asked for: its pose at a time; that, but up to `beyond` outside of its data; or its newest pose, if
-// that is not older than `max_age` at the time.
+// What a link is asked for: its pose at a time; that, but up to `beyond` outside of its data; or
+// its newest pose, if that is not older than `max_age` at the time.
 struct Rule {
   Stamp t = 0;
   Stamp beyond = 0;
@@ -39,20 +39,24 @@ class Buffer {
 
   // -- in
   // Adds one sample. `pose` is as received; a leading '/' of the names is dropped.
-  Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose, SourceId source,
-              bool is_static);
+  Verdict set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
+              SourceId source, bool is_static);
   // Forgets all samples; frames, static transforms and senders stay, as in tf2.
   void clear();
-  // Forgets one link, its history and its static pose; and the names that then stand for nothing. False if there is
-  // none.
+  // Forgets one link, its history and its static pose; and the names that then stand for nothing.
+  // False if there is none.
   bool remove(FrameId child);
   SourceId sender(std::string_view name) { return senders_.intern(name); }
   std::string_view sender_name(SourceId id) const { return senders_[id]; }
   // For a sender whose name becomes known only after its first data.
-  void rename_sender(std::string_view name, std::string_view shown) { senders_.rename(name, shown); }
+  void rename_sender(std::string_view name, std::string_view shown) {
+    senders_.rename(name, shown);
+  }
   const Refusals& refusals() const { return refusals_; }
   // Counts a message that could not be decoded.
-  void refuse_message(std::string_view fault, SourceId source) { refusals_.add_malformed(fault, source); }
+  void refuse_message(std::string_view fault, SourceId source) {
+    refusals_.add_malformed(fault, source);
+  }
 
   // -- names
   const Names& frames() const { return frames_; }
@@ -62,7 +66,8 @@ class Buffer {
   Status resolve(std::string_view name, FrameId& id) const;
 
   // -- out
-  // The way from source to target, made anew when the tree has changed; stays valid until the next change of the tree.
+  // The way from source to target, made anew when the tree has changed; stays valid until the next
+  // change of the tree.
   const Path& path(FrameId target, FrameId source);
   bool is_current(const Path& path) const { return path.version == version_; }
   // Counts the times that all paths were thrown away: pointers to paths of another epoch dangle.
@@ -72,9 +77,10 @@ class Buffer {
   Status lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const;
   Status can_transform(const Path& path, Stamp t, Failure* failure) const;
   Status latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const;
-  // target_from_source by other rules than tf2's for what a link answers. `used` receives the links on the way.
-  Status lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source, std::vector<FrameId>* used,
-                Failure* failure) const;
+  // target_from_source by other rules than tf2's for what a link answers. `used` receives the links
+  // on the way.
+  Status lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source,
+                std::vector<FrameId>* used, Failure* failure) const;
   // The link above a frame.
   const Link& link(FrameId frame) const { return *links_[frame]; }
   // Its newest stamp; 0 if there is none.
@@ -96,11 +102,12 @@ class Buffer {
   void build(Path& path) const;
   bool ancestors(FrameId frame, std::vector<FrameId>& line) const;
   void add_step(std::vector<Step>& arm, const Link& link) const;
-  Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
-                 SourceId source);
-  Status walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source, Failure* failure) const;
-  Status climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source, std::vector<FrameId>* used,
-               Failure* failure) const;
+  Verdict refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
+                 const Pose& pose, SourceId source);
+  Status walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
+              Failure* failure) const;
+  Status climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
+               std::vector<FrameId>* used, Failure* failure) const;
   Status fail_loop(Failure* failure) const;
   Status fail_connection(FrameId first, FrameId second, Failure* failure) const;
   Status fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const;

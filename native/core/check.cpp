@@ -7,32 +7,38 @@ namespace turtlewire {
 
 std::string Link::fault() const {
   if (kind_ == LinkKind::none && (parent_ != 0 || !samples_.empty())) return "a root has data";
-  if (is_static() && (parent_ == 0 || !samples_.empty())) return "a static link has a history or no parent";
+  if (is_static() && (parent_ == 0 || !samples_.empty()))
+    return "a static link has a history or no parent";
   if (kind_ == LinkKind::dynamic_link && (parent_ == 0) != samples_.empty())
     return "a parent without samples, or the reverse";
   std::size_t changes = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& sample = samples_[i];
-    if (std::fabs(dot(sample.pose.rotation, sample.pose.rotation) - 1.0) > 1e-9) return "a rotation is not unit";
+    if (std::fabs(dot(sample.pose.rotation, sample.pose.rotation) - 1.0) > 1e-9)
+      return "a rotation is not unit";
     if (has_nan(sample.pose.translation) || sample.parent == 0) return "a sample is not valid";
-    if (!is_finite(sample.pose.translation) && !has_infinity_) return "an infinite sample is not known";
+    if (!is_finite(sample.pose.translation) && !has_infinity_)
+      return "an infinite sample is not known";
     if (i == 0) continue;
     if (samples_.stamp(i - 1) > samples_.stamp(i)) return "stamps are not in order";
     changes += samples_[i - 1].parent != sample.parent;
   }
   if (changes != parent_changes_) return "changes of the parent are miscounted";
-  if (!samples_.empty() && samples_.back().parent != parent_) return "the parent is not that of the newest sample";
+  if (!samples_.empty() && samples_.back().parent != parent_)
+    return "the parent is not that of the newest sample";
   if (samples_.size() > samples_.capacity()) return "more samples than room";
   return "";
 }
 
 std::string Buffer::fault() const {
-  if (links_.size() != frames_.size() || forgotten_.size() != frames_.size()) return "frames without a link";
+  if (links_.size() != frames_.size() || forgotten_.size() != frames_.size())
+    return "frames without a link";
   if (links_[0]->kind() != LinkKind::none) return "NO_PARENT has a parent";
   for (FrameId frame = 0; frame < links_.size(); ++frame) {
     const Link& link = *links_[frame];
     if (const std::string fault = link.fault(); !fault.empty()) return name(frame) + ": " + fault;
-    if (link.parent() >= links_.size() || link.follower >= links_.size()) return name(frame) + ": points nowhere";
+    if (link.parent() >= links_.size() || link.follower >= links_.size())
+      return name(frame) + ": points nowhere";
     if (link.has_data() && (forgotten_[frame] || forgotten_[link.parent()]))
       return name(frame) + ": forgotten, but in use";
   }
@@ -42,7 +48,8 @@ std::string Buffer::fault() const {
     build(fresh);
     if (fresh.direct != known->direct || fresh.up.size() != known->up.size() ||
         fresh.down.size() != known->down.size()) {
-      return "the path from " + name(known->source) + " to " + name(known->target) + " is out of date";
+      return "the path from " + name(known->source) + " to " + name(known->target) +
+             " is out of date";
     }
   }
   return "";

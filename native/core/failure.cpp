@@ -35,11 +35,14 @@ std::string explain_name(const Failure& f, Question question) {
     const char* why = f.status == Status::empty_name   ? "in tf2 frame_ids cannot be empty"
                       : f.status == Status::slash_name ? "in tf2 frame_ids cannot start with a '/'"
                                                        : "frame does not exist";
-    return "Invalid frame ID \"" + f.name + "\" passed to canTransform" + argument_name(f.argument) + " - " + why;
+    return "Invalid frame ID \"" + f.name + "\" passed to canTransform" +
+           argument_name(f.argument) + " - " + why;
   }
-  const std::string where = question == Question::lookup ? std::string("lookupTransform") + argument_name(f.argument)
-                                                         : std::string("get_latest_common_time");
-  if (f.status == Status::unknown_frame) return "\"" + f.name + "\" passed to " + where + " does not exist. ";
+  const std::string where = question == Question::lookup
+                                ? std::string("lookupTransform") + argument_name(f.argument)
+                                : std::string("get_latest_common_time");
+  if (f.status == Status::unknown_frame)
+    return "\"" + f.name + "\" passed to " + where + " does not exist. ";
   const char* why = f.status == Status::empty_name ? "cannot be empty" : "cannot start with a '/'";
   return "Invalid argument \"" + f.name + "\" passed to " + where + " - in tf2 frame_ids " + why;
 }
@@ -48,17 +51,21 @@ std::string explain_time(const Failure& f) {
   std::string text;
   if (f.status == Status::future) {
     text = format(
-        "Lookup would require extrapolation into the future.  Requested time %.6f but the latest data is at time %.6f",
+        "Lookup would require extrapolation into the future.  Requested time %.6f but the latest "
+        "data is at time %.6f",
         seconds(f.requested), seconds(f.newest));
   } else if (f.status == Status::past) {
     text = format(
-        "Lookup would require extrapolation into the past.  Requested time %.6f but the earliest data is at time %.6f",
+        "Lookup would require extrapolation into the past.  Requested time %.6f but the earliest "
+        "data is at time %.6f",
         seconds(f.requested), seconds(f.oldest));
   } else if (!f.emptied) {
-    text = format("Lookup would require extrapolation at time %.6f, but only time %.6f is in the buffer",
-                  seconds(f.requested), seconds(f.newest));
+    text = format(
+        "Lookup would require extrapolation at time %.6f, but only time %.6f is in the buffer",
+        seconds(f.requested), seconds(f.newest));
   }
-  return text + ", when looking up transform from frame [" + f.source + "] to frame [" + f.target + "]";
+  return text + ", when looking up transform from frame [" + f.source + "] to frame [" + f.target +
+         "]";
 }
 
 std::string values(const Pose& pose) {
@@ -101,11 +108,12 @@ std::string explain(const Refusal& r) {
       return "TF_NO_CHILD_FRAME_ID: Ignoring transform from authority \"" + authority +
              "\" because child_frame_id not set ";
     case Verdict::no_parent_frame:
-      return "TF_NO_FRAME_ID: Ignoring transform with child_frame_id \"" + child + "\"  from authority \"" + authority +
-             "\" because frame_id not set";
+      return "TF_NO_FRAME_ID: Ignoring transform with child_frame_id \"" + child +
+             "\"  from authority \"" + authority + "\" because frame_id not set";
     case Verdict::nan_value:
-      return "TF_NAN_INPUT: Ignoring transform for child_frame_id \"" + child + "\" from authority \"" + authority +
-             "\" because of a nan value in the transform " + values(r.pose);
+      return "TF_NAN_INPUT: Ignoring transform for child_frame_id \"" + child +
+             "\" from authority \"" + authority + "\" because of a nan value in the transform " +
+             values(r.pose);
     case Verdict::old_data:
       return "TF_OLD_DATA ignoring data from the past for frame " + child + " at time " +
              format("%.6f", seconds(r.stamp)) + " according to authority " + authority +

@@ -1,4 +1,5 @@
-// Why a question has no answer, and why a transform was refused: facts while the buffer is locked, words afterwards.
+// Why a question has no answer, and why a transform was refused: facts while the buffer is locked,
+// words afterwards.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +33,10 @@ struct Failure {
   std::string name;                      // likewise
   std::string target, source;            // of this step: a lookup through a fixed frame has two
   std::string target_root, source_root;  // of two frames that are not connected
-  std::string link_child, link_parent;   // the link whose data does not reach, with its newest parent
-  bool emptied = false;                  // that link has no sample at all
-  bool latest = false;                   // the latest time was asked for, which new data moves on
+  std::string link_child,
+      link_parent;       // the link whose data does not reach, with its newest parent
+  bool emptied = false;  // that link has no sample at all
+  bool latest = false;   // the latest time was asked for, which new data moves on
   Stamp requested = 0, oldest = 0, newest = 0;
   std::string frames;  // all_frames_as_string() of a tree with a loop
 };
@@ -61,7 +63,8 @@ struct Refusal {
   Pose pose{};
 };
 
-// tf2's text for its own reasons, without the final newline; ours for the reasons that only we have.
+// tf2's text for its own reasons, without the final newline; ours for the reasons that only we
+// have.
 std::string explain(const Refusal& refusal);
 
 }  // namespace turtlewire

@@ -23,7 +23,8 @@ const std::string* Intake::name_of(std::uint64_t publisher) const {
 bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes) {
   const std::string* name = name_of(publisher);
   if (buffers_.empty() || name == nullptr) return false;
-  if (bytes.size() < 2 || bytes[1] != 1 || !message_.decode(bytes.data(), bytes.size()).empty()) return false;
+  if (bytes.size() < 2 || bytes[1] != 1 || !message_.decode(bytes.data(), bytes.size()).empty())
+    return false;
   for (SharedBuffer* buffer : buffers_) {
     const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
@@ -54,7 +55,8 @@ std::deque<Intake::Kept> Intake::take() {
   called_ = false;
   while (!kept_.empty() && store(kept_.front().publisher, kept_.front().bytes)) kept_.pop_front();
   std::deque<Kept> taken;
-  while (!kept_.empty() && (taken.empty() || buffers_.empty() || name_of(kept_.front().publisher) == nullptr)) {
+  while (!kept_.empty() &&
+         (taken.empty() || buffers_.empty() || name_of(kept_.front().publisher) == nullptr)) {
     taken.push_back(std::move(kept_.front()));
     kept_.pop_front();
   }

@@ -1,4 +1,5 @@
-// Feeds buffers with messages on whatever thread brings them, and keeps back those that need more than that.
+// Feeds buffers with messages on whatever thread brings them, and keeps back those that need more
+// than that.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,9 @@
 
 namespace turtlewire {
 
-// Somebody else, the caretaker, takes what needs him: messages of publishers without a name, and malformed ones. The
-// order of all messages is kept: until he has come back for more in vain, the next ones are kept back as well.
+// Somebody else, the caretaker, takes what needs him: messages of publishers without a name, and
+// malformed ones. The order of all messages is kept: until he has come back for more in vain, the
+// next ones are kept back as well.
 class Intake {
  public:
   struct Kept {
@@ -29,23 +31,26 @@ class Intake {
   // At most `most_kept` messages are kept back, the newest ones; 0: any number.
   Intake(bool is_static, std::size_t most_kept) : is_static_(is_static), most_kept_(most_kept) {}
 
-  // Stores a message, or keeps it back. True if the caretaker is to be woken, which he was not before.
+  // Stores a message, or keeps it back. True if the caretaker is to be woken, which he was not
+  // before.
   bool receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes);
 
-  // Which buffers to fill from now on, when this returns no other ones; without any, everything is kept back.
+  // Which buffers to fill from now on, when this returns no other ones; without any, everything is
+  // kept back.
   void feed(std::vector<SharedBuffer*> buffers);
   // Which publisher the middleware means by a number, and how a publisher is called.
   void introduce(std::uint64_t publisher, std::string_view gid);
   void name(std::string_view gid, std::string_view name);
 
-  // For the caretaker, who repeats it until there is nothing: the next messages kept back that need him. Those before
-  // them that need him no more are stored.
+  // For the caretaker, who repeats it until there is nothing: the next messages kept back that need
+  // him. Those before them that need him no more are stored.
   std::deque<Kept> take();
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
 
  private:
-  static constexpr std::size_t kMostPublishers = 1000;  // they come and go; beyond it, all are introduced anew
+  static constexpr std::size_t kMostPublishers =
+      1000;  // they come and go; beyond it, all are introduced anew
   struct Publisher {
     std::string gid, name;
   };

@@ -1,4 +1,5 @@
-// Interpolation between two samples: a straight line for the translation, the shortest great arc for the rotation.
+// Interpolation between two samples: a straight line for the translation, the shortest great arc
+// for the rotation.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,8 @@ struct Weights {
 
 namespace detail {
 
-// sin(k·θ)/sin(θ) as a series in (cos θ - 1), truncated after `Terms` terms; no trigonometric function, no division.
-// D. Eberly, "A Fast and Accurate Algorithm for Computing SLERP", 2011.
+// sin(k·θ)/sin(θ) as a series in (cos θ - 1), truncated after `Terms` terms; no trigonometric
+// function, no division. D. Eberly, "A Fast and Accurate Algorithm for Computing SLERP", 2011.
 template <int Terms>
 inline double arc_weight(double k, double cos_minus_one) {
   const double k2 = k * k;
@@ -29,17 +30,21 @@ inline double arc_weight(double k, double cos_minus_one) {
 
 }  // namespace detail
 
-// Below these cosines the series of 4 and of 9 terms no longer reaches 1e-15 (native/tests measures it).
+// Below these cosines the series of 4 and of 9 terms no longer reaches 1e-15 (native/tests measures
+// it).
 inline constexpr double kFourTermsCosine = 0.9997;
 inline constexpr double kNineTermsCosine = 0.98;
 
-// The weights of SLERP for an angle of at most a quarter turn (cosine >= 0; q and -q are one rotation).
+// The weights of SLERP for an angle of at most a quarter turn (cosine >= 0; q and -q are one
+// rotation).
 inline Weights arc_weights(double cosine, double ratio) {
   if (cosine > kFourTermsCosine) [[likely]] {
-    return {detail::arc_weight<4>(1.0 - ratio, cosine - 1.0), detail::arc_weight<4>(ratio, cosine - 1.0)};
+    return {detail::arc_weight<4>(1.0 - ratio, cosine - 1.0),
+            detail::arc_weight<4>(ratio, cosine - 1.0)};
   }
   if (cosine > kNineTermsCosine) {
-    return {detail::arc_weight<9>(1.0 - ratio, cosine - 1.0), detail::arc_weight<9>(ratio, cosine - 1.0)};
+    return {detail::arc_weight<9>(1.0 - ratio, cosine - 1.0),
+            detail::arc_weight<9>(ratio, cosine - 1.0)};
   }
   const double angle = std::acos(std::min(cosine, 1.0));
   const double scale = 1.0 / std::sin(angle);
@@ -55,7 +60,8 @@ inline Quat slerp(const Quat& older, const Quat& newer, double ratio) {
 }
 
 inline Pose interpolate(const Pose& older, const Pose& newer, double ratio) {
-  return {(1.0 - ratio) * older.translation + ratio * newer.translation, slerp(older.rotation, newer.rotation, ratio)};
+  return {(1.0 - ratio) * older.translation + ratio * newer.translation,
+          slerp(older.rotation, newer.rotation, ratio)};
 }
 
 }  // namespace turtlewire

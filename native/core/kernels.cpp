@@ -1,5 +1,5 @@
-// Compiled with contraction allowed: where the processor has fused multiply-add, it is used. Results differ by
-// rounding.
+// Compiled with contraction allowed: where the processor has fused multiply-add, it is used.
+// Results differ by rounding.
 #include "kernels.hpp"
 
 #include "interpolate.hpp"
@@ -7,15 +7,17 @@
 namespace turtlewire {
 namespace {
 
-// The bodies, written once. Each is inlined into one function for each kind of processor, whose instructions it then
-// uses.
+// The bodies, written once. Each is inlined into one function for each kind of processor, whose
+// instructions it then uses.
 
-[[gnu::always_inline]] inline void interpolate_lanes(const Lanes& a, const Lanes& b, const double* ratio, Lanes& result,
+[[gnu::always_inline]] inline void interpolate_lanes(const Lanes& a, const Lanes& b,
+                                                     const double* ratio, Lanes& result,
                                                      double* cosine) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     const double u = ratio[i], w = 1.0 - u;
     for (std::size_t k = 0; k < 3; ++k) result.v[k][i] = w * a.v[k][i] + u * b.v[k][i];
-    const double c = a.v[3][i] * b.v[3][i] + a.v[4][i] * b.v[4][i] + a.v[5][i] * b.v[5][i] + a.v[6][i] * b.v[6][i];
+    const double c = a.v[3][i] * b.v[3][i] + a.v[4][i] * b.v[4][i] + a.v[5][i] * b.v[5][i] +
+                     a.v[6][i] * b.v[6][i];
     const double x = std::fabs(c) - 1.0;
     cosine[i] = std::fabs(c);
     const double wa = detail::arc_weight<9>(w, x);
@@ -57,7 +59,8 @@ namespace {
 [[gnu::always_inline]] inline void apply_lanes(const Lanes& poses, double* points) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     const Pose p = poses.pose(i);
-    const Vec3 moved = p.translation + rotate(p.rotation, {points[3 * i], points[3 * i + 1], points[3 * i + 2]});
+    const Vec3 moved =
+        p.translation + rotate(p.rotation, {points[3 * i], points[3 * i + 1], points[3 * i + 2]});
     points[3 * i] = moved.x;
     points[3 * i + 1] = moved.y;
     points[3 * i + 2] = moved.z;
@@ -65,7 +68,8 @@ namespace {
 }
 
 namespace plain {
-void interpolate(const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result, double* cosine) {
+void interpolate(const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result,
+                 double* cosine) {
   interpolate_lanes(older, newer, ratio, result, cosine);
 }
 void compose(const Lanes& outer, Lanes& result) { compose_lanes(outer, result); }
@@ -77,31 +81,41 @@ constexpr Kernels all{"plain", interpolate, compose, between, canonicalize, appl
 
 #if defined(__GNUC__) && defined(__x86_64__)
 namespace avx2 {
-[[gnu::target("avx2,fma")]] void interpolate(const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result,
-                                             double* cosine) {
+[[gnu::target("avx2,fma")]] void interpolate(const Lanes& older, const Lanes& newer,
+                                             const double* ratio, Lanes& result, double* cosine) {
   interpolate_lanes(older, newer, ratio, result, cosine);
 }
-[[gnu::target("avx2,fma")]] void compose(const Lanes& outer, Lanes& result) { compose_lanes(outer, result); }
-[[gnu::target("avx2,fma")]] void between(const Lanes& base, Lanes& result) { between_lanes(base, result); }
+[[gnu::target("avx2,fma")]] void compose(const Lanes& outer, Lanes& result) {
+  compose_lanes(outer, result);
+}
+[[gnu::target("avx2,fma")]] void between(const Lanes& base, Lanes& result) {
+  between_lanes(base, result);
+}
 [[gnu::target("avx2,fma")]] void canonicalize(Lanes& result) { canonicalize_lanes(result); }
-[[gnu::target("avx2,fma")]] void apply(const Lanes& poses, double* points) { apply_lanes(poses, points); }
+[[gnu::target("avx2,fma")]] void apply(const Lanes& poses, double* points) {
+  apply_lanes(poses, points);
+}
 constexpr Kernels all{"avx2", interpolate, compose, between, canonicalize, apply};
 }  // namespace avx2
 
 namespace avx512 {
-[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void interpolate(const Lanes& older, const Lanes& newer,
-                                                                       const double* ratio, Lanes& result,
-                                                                       double* cosine) {
+[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void interpolate(
+    const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result, double* cosine) {
   interpolate_lanes(older, newer, ratio, result, cosine);
 }
-[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void compose(const Lanes& outer, Lanes& result) {
+[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void compose(const Lanes& outer,
+                                                                   Lanes& result) {
   compose_lanes(outer, result);
 }
-[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void between(const Lanes& base, Lanes& result) {
+[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void between(const Lanes& base,
+                                                                   Lanes& result) {
   between_lanes(base, result);
 }
-[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void canonicalize(Lanes& result) { canonicalize_lanes(result); }
-[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void apply(const Lanes& poses, double* points) {
+[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void canonicalize(Lanes& result) {
+  canonicalize_lanes(result);
+}
+[[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]] void apply(const Lanes& poses,
+                                                                 double* points) {
   apply_lanes(poses, points);
 }
 constexpr Kernels all{"avx512", interpolate, compose, between, canonicalize, apply};
@@ -110,7 +124,8 @@ constexpr Kernels all{"avx512", interpolate, compose, between, canonicalize, app
 std::vector<const Kernels*> usable() {
   std::vector<const Kernels*> found{&plain::all};
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) found.push_back(&avx2::all);
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) found.push_back(&avx512::all);
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    found.push_back(&avx512::all);
   return found;
 }
 #else

@@ -1,4 +1,5 @@
-// The arithmetic of a batch: the same few steps on many poses at once, chosen at run time for the processor.
+// The arithmetic of a batch: the same few steps on many poses at once, chosen at run time for the
+// processor.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,9 @@ inline constexpr std::size_t kLanes = 64;
 struct Lanes {
   alignas(64) double v[7][kLanes];
 
-  Pose pose(std::size_t i) const { return {{v[0][i], v[1][i], v[2][i]}, {v[3][i], v[4][i], v[5][i], v[6][i]}}; }
+  Pose pose(std::size_t i) const {
+    return {{v[0][i], v[1][i], v[2][i]}, {v[3][i], v[4][i], v[5][i], v[6][i]}};
+  }
   void set(std::size_t i, const Pose& p) {
     const double values[7] = {p.translation.x, p.translation.y, p.translation.z, p.rotation.x,
                               p.rotation.y,    p.rotation.z,    p.rotation.w};
@@ -27,9 +30,10 @@ struct Lanes {
 
 struct Kernels {
   const char* name;
-  // Each lane a part `ratio` of the way from older to newer. Where |cosine| is below kNineTermsCosine the rotation is
-  // not exact, and the caller does it again.
-  void (*interpolate)(const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result, double* cosine);
+  // Each lane a part `ratio` of the way from older to newer. Where |cosine| is below
+  // kNineTermsCosine the rotation is not exact, and the caller does it again.
+  void (*interpolate)(const Lanes& older, const Lanes& newer, const double* ratio, Lanes& result,
+                      double* cosine);
   // result = outer * result
   void (*compose)(const Lanes& outer, Lanes& result);
   // result = inverse(base) * result

@@ -1,4 +1,5 @@
-// One link of the tree: how a child frame lies in its parent, over time (dynamic) or forever (static).
+// One link of the tree: how a child frame lies in its parent, over time (dynamic) or forever
+// (static).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,11 @@
 
 namespace turtlewire {
 
-enum class LinkKind : std::uint8_t { none, dynamic_link, static_link };  // none: nothing was ever sent; a root
+enum class LinkKind : std::uint8_t {
+  none,
+  dynamic_link,
+  static_link
+};  // none: nothing was ever sent; a root
 
 enum class ReadStatus : std::uint8_t { ok, no_data, future, past };
 
@@ -33,11 +38,13 @@ struct Reading {
 
 class Link {
  public:
-  static constexpr std::size_t kMostSenders = 16;  // beyond it the one that has been silent longest is forgotten
+  static constexpr std::size_t kMostSenders =
+      16;  // beyond it the one that has been silent longest is forgotten
 
   FrameId follower = 0;  // the child that came after this one last time: saves hashing its name
 
-  // Beyond this many values of one stamp only the first, the last and the count are kept: memory stays bounded.
+  // Beyond this many values of one stamp only the first, the last and the count are kept: memory
+  // stays bounded.
   static constexpr std::size_t kMostPerStamp = 1000;
 
   LinkKind kind() const { return kind_; }
@@ -68,14 +75,18 @@ class Link {
   bool mentions(FrameId frame) const {
     if (!has_data()) return false;
     bool found = parent_ == frame;
-    for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i) found |= samples_[i].parent == frame;
+    for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i)
+      found |= samples_[i].parent == frame;
     return found;
   }
 
-  // All that a path between two frames depends on, but for the samples themselves; equal shapes, equal paths.
+  // All that a path between two frames depends on, but for the samples themselves; equal shapes,
+  // equal paths.
   std::uint64_t shape() const {
-    const auto flags = static_cast<std::uint64_t>(kind_) | static_cast<std::uint64_t>(has_data()) << 2 |
-                       static_cast<std::uint64_t>(reparented()) << 3 | static_cast<std::uint64_t>(has_infinity_) << 4;
+    const auto flags = static_cast<std::uint64_t>(kind_) |
+                       static_cast<std::uint64_t>(has_data()) << 2 |
+                       static_cast<std::uint64_t>(reparented()) << 3 |
+                       static_cast<std::uint64_t>(has_infinity_) << 4;
     return flags << 32 | parent_;
   }
 
@@ -93,8 +104,8 @@ class Link {
     has_infinity_ = !is_finite(pose.translation);
   }
 
-  // tf2's order of things: drop what is too old by the newest stamp so far, refuse what is older than that, and put a
-  // sample of a known stamp behind those that came before it.
+  // tf2's order of things: drop what is too old by the newest stamp so far, refuse what is older
+  // than that, and put a sample of a known stamp behind those that came before it.
   InsertStatus insert(Stamp stamp, const Sample& sample, Stamp keep) {
     if (samples_.empty()) {
       append(stamp, sample, keep);
@@ -140,7 +151,8 @@ class Link {
     if (is_static()) return {ReadStatus::ok, parent_, static_pose_};
     if (samples_.empty()) return {};
     if (t == 0) return sample_reading(samples_.back());
-    if (samples_.size() == 1) return samples_.newest() == t ? sample_reading(samples_.back()) : Reading{};
+    if (samples_.size() == 1)
+      return samples_.newest() == t ? sample_reading(samples_.back()) : Reading{};
     if (t >= samples_.newest())
       return t == samples_.newest() ? sample_reading(samples_.back()) : Reading{ReadStatus::future};
     if (t <= samples_.oldest())
@@ -152,8 +164,8 @@ class Link {
     return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
   }
 
-  // As read, but up to `limit` before the oldest and after the newest sample: the motion between the two outermost
-  // samples is taken to go on.
+  // As read, but up to `limit` before the oldest and after the newest sample: the motion between
+  // the two outermost samples is taken to go on.
   Reading read_beyond(Stamp t, Stamp limit) const {
     const Reading reading = read(t);
     if (reading.status != ReadStatus::future && reading.status != ReadStatus::past) return reading;
@@ -161,7 +173,8 @@ class Link {
     const std::size_t i = after ? samples_.size() - 2 : 0;
     const Stamp gap = after ? t - samples_.newest() : samples_.oldest() - t;
     const Sample &older = samples_[i], &newer = samples_[i + 1];
-    if (gap > limit || older.parent != newer.parent || samples_.stamp(i) == samples_.stamp(i + 1)) return reading;
+    if (gap > limit || older.parent != newer.parent || samples_.stamp(i) == samples_.stamp(i + 1))
+      return reading;
     return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
   }
 
@@ -195,7 +208,9 @@ class Link {
     std::size_t dropped;
   };
 
-  static Reading sample_reading(const Sample& sample) { return {ReadStatus::ok, sample.parent, sample.pose}; }
+  static Reading sample_reading(const Sample& sample) {
+    return {ReadStatus::ok, sample.parent, sample.pose};
+  }
 
   double ratio(std::size_t i, Stamp t) const {
     const Stamp older = samples_.stamp(i);
@@ -210,7 +225,8 @@ class Link {
 
   InsertStatus insert_late(Stamp stamp, const Sample& sample, Stamp keep) {
     std::size_t end = samples_.size();
-    if (stamp < samples_.newest()) end = stamp < samples_.oldest() ? 0 : samples_.last_at_or_before(stamp) + 1;
+    if (stamp < samples_.newest())
+      end = stamp < samples_.oldest() ? 0 : samples_.last_at_or_before(stamp) + 1;
     std::size_t begin = end;
     while (begin > 0 && samples_.stamp(begin - 1) == stamp) {
       --begin;
@@ -229,7 +245,8 @@ class Link {
 
   void replace_last_of_flood(std::size_t i, Stamp stamp, const Sample& sample) {
     samples_[i] = sample;
-    const auto known = std::find_if(floods_.begin(), floods_.end(), [&](const Flood& f) { return f.stamp == stamp; });
+    const auto known = std::find_if(floods_.begin(), floods_.end(),
+                                    [&](const Flood& f) { return f.stamp == stamp; });
     if (known != floods_.end()) {
       ++known->dropped;
     } else {
@@ -239,13 +256,15 @@ class Link {
 
   void change_sender(SourceId id, FrameId parent) {
     if (sender_.samples > 0) former_senders_.push_back(sender_);
-    const auto known = std::find_if(former_senders_.begin(), former_senders_.end(),
-                                    [&](const Sender& s) { return s.id == id && s.parent == parent; });
+    const auto known =
+        std::find_if(former_senders_.begin(), former_senders_.end(),
+                     [&](const Sender& s) { return s.id == id && s.parent == parent; });
     sender_ = known != former_senders_.end() ? *known : Sender{id, parent};
     if (known != former_senders_.end()) former_senders_.erase(known);
     if (former_senders_.size() < kMostSenders) return;
-    former_senders_.erase(std::min_element(former_senders_.begin(), former_senders_.end(),
-                                           [](const Sender& a, const Sender& b) { return a.newest < b.newest; }));
+    former_senders_.erase(
+        std::min_element(former_senders_.begin(), former_senders_.end(),
+                         [](const Sender& a, const Sender& b) { return a.newest < b.newest; }));
   }
 
   void note(const Sample& sample) {
@@ -264,7 +283,8 @@ class Link {
 
   void count_parent_changes() {
     parent_changes_ = 0;
-    for (std::size_t i = 1; i < samples_.size(); ++i) parent_changes_ += samples_[i].parent != samples_[i - 1].parent;
+    for (std::size_t i = 1; i < samples_.size(); ++i)
+      parent_changes_ += samples_[i].parent != samples_[i - 1].parent;
   }
 
   void clear_samples() {

@@ -13,7 +13,8 @@ std::size_t continuation_bytes(unsigned char lead) {
   return 4;  // no lead byte
 }
 
-// The second byte of E0, ED, F0 and F4 is restricted: no overlong form, no surrogate, nothing above U+10FFFF.
+// The second byte of E0, ED, F0 and F4 is restricted: no overlong form, no surrogate, nothing above
+// U+10FFFF.
 bool second_byte_fits(unsigned char lead, unsigned char second) {
   if (lead == 0xE0) return second >= 0xA0;
   if (lead == 0xED) return second <= 0x9F;

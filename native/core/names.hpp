@@ -32,7 +32,9 @@ class Names {
   }
 
   // What is called `name`, now or later, is shown as `shown` from now on.
-  void rename(std::string_view name, std::string_view shown) { names_[intern(name)] = texts_.emplace_back(shown); }
+  void rename(std::string_view name, std::string_view shown) {
+    names_[intern(name)] = texts_.emplace_back(shown);
+  }
 
  private:
   std::deque<std::string> texts_;  // a deque, because the two below point into it

@@ -18,8 +18,9 @@ struct Step {
 struct Path {
   FrameId target = 0, source = 0;
   std::uint64_t version = 0;  // of the tree it was made for; 0: never made
-  // Whether the steps give the answer. If not (frames unconnected, a loop, links with changing parents, emptied links
-  // or infinite values on the way to the root), each lookup walks the tree as tf2 does.
+  // Whether the steps give the answer. If not (frames unconnected, a loop, links with changing
+  // parents, emptied links or infinite values on the way to the root), each lookup walks the tree
+  // as tf2 does.
   bool direct = false;
   std::vector<Step> up, down;
 };

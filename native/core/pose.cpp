@@ -13,28 +13,32 @@ Quat through_matrix(const Quat& q) {
   if (trace > 0.0) {
     const double root = std::sqrt(trace + 1.0);
     const double f = 0.5 / root;
-    return {((yz + wx) - (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f, ((xy + wz) - (xy - wz)) * f, root * 0.5};
+    return {((yz + wx) - (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f, ((xy + wz) - (xy - wz)) * f,
+            root * 0.5};
   }
   if (m00 >= m11 && m00 >= m22) {
     const double root = std::sqrt(m00 - m11 - m22 + 1.0);
     const double f = 0.5 / root;
-    return {root * 0.5, ((xy + wz) + (xy - wz)) * f, ((xz - wy) + (xz + wy)) * f, ((yz + wx) - (yz - wx)) * f};
+    return {root * 0.5, ((xy + wz) + (xy - wz)) * f, ((xz - wy) + (xz + wy)) * f,
+            ((yz + wx) - (yz - wx)) * f};
   }
   if (m11 >= m22) {
     const double root = std::sqrt(m11 - m22 - m00 + 1.0);
     const double f = 0.5 / root;
-    return {((xy - wz) + (xy + wz)) * f, root * 0.5, ((yz + wx) + (yz - wx)) * f, ((xz + wy) - (xz - wy)) * f};
+    return {((xy - wz) + (xy + wz)) * f, root * 0.5, ((yz + wx) + (yz - wx)) * f,
+            ((xz + wy) - (xz - wy)) * f};
   }
   const double root = std::sqrt(m22 - m00 - m11 + 1.0);
   const double f = 0.5 / root;
-  return {((xz + wy) + (xz - wy)) * f, ((yz - wx) + (yz + wx)) * f, root * 0.5, ((xy + wz) - (xy - wz)) * f};
+  return {((xz + wy) + (xz - wy)) * f, ((yz - wx) + (yz + wx)) * f, root * 0.5,
+          ((xy + wz) - (xy - wz)) * f};
 }
 
 Quat canonical_of_any_length(const Quat& q) {
   const double norm2 = dot(q, q);
   if (std::isnormal(norm2)) {
-    const double k =
-        std::ldexp(1.0, -static_cast<int>(std::lround(0.5 * std::log2(norm2))));  // exact, as all powers of 2
+    const double k = std::ldexp(
+        1.0, -static_cast<int>(std::lround(0.5 * std::log2(norm2))));  // exact, as all powers of 2
     const Quat scaled{k * q.x, k * q.y, k * q.z, k * q.w};
     if (std::fabs(dot(scaled, scaled) - 1.0) < 1e-8) return canonical(scaled);
   }

@@ -1,4 +1,5 @@
-// Rigid-body poses: a translation and a unit quaternion (x, y, z, w), and the arithmetic that tf2 does with them.
+// Rigid-body poses: a translation and a unit quaternion (x, y, z, w), and the arithmetic that tf2
+// does with them.
 #pragma once
 
 #include <cmath>
@@ -30,13 +31,16 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-inline double dot(const Quat& a, const Quat& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+inline double dot(const Quat& a, const Quat& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
 
 inline Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
 
 inline Quat operator*(const Quat& a, const Quat& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
-          a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+  return {
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+      a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 // The vector turned by the unit quaternion: v + 2w(u×v) + 2u×(u×v), with u the vector part.
@@ -56,23 +60,30 @@ inline Pose inverse(const Pose& p) {
   return {-1.0 * rotate(back, p.translation), back};
 }
 
-// inverse(a) * b, with the subtraction before the rotation: exact where both are far from the origin.
+// inverse(a) * b, with the subtraction before the rotation: exact where both are far from the
+// origin.
 inline Pose between(const Pose& a, const Pose& b) {
   const Quat back = conjugate(a.rotation);
   return {rotate(back, b.translation - a.translation), back * b.rotation};
 }
 
 inline bool has_nan(const Vec3& v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); }
-inline bool has_nan(const Quat& q) { return std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z) || std::isnan(q.w); }
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool has_nan(const Quat& q) {
+  return std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z) || std::isnan(q.w);
+}
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
-// tf2 stores a rotation by way of its 3x3 matrix. That normalises any length and picks one of q and -q: the sign that
-// makes w positive if the trace is, else the sign that makes the largest of x, y, z positive. Duplicates are compared
-// after it and a half turn interpolates by its sign, so the steps and their order are tf2's.
+// tf2 stores a rotation by way of its 3x3 matrix. That normalises any length and picks one of q and
+// -q: the sign that makes w positive if the trace is, else the sign that makes the largest of x, y,
+// z positive. Duplicates are compared after it and a half turn interpolates by its sign, so the
+// steps and their order are tf2's.
 Quat through_matrix(const Quat& q);
 
-// What through_matrix gives, but for rounding, at a fraction of the cost for a quaternion that is nearly unit: one
-// Newton step, and the same choice of sign. As with tf2, q, -q and 2q give the same to the last bit.
+// What through_matrix gives, but for rounding, at a fraction of the cost for a quaternion that is
+// nearly unit: one Newton step, and the same choice of sign. As with tf2, q, -q and 2q give the
+// same to the last bit.
 Quat canonical_of_any_length(const Quat& q);
 inline Quat canonical(const Quat& q) {
   const double norm2 = dot(q, q);

@@ -29,7 +29,8 @@ struct MalformedMessages {
 
 class Refusals {
  public:
-  static constexpr std::size_t kMostFrames = 1000;  // the refusals of further frames are counted together
+  static constexpr std::size_t kMostFrames =
+      1000;  // the refusals of further frames are counted together
 
   void add(const Refusal& refusal);
   void add_malformed(std::string_view fault, SourceId source);

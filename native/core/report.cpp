@@ -15,14 +15,17 @@ std::string decimals(double value, int digits) {
 
 // tf2 takes at least 100 µs for the time between the first and the last sample.
 double rate(const Link& link) {
-  return static_cast<double>(link.length()) / std::max(seconds(link.newest() - link.oldest()), 0.0001);
+  return static_cast<double>(link.length()) /
+         std::max(seconds(link.newest() - link.oldest()), 0.0001);
 }
 
 }  // namespace
 
 std::string Buffer::name(FrameId id) const { return std::string(frames_[id]); }
 
-std::string Buffer::sender_of(FrameId child) const { return std::string(senders_[links_[child]->sender()]); }
+std::string Buffer::sender_of(FrameId child) const {
+  return std::string(senders_[links_[child]->sender()]);
+}
 
 std::string Buffer::frames_as_string() const {
   std::string text;
@@ -54,12 +57,16 @@ std::string Buffer::frames_as_yaml(double now) const {
 
 std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const {
   std::string text("\"");
-  text.append(frames_[link.parent()]).append("\" -> \"").append(frames_[child]).append("\"[label=\"");
+  text.append(frames_[link.parent()])
+      .append("\" -> \"")
+      .append(frames_[child])
+      .append("\"[label=\"");
   text += "Broadcaster: " + sender_of(child) + "\\n";
   text += "Average rate: " + decimals(rate(link), 3) + " Hz\\n";
   text += "Most recent transform: " + decimals(seconds(link.newest()), 6) + " ";
   if (now > 0.0) text += "( " + decimals(now - seconds(link.newest()), 3) + " sec old)";
-  text += "\\nBuffer length: " + decimals(seconds(link.newest() - link.oldest()), 3) + " sec\\n\"];\n";
+  text +=
+      "\\nBuffer length: " + decimals(seconds(link.newest() - link.oldest()), 3) + " sec\\n\"];\n";
   return text;
 }
 
@@ -71,7 +78,9 @@ std::string Buffer::frames_as_dot(double now) const {
   }
   for (FrameId id = 1; id < links_.size(); ++id) {
     if (links_[id]->has_data()) continue;
-    text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
+    text +=
+        "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label "
+        "=\"view_frames Result\";\n";
     if (now > 0.0) text += "\"Recorded at time: " + decimals(now, 6) + "\"[ shape=plaintext ] ;\n";
     text += "}->\"" + name(id) + "\";\n";
   }

@@ -1,4 +1,5 @@
-// The history of one link: samples in order of time, in one ring of exact capacity, stamps apart from poses.
+// The history of one link: samples in order of time, in one ring of exact capacity, stamps apart
+// from poses.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +33,8 @@ inline double seconds(Stamp t) {
   return static_cast<double>(t / second) + 1e-9 * static_cast<double>(t % second);
 }
 
-// One cache line. The stamps, which a search reads, are kept apart, so that a search touches 8 bytes of a sample.
+// One cache line. The stamps, which a search reads, are kept apart, so that a search touches 8
+// bytes of a sample.
 struct alignas(64) Sample {
   Pose pose;
   FrameId parent = 0;
@@ -104,13 +106,14 @@ class Samples {
     per_ns_ = 0.0;
   }
 
-  // The last sample at or before `t`; needs oldest() <= t. The place is guessed from the mean rate, so that its cost
-  // depends on how regular the stamps are and not on how old `t` is.
+  // The last sample at or before `t`; needs oldest() <= t. The place is guessed from the mean rate,
+  // so that its cost depends on how regular the stamps are and not on how old `t` is.
   std::size_t last_at_or_before(Stamp t) const {
     const std::size_t last = size_ - 1;
     if (t >= newest()) return last;
     const double back = static_cast<double>(newest() - t) * per_ns_;
-    const std::size_t guess = back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
+    const std::size_t guess =
+        back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
     if (stamp(guess) > t) return gallop_down(guess, t);
     return stamp(guess + 1) > t ? guess : gallop_up(guess, t);
   }
@@ -165,13 +168,15 @@ class Samples {
     return low;
   }
 
-  // Doubling, but not beyond what a full cache will hold at the present rate: a full cache has 1/16 of slack at most.
+  // Doubling, but not beyond what a full cache will hold at the present rate: a full cache has 1/16
+  // of slack at most.
   void grow(Stamp keep) {
     std::size_t wanted = std::max(kFirstCapacity, 2 * capacity_);
     if (size_ >= 64 && newest() > oldest()) {
-      const double expected =
-          static_cast<double>(size_) * static_cast<double>(keep) / static_cast<double>(newest() - oldest());
-      const double fitting = std::max(expected * (33.0 / 32.0), static_cast<double>(size_) * (33.0 / 32.0)) + 8.0;
+      const double expected = static_cast<double>(size_) * static_cast<double>(keep) /
+                              static_cast<double>(newest() - oldest());
+      const double fitting =
+          std::max(expected * (33.0 / 32.0), static_cast<double>(size_) * (33.0 / 32.0)) + 8.0;
       if (fitting < static_cast<double>(wanted)) wanted = static_cast<std::size_t>(fitting);
     }
     move_to(wanted);
@@ -181,7 +186,8 @@ class Samples {
     auto* stamps = static_cast<Stamp*>(::operator new(wanted * sizeof(Stamp)));
     Sample* samples;
     try {
-      samples = static_cast<Sample*>(::operator new(wanted * sizeof(Sample), std::align_val_t{alignof(Sample)}));
+      samples = static_cast<Sample*>(
+          ::operator new(wanted * sizeof(Sample), std::align_val_t{alignof(Sample)}));
     } catch (...) {
       ::operator delete(stamps);
       throw;

@@ -18,14 +18,16 @@ void leave_difference(std::vector<FrameId>& up, const std::vector<FrameId>& down
     if (std::find(up.begin(), up.end(), frame) != up.end()) both.push_back(frame);
   }
   up.insert(up.end(), down.begin(), down.end());
-  std::erase_if(up, [&](FrameId frame) { return std::find(both.begin(), both.end(), frame) != both.end(); });
+  std::erase_if(
+      up, [&](FrameId frame) { return std::find(both.begin(), both.end(), frame) != both.end(); });
 }
 
 }  // namespace
 
 // ---------------------------------------------------------------- questions
 
-Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const {
+Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source,
+                      Failure* failure) const {
   if (path.direct) [[likely]] {
     const Stamp at = t != 0 ? t : turtlewire::latest_common_time(path);
     if (follow(path, at, target_from_source)) [[likely]] {
@@ -38,19 +40,22 @@ Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source, Fail
 }
 
 Status Buffer::can_transform(const Path& path, Stamp t, Failure* failure) const {
-  if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path))) return Status::ok;
+  if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path)))
+    return Status::ok;
   return walk(path.target, path.source, t, nullptr, failure);
 }
 
-// By the newest parent of each link, whatever the time; the frames of one line ask for each link's newest stamp, and a
-// stamp of 0 counts as static.
-Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
+// By the newest parent of each link, whatever the time; the frames of one line ask for each link's
+// newest stamp, and a stamp of 0 counts as static.
+Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t,
+                                  Failure* failure) const {
   t = 0;
   if (target == source) {
     t = newest(source);
     return Status::ok;
   }
-  std::vector<std::pair<Stamp, FrameId>> line;  // of the source: newest stamp and parent of each link
+  std::vector<std::pair<Stamp, FrameId>>
+      line;  // of the source: newest stamp and parent of each link
   int depth = 0;
   Stamp earliest = 0;
   for (FrameId frame = source; links_[frame]->has_data();) {
@@ -70,8 +75,8 @@ Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t, Fail
     const Link& link = *links_[frame];
     add_time(link.newest(), earliest);
     frame = link.parent();
-    const auto meeting =
-        std::find_if(line.begin(), line.end(), [&](const auto& entry) { return entry.second == frame; });
+    const auto meeting = std::find_if(line.begin(), line.end(),
+                                      [&](const auto& entry) { return entry.second == frame; });
     if (meeting != line.end()) {
       for (auto it = line.begin(); it != meeting + 1; ++it) add_time(it->first, earliest);
       t = earliest;
@@ -118,9 +123,11 @@ struct Buffer::Climb {
   }
 };
 
-Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source, Failure* failure) const {
+Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
+                    Failure* failure) const {
   if (t == 0) {
-    if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok) return status;
+    if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok)
+      return status;
   }
   return climb(target, source, Rule{.t = t}, target_from_source, nullptr, failure);
 }
@@ -130,8 +137,9 @@ Status Buffer::lookup(FrameId target, FrameId source, const Rule& rule, Pose& ta
   return climb(target, source, rule, &target_from_source, used, failure);
 }
 
-// tf2's own order of steps, which decides what happens with links that do not reach: those above the meeting point do
-// not hurt, the target's complaint comes before the source's, and the parents are those of the time asked for.
+// tf2's own order of steps, which decides what happens with links that do not reach: those above
+// the meeting point do not hurt, the target's complaint comes before the source's, and the parents
+// are those of the time asked for.
 Status Buffer::climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
                      std::vector<FrameId>* used, Failure* failure) const {
   Reading reading;
@@ -158,7 +166,8 @@ Status Buffer::climb(FrameId target, FrameId source, const Rule& rule, Pose* tar
     return fail_connection(target, source, failure);
   }
   if (target_from_source != nullptr) {
-    const Pose p = met ? between(down.top_from_start, up.top_from_start) : inverse(down.top_from_start);
+    const Pose p =
+        met ? between(down.top_from_start, up.top_from_start) : inverse(down.top_from_start);
     *target_from_source = {p.translation, canonical(p.rotation)};
   }
   if (used != nullptr) leave_difference(*used, down_used);
@@ -184,7 +193,8 @@ Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure)
   return Status::not_connected;
 }
 
-Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source, Failure* failure) const {
+Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source,
+                            Failure* failure) const {
   const Status status = climb.stopped == ReadStatus::future ? Status::future
                         : climb.stopped == ReadStatus::past ? Status::past
                                                             : Status::no_data;

@@ -2,18 +2,21 @@
 
 namespace turtlewire {
 
-Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static) {
+Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::string_view authority,
+                        bool is_static) {
   const std::scoped_lock lock(mutex);
   const SourceId sender = buffer.sender(authority);
   Added added{0, listeners > 0};
   for (const ReceivedTransform& r : transforms) {
-    added.accepted += buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
+    added.accepted +=
+        buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
   }
   if (added.accepted > 0) wake_waiters();
   return added;
 }
 
-Status SharedBuffer::resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const {
+Status SharedBuffer::resolve(std::string_view name, Argument argument, FrameId& id,
+                             Failure& failure) const {
   const Status status = buffer.resolve(name, id);
   if (status != Status::ok) {
     failure.status = status;
@@ -28,14 +31,16 @@ Status SharedBuffer::find(const Request& request, Found& found, Failure& failure
   FrameId target = 0, source = 0;
   found = {request.t, {}};
   if (request.target == request.source) {
-    if (request.t == 0 && buffer.resolve(request.source, source) == Status::ok) found.stamp = buffer.newest(source);
+    if (request.t == 0 && buffer.resolve(request.source, source) == Status::ok)
+      found.stamp = buffer.newest(source);
     return Status::ok;
   }
   Status status = resolve(request.target, Argument::target, target, failure);
   if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
   if (status != Status::ok) return status;
   failure.latest = request.t == 0;
-  return buffer.lookup(buffer.path(target, source), found.stamp, found.target_from_source, &failure);
+  return buffer.lookup(buffer.path(target, source), found.stamp, found.target_from_source,
+                       &failure);
 }
 
 Status SharedBuffer::test(const Request& request, Failure& failure) {
@@ -85,7 +90,8 @@ Status SharedBuffer::can_transform(const FullRequest& r, Failure& failure) {
   return status;
 }
 
-Status SharedBuffer::latest_common_time(std::string_view target, std::string_view source, Stamp& t, Failure& failure) {
+Status SharedBuffer::latest_common_time(std::string_view target, std::string_view source, Stamp& t,
+                                        Failure& failure) {
   const std::scoped_lock lock(mutex);
   FrameId target_id = 0, source_id = 0;
   Status status = resolve(target, Argument::target, target_id, failure);
@@ -101,7 +107,8 @@ bool SharedBuffer::worth_waiting(const Failure& failure) const {
       return false;
     case Status::no_data:
     case Status::past:
-      return failure.latest || failure.emptied || failure.requested >= earlier(failure.newest, buffer.keep());
+      return failure.latest || failure.emptied ||
+             failure.requested >= earlier(failure.newest, buffer.keep());
     default:
       return true;
   }

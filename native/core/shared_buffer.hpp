@@ -1,4 +1,5 @@
-// A buffer for many threads: one lock, held for short and never while words are made or others are called.
+// A buffer for many threads: one lock, held for short and never while words are made or others are
+// called.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +45,8 @@ struct Added {
   bool listened_to = false;  // somebody is to be told of it
 };
 
-// Each method takes the lock for itself; those who do several things at once use `mutex` and `buffer` themselves.
+// Each method takes the lock for itself; those who do several things at once use `mutex` and
+// `buffer` themselves.
 class SharedBuffer {
  public:
   explicit SharedBuffer(Stamp keep) : buffer(keep) {}
@@ -60,15 +62,18 @@ class SharedBuffer {
   }
 
   // Adds the transforms of one message and wakes who waits.
-  Added add(std::span<const ReceivedTransform> transforms, std::string_view authority, bool is_static);
+  Added add(std::span<const ReceivedTransform> transforms, std::string_view authority,
+            bool is_static);
 
   Status lookup(const Request& request, Found& found, Failure& failure);
   Status lookup(const FullRequest& request, Found& found, Failure& failure);
   Status can_transform(const Request& request, Failure& failure);
   Status can_transform(const FullRequest& request, Failure& failure);
-  Status latest_common_time(std::string_view target, std::string_view source, Stamp& t, Failure& failure);
+  Status latest_common_time(std::string_view target, std::string_view source, Stamp& t,
+                            Failure& failure);
 
-  // Whether more data can turn the failure into an answer: not for a bad name, nor for a time that has left the cache.
+  // Whether more data can turn the failure into an answer: not for a bad name, nor for a time that
+  // has left the cache.
   bool worth_waiting(const Failure& failure) const;
 
  private:

@@ -27,7 +27,8 @@ T load(const unsigned char* p, bool swapped) {
 // A cursor over the body, of which each step either fits or leaves everything alone and says no.
 class Reader {
  public:
-  Reader(const unsigned char* body, std::size_t size, bool swapped) : body_(body), size_(size), swapped_(swapped) {}
+  Reader(const unsigned char* body, std::size_t size, bool swapped)
+      : body_(body), size_(size), swapped_(swapped) {}
 
   std::size_t remaining() const { return size_ - at_; }
 
@@ -79,31 +80,35 @@ Pose ReceivedTransform::pose() const {
   double v[7];
   std::memcpy(v, numbers, sizeof v);
   if (swapped) {
-    for (int i = 0; i < 7; ++i) v[i] = std::bit_cast<double>(load<std::uint64_t>(numbers + 8 * i, true));
+    for (int i = 0; i < 7; ++i)
+      v[i] = std::bit_cast<double>(load<std::uint64_t>(numbers + 8 * i, true));
   }
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
 }
 
 std::string TfMessage::decode(const unsigned char* bytes, std::size_t size) {
   count_ = 0;
-  if (size < kHeaderSize + 4) return "a TFMessage has at least 8 bytes, these are " + std::to_string(size);
+  if (size < kHeaderSize + 4)
+    return "a TFMessage has at least 8 bytes, these are " + std::to_string(size);
   if (bytes[0] != 0 || bytes[1] > 1) {
     return "the first two bytes, " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) +
            ", are not those of plain CDR (0 0 or 0 1)";
   }
   const bool little = bytes[1] == 1;
-  Reader reader(bytes + kHeaderSize, size - kHeaderSize, little != (std::endian::native == std::endian::little));
+  Reader reader(bytes + kHeaderSize, size - kHeaderSize,
+                little != (std::endian::native == std::endian::little));
   std::uint32_t count = 0;
   reader.u32(count);
   if (count > (reader.remaining() + 8) / kSmallestTransform) {
-    return std::to_string(count) + " transforms are announced, which do not fit into " + std::to_string(size) +
-           " bytes";
+    return std::to_string(count) + " transforms are announced, which do not fit into " +
+           std::to_string(size) + " bytes";
   }
   if (places_.size() < count) places_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!reader.transform(places_[i])) {
-      return "transform " + std::to_string(i) + " of " + std::to_string(count) + " ends beyond the " +
-             std::to_string(size) + " bytes, or has a string without its final NUL";
+      return "transform " + std::to_string(i) + " of " + std::to_string(count) +
+             " ends beyond the " + std::to_string(size) +
+             " bytes, or has a string without its final NUL";
     }
   }
   count_ = count;

@@ -23,7 +23,8 @@ struct ReceivedTransform {
   Pose pose() const;
 };
 
-// A TFMessage taken apart; its transforms point into the bytes given. Reusing one saves memory allocations.
+// A TFMessage taken apart; its transforms point into the bytes given. Reusing one saves memory
+// allocations.
 class TfMessage {
  public:
   // Returns what is wrong with the bytes; empty if nothing is.

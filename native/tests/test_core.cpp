@@ -1,5 +1,5 @@
-// Tests of the core for itself: run plain, and under the address, undefined-behaviour and thread sanitizers.
-// test_core [number of mutated messages]
+// Tests of the core for itself: run plain, and under the address, undefined-behaviour and thread
+// sanitizers. test_core [number of mutated messages]
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -35,7 +35,8 @@ std::size_t below(Random& random, std::size_t n) { return random() % n; }
 
 Pose random_pose(Random& random) {
   return {{uniform(random, -5, 5), uniform(random, -5, 5), uniform(random, -5, 5)},
-          {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)}};
+          {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1),
+           uniform(random, -1, 1)}};
 }
 
 // ---------------------------------------------------------------- arithmetic
@@ -53,8 +54,10 @@ void test_slerp_weights() {
     const double u = uniform(random, 0, 1);
     const auto [older, newer] = arc_weights(cosine, u);
     const long double sine = std::sin(exact_angle);
-    worst = std::max(worst, static_cast<double>(std::fabs(std::sin((1.0L - u) * exact_angle) / sine - older)));
-    worst = std::max(worst, static_cast<double>(std::fabs(std::sin(u * exact_angle) / sine - newer)));
+    worst = std::max(
+        worst, static_cast<double>(std::fabs(std::sin((1.0L - u) * exact_angle) / sine - older)));
+    worst =
+        std::max(worst, static_cast<double>(std::fabs(std::sin(u * exact_angle) / sine - newer)));
   }
   std::printf("slerp weights: largest error %.2g\n", worst);
   check(worst <= 1e-15, "slerp weights are within 1e-15");
@@ -71,7 +74,8 @@ void test_canonical() {
     check(std::fabs(dot(a, b)) > 1.0 - 1e-14, "canonical is the same rotation");
     check(std::fabs(dot(b, b) - 1.0) < 1e-15, "canonical is unit");
   }
-  check(canonical({0, 0, 0, 1e200}) == Quat{}, "an overflowing length gives the identity, as in tf2");
+  check(canonical({0, 0, 0, 1e200}) == Quat{},
+        "an overflowing length gives the identity, as in tf2");
   check(has_nan(canonical({0, 0, 0, 0})), "a zero quaternion gives NaN");
 }
 
@@ -98,7 +102,8 @@ void test_kernels_agree() {
       if (kernels == all_kernels().front()) plain = result;
       for (std::size_t k = 0; k < 7; ++k) {
         for (std::size_t i = 0; i < kLanes; ++i) {
-          check(std::fabs(result.v[k][i] - plain.v[k][i]) < 1e-12, std::string(kernels->name) + " equals plain");
+          check(std::fabs(result.v[k][i] - plain.v[k][i]) < 1e-12,
+                std::string(kernels->name) + " equals plain");
         }
       }
     }
@@ -122,7 +127,8 @@ void ask_everything(SharedBuffer& shared, Random& random, std::size_t frames, bo
     for (std::size_t i = 0; i < n; ++i) {
       Found found;
       Failure failure;
-      const Status status = shared.lookup(Request{target, source, stamps[begin + i]}, found, failure);
+      const Status status =
+          shared.lookup(Request{target, source, stamps[begin + i]}, found, failure);
       const Status can = shared.can_transform(Request{target, source, stamps[begin + i]}, failure);
       if (!alone) continue;
       check(status == statuses[i], "a batch says what a single lookup says");
@@ -150,7 +156,8 @@ void test_random_operations() {
         if (kind == 0) pose.translation.x = INFINITY;
         if (kind == 1) pose.rotation.w = NAN;
         const Stamp stamp = static_cast<Stamp>(below(random, 2) ? i * 5 : below(random, 1500));
-        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(kind % 2 ? "x" : "y"), kind % 10 == 0);
+        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(kind % 2 ? "x" : "y"),
+                          kind % 10 == 0);
       } else if (kind < 95) {
         ask_everything(shared, random, frames, true);
       } else if (kind < 97) {
@@ -183,7 +190,8 @@ void test_search() {
       const auto after = std::upper_bound(known.begin(), known.end(), at);
       const auto expected = static_cast<std::size_t>(after - known.begin()) - 1;
       check(samples.last_at_or_before(at) == expected, "search");
-      check(samples.last_at_or_before(at, below(random, known.size())) == expected, "search with a hint");
+      check(samples.last_at_or_before(at, below(random, known.size())) == expected,
+            "search with a hint");
     }
   }
 }
@@ -271,7 +279,8 @@ class Message {
     put(std::uint32_t{0x00000100});
     put(count);
   }
-  void add(std::int32_t sec, const std::string& parent, const std::string& child, const Pose& pose) {
+  void add(std::int32_t sec, const std::string& parent, const std::string& child,
+           const Pose& pose) {
     align(4);
     put(sec);
     put(std::uint32_t{5});
@@ -286,7 +295,8 @@ class Message {
   template <typename T>
   void put(const T& value) {
     const auto* p = reinterpret_cast<const unsigned char*>(&value);
-    for (std::size_t i = 0; i < sizeof(T); ++i) bytes.push_back(p[i]);  // insert() trips GCC's -Wstringop-overflow
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      bytes.push_back(p[i]);  // insert() trips GCC's -Wstringop-overflow
   }
   void align(std::size_t size) {
     while ((bytes.size() - 4) % size != 0) bytes.push_back(0);
@@ -298,7 +308,8 @@ class Message {
   }
 };
 
-// Takes the bytes as a binding does; from memory of exactly their size, so that a sanitizer sees each step too far.
+// Takes the bytes as a binding does; from memory of exactly their size, so that a sanitizer sees
+// each step too far.
 std::size_t ingest(SharedBuffer& shared, const std::vector<unsigned char>& bytes, bool& malformed) {
   static thread_local TfMessage message;
   const std::vector<unsigned char> exact(bytes);
@@ -308,7 +319,8 @@ std::size_t ingest(SharedBuffer& shared, const std::vector<unsigned char>& bytes
   const SourceId me = shared.buffer.sender("me");
   if (malformed) shared.buffer.refuse_message(fault, me);
   for (const ReceivedTransform& r : message.transforms()) {
-    accepted += shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
+    accepted +=
+        shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
   }
   return accepted;
 }
@@ -336,8 +348,10 @@ void test_malformed_messages(std::size_t rounds) {
   odd.add(1, "map", "good", Pose{});
   bool malformed = false;
   SharedBuffer whole(10'000'000'000);
-  check(ingest(whole, large.bytes, malformed) == 10'000 && !malformed, "10,000 transforms in one message");
-  check(ingest(whole, odd.bytes, malformed) == 1 && !malformed, "the good one among the odd ones is kept");
+  check(ingest(whole, large.bytes, malformed) == 10'000 && !malformed,
+        "10,000 transforms in one message");
+  check(ingest(whole, odd.bytes, malformed) == 1 && !malformed,
+        "the good one among the odd ones is kept");
   check(whole.buffer.refusals().by_child().size() == 4, "each refusal is counted");
   std::size_t rejected = 0, counted = 0;
   auto shared = std::make_unique<SharedBuffer>(10'000'000'000);
@@ -345,8 +359,10 @@ void test_malformed_messages(std::size_t rounds) {
     ingest(*shared, mutated(below(random, 10) != 0 ? small.bytes : odd.bytes, random), malformed);
     rejected += malformed;
     if (i % 10'000 == 9999) {
-      check(shared->buffer.fault().empty(), "invariants after mutated messages: " + shared->buffer.fault());
-      check(ingest(*shared, small.bytes, malformed) <= 2 && !malformed, "a good message is taken among bad ones");
+      check(shared->buffer.fault().empty(),
+            "invariants after mutated messages: " + shared->buffer.fault());
+      check(ingest(*shared, small.bytes, malformed) <= 2 && !malformed,
+            "a good message is taken among bad ones");
       check(!shared->buffer.refusals().malformed().last.empty(), "what is malformed is explained");
       counted += shared->buffer.refusals().malformed().count;
       shared = std::make_unique<SharedBuffer>(10'000'000'000);
@@ -380,31 +396,39 @@ void test_intake() {
   Intake intake(false, 3);
   const auto newest = [](SharedBuffer& buffer) {
     FrameId base = 0;
-    return buffer.buffer.resolve("base", base) == Status::ok ? buffer.buffer.newest(base) / 1'000'000'000 : 0;
+    return buffer.buffer.resolve("base", base) == Status::ok
+               ? buffer.buffer.newest(base) / 1'000'000'000
+               : 0;
   };
   intake.feed({&shared, &other});
-  check(intake.receive(7, 1, message_at(1)), "the caretaker is called for a publisher that is not known");
+  check(intake.receive(7, 1, message_at(1)),
+        "the caretaker is called for a publisher that is not known");
   check(!intake.receive(7, 2, message_at(2)), "he is called once");
   check(intake.take().size() == 2, "both messages were kept back");
   intake.introduce(7, "gid");
   intake.name("gid", "/talker");
-  check(intake.receive(7, 3, message_at(3)), "he is called again while he has not come back in vain");
+  check(intake.receive(7, 3, message_at(3)),
+        "he is called again while he has not come back in vain");
   check(newest(shared) == 0, "what comes behind kept messages waits for them");
   check(take_rest(intake).empty() && newest(shared) == 3, "and needs him no more when it is due");
   check(!intake.receive(7, 4, message_at(4)) && newest(shared) == 4, "then it is stored at once");
   check(newest(other) == 4, "in all buffers");
   check(shared.buffer.sender_name(1) == "/talker", "in the publisher's name");
-  check(intake.receive(7, 5, {}) && take_rest(intake) == std::vector<Stamp>{5}, "what is malformed is kept back");
+  check(intake.receive(7, 5, {}) && take_rest(intake) == std::vector<Stamp>{5},
+        "what is malformed is kept back");
   for (Stamp sent = 6; sent < 11; ++sent) intake.receive(8, sent, message_at(9));
   check(take_rest(intake) == std::vector<Stamp>{8, 9, 10}, "only the newest ones are kept back");
   check(!intake.take_news(), "no news while nobody listens");
   shared.listeners = 1;
-  check(intake.receive(7, 11, message_at(11)) && intake.take_news() && !intake.take_news(), "news for a listener");
+  check(intake.receive(7, 11, message_at(11)) && intake.take_news() && !intake.take_news(),
+        "news for a listener");
   intake.feed({});
-  check(intake.receive(7, 12, message_at(12)) && newest(shared) == 11, "without buffers all is kept back");
+  check(intake.receive(7, 12, message_at(12)) && newest(shared) == 11,
+        "without buffers all is kept back");
 }
 
-// Publishers come, are introduced and named, buffers change and are asked, all at once: nothing is lost or comes twice.
+// Publishers come, are introduced and named, buffers change and are asked, all at once: nothing is
+// lost or comes twice.
 void test_intake_threads() {
   constexpr int kMessages = 3000;
   SharedBuffer first(kForever), second(kForever);
@@ -447,17 +471,21 @@ void test_intake_threads() {
     for (auto kept = intake.take(); !kept.empty(); kept = intake.take()) {
       for (const Intake::Kept& message : kept) {
         TfMessage decoded;
-        check(decoded.decode(message.bytes.data(), message.bytes.size()).empty(), "kept messages are whole");
+        check(decoded.decode(message.bytes.data(), message.bytes.size()).empty(),
+              "kept messages are whole");
         first.add(decoded.transforms(), "late", false);
         intake.introduce(message.publisher, std::to_string(message.publisher));
-        intake.name(std::to_string(message.publisher), "/talker" + std::to_string(message.publisher));
+        intake.name(std::to_string(message.publisher),
+                    "/talker" + std::to_string(message.publisher));
       }
     }
   }
   for (std::thread& thread : threads) thread.join();
   for (const char* frame : {"f0", "f1", "f2"}) {
     FrameId id = 0;
-    check(first.buffer.resolve(frame, id) == Status::ok && first.buffer.link(id).length() == kMessages, "all arrived");
+    check(first.buffer.resolve(frame, id) == Status::ok &&
+              first.buffer.link(id).length() == kMessages,
+          "all arrived");
   }
   check(first.buffer.refusals().by_child().empty(), "in order");
 }

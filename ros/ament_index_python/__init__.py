@@ -9,7 +9,13 @@ from ament_index_python.packages import (
     get_package_share_path,
     get_packages_with_prefixes,
 )
-from ament_index_python.resources import InvalidResourceNameError, InvalidResourceTypeNameError, get_resource, get_resources, has_resource
+from ament_index_python.resources import (
+    InvalidResourceNameError,
+    InvalidResourceTypeNameError,
+    get_resource,
+    get_resources,
+    has_resource,
+)
 from ament_index_python.resources import get_resource_types as get_resource_types
 from ament_index_python.search_paths import AMENT_PREFIX_PATH_ENV_VAR, get_search_paths
 

@@ -41,8 +41,12 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
     """
     prefix = has_resource(resource_type, resource_name)
     if not prefix:
-        raise LookupError(f"Could not find the resource '{resource_name}' of type '{resource_type}'")
-    with open(os.path.join(str(prefix), _INDEX, resource_type, resource_name), encoding="utf-8") as file:
+        raise LookupError(
+            f"Could not find the resource '{resource_name}' of type '{resource_type}'"
+        )
+    with open(
+        os.path.join(str(prefix), _INDEX, resource_type, resource_name), encoding="utf-8"
+    ) as file:
         return file.read(), str(prefix)
 
 
@@ -76,7 +80,11 @@ def get_resource_types() -> set[str]:
     for prefix in get_search_paths():
         folder = os.path.join(prefix, _INDEX)
         if os.path.isdir(folder):
-            types |= {name for name in os.listdir(folder) if not name.startswith(".") and os.path.isdir(os.path.join(folder, name))}
+            types |= {
+                name
+                for name in os.listdir(folder)
+                if not name.startswith(".") and os.path.isdir(os.path.join(folder, name))
+            }
     return types
 
 

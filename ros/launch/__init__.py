@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from launch import actions, conditions, event_handlers, events, launch_description_sources, logging, substitutions
+from launch import (
+    actions,
+    conditions,
+    event_handlers,
+    events,
+    launch_description_sources,
+    logging,
+    substitutions,
+)
 from launch.action import Action
 from launch.condition import Condition
 from launch.event import Event

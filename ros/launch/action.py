@@ -34,9 +34,15 @@ class Action(LaunchDescriptionEntity):
         if if_text is not None and unless_text is not None:
             raise RuntimeError("if and unless conditions can't be used simultaneously")
         if if_text is not None:
-            return cls, {"condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))}
+            return cls, {
+                "condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))
+            }
         if unless_text is not None:
-            return cls, {"condition": UnlessCondition(predicate_expression=parser.parse_substitution(unless_text))}
+            return cls, {
+                "condition": UnlessCondition(
+                    predicate_expression=parser.parse_substitution(unless_text)
+                )
+            }
         return cls, {}
 
     @property

@@ -22,7 +22,8 @@ _DRAIN_S = 0.5
 class ChildProcess:
     """Runs one command. Made by :meth:`start`, for the loop's thread only.
 
-    On Linux the kernel sends the child SIGTERM when this process dies in whatever way, so that none stays behind.
+    On Linux the kernel sends the child SIGTERM when this process dies in whatever way, so that none
+    stays behind.
     """
 
     def __init__(self, transport: asyncio.SubprocessTransport, protocol: _Protocol) -> None:
@@ -59,13 +60,24 @@ class ChildProcess:
         """
         loop = asyncio.get_running_loop()
         protocol = _Protocol(on_start, on_output)
-        terminals = {fd: os.openpty() for fd in (1, 2)} if emulate_tty and hasattr(os, "openpty") else {}
-        options: dict[str, Any] = {"cwd": cwd, "env": dict(env), "stdin": None if inherit_stdin else subprocess.PIPE}
-        options |= {name: terminals[fd][1] if terminals else subprocess.PIPE for fd, name in ((1, "stdout"), (2, "stderr"))}
+        terminals = (
+            {fd: os.openpty() for fd in (1, 2)} if emulate_tty and hasattr(os, "openpty") else {}
+        )
+        options: dict[str, Any] = {
+            "cwd": cwd,
+            "env": dict(env),
+            "stdin": None if inherit_stdin else subprocess.PIPE,
+        }
+        options |= {
+            name: terminals[fd][1] if terminals else subprocess.PIPE
+            for fd, name in ((1, "stdout"), (2, "stderr"))
+        }
         options["preexec_fn"] = _end_with_parent()
         try:
             if shell:
-                transport, _ = await loop.subprocess_shell(lambda: protocol, " ".join(command), **options)
+                transport, _ = await loop.subprocess_shell(
+                    lambda: protocol, " ".join(command), **options
+                )
             else:
                 transport, _ = await loop.subprocess_exec(lambda: protocol, *command, **options)
         except BaseException:
@@ -119,7 +131,9 @@ class ChildProcess:
 class _Protocol(asyncio.SubprocessProtocol):
     """What the loop reports of a child."""
 
-    def __init__(self, on_start: Callable[[int], None], on_output: Callable[[int, bytes], None]) -> None:
+    def __init__(
+        self, on_start: Callable[[int], None], on_output: Callable[[int, bytes], None]
+    ) -> None:
         self._on_start = on_start
         self._on_output = on_output
         self._open_streams = {1, 2}
@@ -170,7 +184,9 @@ class _TerminalStream(asyncio.Protocol):
         self._child.pipe_connection_lost(self._fd, error)
 
 
-async def _read_terminal(loop: asyncio.AbstractEventLoop, controller: int, stream: _TerminalStream) -> None:
+async def _read_terminal(
+    loop: asyncio.AbstractEventLoop, controller: int, stream: _TerminalStream
+) -> None:
     await loop.connect_read_pipe(lambda: stream, os.fdopen(controller, "rb", buffering=0))
 
 

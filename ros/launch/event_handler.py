@@ -72,7 +72,9 @@ class EventHandler(BaseEventHandler):
         self,
         *,
         matcher: Callable[[Event], bool],
-        entities: SomeEntitiesType | Callable[[Event, LaunchContext], SomeEntitiesType | None] | None = None,
+        entities: SomeEntitiesType
+        | Callable[[Event, LaunchContext], SomeEntitiesType | None]
+        | None = None,
         handle_once: bool = False,
     ) -> None:
         super().__init__(matcher=matcher, handle_once=handle_once)

@@ -29,5 +29,9 @@ class InvalidLaunchFileError(Exception):
             return "The launch file may have a syntax error, or its format is unknown"
         if len(self.likely_errors) == 1:
             return f"Caught exception when trying to load file of format [{self.extension}]: {self.likely_errors[0]}"
-        lines = [f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"]
-        return "\n".join(lines + [f" - {type(error).__name__}: {error}" for error in self.likely_errors])
+        lines = [
+            f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"
+        ]
+        return "\n".join(
+            lines + [f" - {type(error).__name__}: {error}" for error in self.likely_errors]
+        )

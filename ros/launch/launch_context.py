@@ -28,7 +28,9 @@ class _Locals:
     def __getattr__(self, name: str) -> Any:
         """Return the local of that name."""
         if name not in self._values:
-            raise AttributeError(f"context.locals has no attribute '{name}', available attributes: {sorted(self._values)}")
+            raise AttributeError(
+                f"context.locals has no attribute '{name}', available attributes: {sorted(self._values)}"
+            )
         return self._values[name]
 
 

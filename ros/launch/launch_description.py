@@ -23,7 +23,12 @@ class LaunchDescription(LaunchDescriptionEntity):
         deprecated_reason: When given, a use of the description warns with it.
     """
 
-    def __init__(self, initial_entities: Iterable[LaunchDescriptionEntity] | None = None, *, deprecated_reason: str | None = None) -> None:
+    def __init__(
+        self,
+        initial_entities: Iterable[LaunchDescriptionEntity] | None = None,
+        *,
+        deprecated_reason: str | None = None,
+    ) -> None:
         self._entities = list(initial_entities or ())
         self._deprecated_reason = deprecated_reason
 
@@ -55,20 +60,31 @@ class LaunchDescription(LaunchDescriptionEntity):
         if self._deprecated_reason is not None:
             from launch import logging
 
-            logging.get_logger().warning("This LaunchDescription is deprecated: %s", self._deprecated_reason or "no reason given")
+            logging.get_logger().warning(
+                "This LaunchDescription is deprecated: %s",
+                self._deprecated_reason or "no reason given",
+            )
         return self._entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """The entities."""
         return self._entities
 
-    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
+    def get_launch_arguments(
+        self, conditional_inclusion: bool = False
+    ) -> list[DeclareLaunchArgument]:
         """The arguments that this description and those it includes declare, without repetitions.
 
         Args:
-            conditional_inclusion: Whether the description itself is only included under a condition.
+            conditional_inclusion: Whether the description itself is only included under a
+                condition.
         """
-        return [argument for argument, _ in self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)]
+        return [
+            argument
+            for argument, _ in self.get_launch_arguments_with_include_launch_description_actions(
+                conditional_inclusion
+            )
+        ]
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
@@ -89,13 +105,17 @@ def _collect_arguments(
     from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 
     for entity in entities:
-        entity_conditional = conditional or (isinstance(entity, Action) and entity.condition is not None)
+        entity_conditional = conditional or (
+            isinstance(entity, Action) and entity.condition is not None
+        )
         if isinstance(entity, DeclareLaunchArgument):
             if not any(argument.name == entity.name for argument, _ in found):
                 entity._conditionally_included = entity_conditional
                 found.append((entity, inclusions))
             continue
-        deeper = [*inclusions, entity] if isinstance(entity, IncludeLaunchDescription) else inclusions
+        deeper = (
+            [*inclusions, entity] if isinstance(entity, IncludeLaunchDescription) else inclusions
+        )
         _collect_arguments(entity.describe_sub_entities(), entity_conditional, deeper, found)
         for _, group in entity.describe_conditional_sub_entities():
             _collect_arguments(group, True, deeper, found)

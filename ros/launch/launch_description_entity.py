@@ -24,7 +24,9 @@ class LaunchDescriptionEntity:
         """Entities that a visit always returns, for inspection without running."""
         return []
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Entities that a visit returns under a condition, each group with a text that names the condition."""
         return []
 

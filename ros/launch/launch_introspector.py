@@ -15,7 +15,13 @@ if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.substitution import Substitution
 
-__all__ = ["LaunchIntrospector", "format_action", "format_entities", "format_event_handler", "format_substitutions"]
+__all__ = [
+    "LaunchIntrospector",
+    "format_action",
+    "format_entities",
+    "format_event_handler",
+    "format_substitutions",
+]
 
 
 class LaunchIntrospector:
@@ -23,12 +29,19 @@ class LaunchIntrospector:
 
     def format_launch_description(self, launch_description: LaunchDescriptionEntity) -> str:
         """The tree of a description."""
-        return "\n".join([str(launch_description), *_indented(format_entities(launch_description.describe_sub_entities()))])
+        return "\n".join(
+            [
+                str(launch_description),
+                *_indented(format_entities(launch_description.describe_sub_entities())),
+            ]
+        )
 
 
 def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
     """Joined descriptions."""
-    return "None" if substitutions is None else " + ".join(part.describe() for part in substitutions)
+    return (
+        "None" if substitutions is None else " + ".join(part.describe() for part in substitutions)
+    )
 
 
 def format_action(action: Action) -> list[str]:
@@ -44,8 +57,15 @@ def format_action(action: Action) -> list[str]:
             *_indented(_conditional(action)),
         ]
     if is_a(action, RegisterEventHandler):
-        return ["RegisterEventHandler('" + str(action.event_handler) + "'):", *_indented(format_event_handler(action.event_handler))]
-    return [f"Action('{action.describe()}')", *_indented(format_entities(action.describe_sub_entities())), *_indented(_conditional(action))]
+        return [
+            "RegisterEventHandler('" + str(action.event_handler) + "'):",
+            *_indented(format_event_handler(action.event_handler)),
+        ]
+    return [
+        f"Action('{action.describe()}')",
+        *_indented(format_entities(action.describe_sub_entities())),
+        *_indented(_conditional(action)),
+    ]
 
 
 def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
@@ -75,7 +95,13 @@ def _conditional(action: Action) -> list[str]:
 def _variables(env: Any) -> str:
     if env is None:
         return "None"
-    return "{" + ", ".join(f"{format_substitutions(name)}: {format_substitutions(value)}" for name, value in env) + "}"
+    return (
+        "{"
+        + ", ".join(
+            f"{format_substitutions(name)}: {format_substitutions(value)}" for name, value in env
+        )
+        + "}"
+    )
 
 
 def _indented(lines: list[str]) -> list[str]:

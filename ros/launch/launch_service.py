@@ -32,15 +32,23 @@ _PATIENCE = 3
 class LaunchService:
     """Runs until everything that was launched has ended, or until it is told to shut down.
 
-    Events are handled one after the other. An exception out of an entity shuts the launch down; :meth:`run` then returns 1.
+    Events are handled one after the other. An exception out of an entity shuts the launch down;
+    :meth:`run` then returns 1.
 
     Args:
         argv: Arguments of the launch.
-        noninteractive: Whether nobody at a terminal watches it: children then get no SIGINT from a terminal, and are sent one at Ctrl-C.
+        noninteractive: Whether nobody at a terminal watches it: children then get no SIGINT from a
+            terminal, and are sent one at Ctrl-C.
         debug: Log at DEBUG level.
     """
 
-    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
+    def __init__(
+        self,
+        *,
+        argv: Iterable[str] | None = None,
+        noninteractive: bool = False,
+        debug: bool = False,
+    ) -> None:
         logging.launch_config.level = logging.DEBUG if debug else logging.INFO
         self._context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self._logger = logging.get_logger("launch")
@@ -121,7 +129,9 @@ class LaunchService:
             self._wake.clear()
             self._reap_futures()
             if self._context._events:
-                for _ in range(len(self._context._events)):  # those that they emit come after what happened meanwhile
+                for _ in range(
+                    len(self._context._events)
+                ):  # those that they emit come after what happened meanwhile
                     self._process_event(self._context._events.popleft())
                 await asyncio.sleep(0)
             elif self._futures or not (self._context.is_shutdown or shutdown_when_idle):
@@ -167,10 +177,16 @@ class LaunchService:
                 self._fail(error)
 
     def _fail(self, error: BaseException) -> None:
-        self._logger.debug("%s", "".join(traceback.format_exception(type(error), error, error.__traceback__)))
-        self._logger.error("Caught exception in launch (see debug for traceback): %s%s", error, raised_in(error))
+        self._logger.debug(
+            "%s", "".join(traceback.format_exception(type(error), error, error.__traceback__))
+        )
+        self._logger.error(
+            "Caught exception in launch (see debug for traceback): %s%s", error, raised_in(error)
+        )
         self._return_code = 1
-        self._shut_down(f"Caught exception in launch (see debug for traceback): {error}", due_to_sigint=False)
+        self._shut_down(
+            f"Caught exception in launch (see debug for traceback): {error}", due_to_sigint=False
+        )
 
     def _shut_down(self, reason: str, *, due_to_sigint: bool) -> None:
         if not self._context.is_shutdown:
@@ -195,8 +211,16 @@ class LaunchService:
             yield
             return
         loop = asyncio.get_running_loop()
-        handlers = {"SIGINT": self._on_sigint, "SIGTERM": self._on_sigterm, "SIGQUIT": self._on_sigquit}  # Windows has no SIGQUIT
-        numbers = {getattr(signal, name): handler for name, handler in handlers.items() if hasattr(signal, name)}
+        handlers = {
+            "SIGINT": self._on_sigint,
+            "SIGTERM": self._on_sigterm,
+            "SIGQUIT": self._on_sigquit,
+        }  # Windows has no SIGQUIT
+        numbers = {
+            getattr(signal, name): handler
+            for name, handler in handlers.items()
+            if hasattr(signal, name)
+        }
 
         def hand_to_loop(number: int, _frame: object) -> None:
             if number == signal.SIGINT:

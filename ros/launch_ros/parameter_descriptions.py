@@ -25,7 +25,8 @@ class ParameterValue:
 
     Args:
         value: The value, possibly with substitutions.
-        value_type: ``str``, ``int``, ``float``, ``bool`` or ``List[...]`` of one; None leaves it to YAML.
+        value_type: ``str``, ``int``, ``float``, ``bool`` or ``List[...]`` of one; None leaves it to
+            YAML.
     """
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
@@ -52,10 +53,15 @@ class ParameterValue:
             return evaluate_value(context, self._value)
         item_type = list_item_type(self._value_type)
         if item_type is not None and isinstance(self._value, (list, tuple)):
-            return [ParameterValue(item, value_type=item_type).evaluate(context) for item in self._value]
+            return [
+                ParameterValue(item, value_type=item_type).evaluate(context) for item in self._value
+            ]
         if isinstance(self._value, (bool, int, float)):
             return typed(str(self._value), self._value_type)
-        return typed(perform_substitutions(context, normalize_to_list_of_substitutions(self._value)), self._value_type)
+        return typed(
+            perform_substitutions(context, normalize_to_list_of_substitutions(self._value)),
+            self._value_type,
+        )
 
 
 class Parameter:
@@ -91,12 +97,20 @@ class ParameterFile:
 
     Args:
         param_file: Its path.
-        allow_substs: Whether its text holds substitutions such as ``$(var x)``; the node then gets a copy with them performed.
+        allow_substs: Whether its text holds substitutions such as ``$(var x)``; the node then gets
+            a copy with them performed.
     """
 
-    def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: bool | SomeSubstitutionsType = False) -> None:
+    def __init__(
+        self,
+        param_file: SomeSubstitutionsType,
+        *,
+        allow_substs: bool | SomeSubstitutionsType = False,
+    ) -> None:
         self._param_file = normalize_to_list_of_substitutions(param_file)
-        self._allow_substs = normalize_to_list_of_substitutions(str(allow_substs) if isinstance(allow_substs, bool) else allow_substs)
+        self._allow_substs = normalize_to_list_of_substitutions(
+            str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
+        )
         self._copy: str | None = None
 
     @property
@@ -126,8 +140,12 @@ class ParameterFile:
         path = Path(perform_substitutions(context, self._param_file))
         if not evaluate_condition_expression(context, self._allow_substs):
             return path
-        text = perform_substitutions(context, Parser().parse_substitution(path.read_text(encoding="utf-8")))
-        with tempfile.NamedTemporaryFile("w", prefix="launch_params_", delete=False, encoding="utf-8") as file:
+        text = perform_substitutions(
+            context, Parser().parse_substitution(path.read_text(encoding="utf-8"))
+        )
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="launch_params_", delete=False, encoding="utf-8"
+        ) as file:
             file.write(text)
         self._copy = file.name
         return Path(file.name)

@@ -13,8 +13,12 @@ from launch_ros.parameter_descriptions import Parameter, ParameterFile, Paramete
 __all__ = ["SomeParameterValue", "SomeParameters", "SomeParametersDict"]
 
 #: A value: plain, substituted, typed, or a sequence of values of one type.
-SomeParameterValue = ParameterValue | SomeSubstitutionsType | int | float | bool | Sequence[Any] | bytes
+SomeParameterValue = (
+    ParameterValue | SomeSubstitutionsType | int | float | bool | Sequence[Any] | bytes
+)
 #: Names (of substitutions, or nested) with values.
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
 #: Files and mappings, in the order in which they take effect.
-SomeParameters = Sequence[str | Path | Substitution | ParameterFile | Parameter | SomeParametersDict]
+SomeParameters = Sequence[
+    str | Path | Substitution | ParameterFile | Parameter | SomeParametersDict
+]

@@ -61,7 +61,9 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
         adapter = ROSAdapter()
         context.extend_globals({_KEY: adapter})
         # After all others: they may still cancel what they have at the node.
-        context.register_event_handler(OnShutdown(on_shutdown=lambda *_: adapter.shutdown()), append=True)
+        context.register_event_handler(
+            OnShutdown(on_shutdown=lambda *_: adapter.shutdown()), append=True
+        )
     return adapter
 
 
@@ -77,7 +79,9 @@ async def call_service(context: LaunchContext, service_type: Any, name: str, req
         The response; None when the launch ended before.
     """
     node = get_ros_node(context)
-    return await asyncio.get_running_loop().run_in_executor(None, _ask, node, service_type, name, request)
+    return await asyncio.get_running_loop().run_in_executor(
+        None, _ask, node, service_type, name, request
+    )
 
 
 def _ask(node: Node, service_type: Any, name: str, request: Any) -> Any:

@@ -52,23 +52,31 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
         children = {child.type_name for child in self._children} - self._read_children
         if children:
-            raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {children}")
+            raise ValueError(
+                f"Unexpected nested entity(ies) found in `{self.type_name}`: {children}"
+            )
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(
+        self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
+    ) -> Any:
         """The value of an attribute; lists of elements are the children of that tag. See the base class."""
         if is_entity_list(data_type):
             return self._children_named(name, optional)
         if name not in self._element.attrib:
             if optional:
                 return None
-            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+            raise AttributeError(
+                f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
+            )
         self._read_attributes.add(name)
         return self._value(name, self._element.attrib[name], data_type, can_be_str)
 
     def _children_named(self, name: str, optional: bool) -> list[Entity] | None:
         found = [child for child in self._children if child.type_name == name]
         if not found and not optional:
-            raise AttributeError(f"Attribute '{name}' of type 'List[Entity]' not found in Entity '{self.type_name}'")
+            raise AttributeError(
+                f"Attribute '{name}' of type 'List[Entity]' not found in Entity '{self.type_name}'"
+            )
         self._read_children.add(name)
         return found or None
 

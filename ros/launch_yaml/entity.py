@@ -52,7 +52,9 @@ class Entity(BaseEntity):
         children: list[BaseEntity] = []
         for item in elements:
             if not isinstance(item, dict) or len(item) != 1:
-                raise RuntimeError(f"Subentities must be a dictionary with only one key, as the entity type: '{item}'")
+                raise RuntimeError(
+                    f"Subentities must be a dictionary with only one key, as the entity type: '{item}'"
+                )
             ((name, value),) = item.items()
             child = Entity(value, str(name), parent=self)
             child.line = getattr(item, "line", 0)
@@ -66,23 +68,31 @@ class Entity(BaseEntity):
             if unread:
                 raise ValueError(f"Unexpected key(s) found in `{self._type_name}`: {unread}")
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(
+        self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
+    ) -> Any:
         """The value of an attribute. See the base class."""
         if not isinstance(self._element, dict) or name not in self._element:
             if optional:
                 return None
-            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self._type_name}'")
+            raise AttributeError(
+                f"Attribute '{name}' of type '{data_type}' not found in Entity '{self._type_name}'"
+            )
         self._read_keys.add(name)
         value = self._element[name]
         if is_entity_list(data_type):
             return self._entities(name, value)
         if _is_of_type(value, data_type) or (can_be_str and isinstance(value, str)):
             return value
-        raise TypeError(f"Attribute '{name}' of Entity '{self._type_name}' expected to be of type '{data_type}' but got '{type(value)}'")
+        raise TypeError(
+            f"Attribute '{name}' of Entity '{self._type_name}' expected to be of type '{data_type}' but got '{type(value)}'"
+        )
 
     def _entities(self, name: str, value: Any) -> list[Entity]:
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
-            raise TypeError(f"Attribute '{name}' of Entity '{self._type_name}' expected to be a list of dictionaries.")
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self._type_name}' expected to be a list of dictionaries."
+            )
         return [Entity(item, name, parent=self) for item in value]
 
 

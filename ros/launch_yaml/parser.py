@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Parser"]
 
-# Aliases let a few lines stand for billions of elements; no launch file that a person wrote comes near.
+# Aliases let a few lines stand for billions of elements; no launch file that a person wrote comes
+# near.
 _MOST_ELEMENTS = 100_000
 
 
@@ -29,7 +30,8 @@ class Parser(BaseParser):
         Raises:
             SyntaxError: It is no YAML; names file and line.
             RuntimeError: It is no mapping with one key.
-            ValueError: Its aliases contain themselves, or stand for more elements than a launch file has.
+            ValueError: Its aliases contain themselves, or stand for more elements than a launch
+                file has.
         """
         if isinstance(file, str):
             with open(file, encoding="utf-8") as opened:
@@ -81,7 +83,9 @@ def _tree(file: io.TextIOBase) -> Any:
             raise
         mark = error.problem_mark
         name = os.path.basename(str(getattr(file, "name", mark.name)))
-        raise SyntaxError(str(error.problem), (name, mark.line + 1, mark.column + 1, None)) from error
+        raise SyntaxError(
+            str(error.problem), (name, mark.line + 1, mark.column + 1, None)
+        ) from error
 
 
 def _size(node: Any, known: dict[int, int | None]) -> int:
@@ -90,7 +94,9 @@ def _size(node: Any, known: dict[int, int | None]) -> int:
         return 1
     if id(node) not in known:
         known[id(node)] = None
-        known[id(node)] = 1 + sum(_size(item, known) for item in (node.values() if isinstance(node, dict) else node))
+        known[id(node)] = 1 + sum(
+            _size(item, known) for item in (node.values() if isinstance(node, dict) else node)
+        )
     size = known[id(node)]
     if size is None:
         raise ValueError("An alias contains itself")

@@ -22,10 +22,13 @@ class Cache(SimpleFilter):
     Args:
         f: The filter to listen to; None to :meth:`add` messages by hand.
         cache_size: How many messages are kept.
-        allow_headerless: Whether messages without a stamp are taken, with the time of their arrival.
+        allow_headerless: Whether messages without a stamp are taken, with the time of their
+            arrival.
     """
 
-    def __init__(self, f: SimpleFilter | None = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
+    def __init__(
+        self, f: SimpleFilter | None = None, cache_size: int = 1, allow_headerless: bool = False
+    ) -> None:
         super().__init__()
         self._lock = threading.Lock()
         self.cache_msgs: list[Any] = []
@@ -42,7 +45,9 @@ class Cache(SimpleFilter):
 
     def add(self, msg: Any) -> None:
         """Take a message, and pass it on."""
-        stamp = stamp_of(msg, allow_headerless=self.allow_headerless, logger="message_filters_cache")
+        stamp = stamp_of(
+            msg, allow_headerless=self.allow_headerless, logger="message_filters_cache"
+        )
         if stamp is None:
             return
         with self._lock:
@@ -64,7 +69,9 @@ class Cache(SimpleFilter):
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802 -- ROS 2's name
         """The messages from one time to another, both included."""
         with self._lock:
-            return self.cache_msgs[bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)]
+            return self.cache_msgs[
+                bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)
+            ]
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
         """The oldest message that is not older than a time; None when there is none."""

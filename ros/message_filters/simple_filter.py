@@ -34,7 +34,9 @@ class SimpleFilter:
     def disconnect(self, number: int) -> None:
         """Call the callback of this number no longer."""
         with self._callbacks_lock:
-            self.callbacks = {other: entry for other, entry in self.callbacks.items() if other != number}
+            self.callbacks = {
+                other: entry for other, entry in self.callbacks.items() if other != number
+            }
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802 -- ROS 2's name
         """Pass messages on, in the order of registration."""

@@ -19,7 +19,8 @@ class Subscriber(SimpleFilter):
         node: Who subscribes.
         msg_type: Class of the messages.
         topic: Name of the topic.
-        args: Further arguments of :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`, after the callback.
+        args: Further arguments of :meth:`Node.create_subscription
+            <rclpy.node.Node.create_subscription>`, after the callback.
         qos_profile: Quality of service, or a depth; 10 unless given.
         kwargs: Further keywords of ``create_subscription``.
 
@@ -29,7 +30,9 @@ class Subscriber(SimpleFilter):
         sub: The subscription.
     """
 
-    def __init__(self, node: Node, msg_type: type[Any], topic: str, *args: Any, **kwargs: Any) -> None:
+    def __init__(
+        self, node: Node, msg_type: type[Any], topic: str, *args: Any, **kwargs: Any
+    ) -> None:
         super().__init__()
         if not args:
             kwargs.setdefault("qos_profile", 10)

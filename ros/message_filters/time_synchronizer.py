@@ -26,7 +26,8 @@ class TimeSynchronizer(SimpleFilter):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the one that has waited longest is dropped beyond.
+        queue_size: How many messages of each filter wait for their partners; the one that has
+            waited longest is dropped beyond.
 
     Attributes:
         queues: The waiting messages of each filter, by nanoseconds.
@@ -42,7 +43,8 @@ class TimeSynchronizer(SimpleFilter):
         """Listen to filters; what waited is forgotten."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
-            f.registerCallback(self.add, queue, index) for index, (f, queue) in enumerate(zip(fs, self.queues, strict=True))
+            f.registerCallback(self.add, queue, index)
+            for index, (f, queue) in enumerate(zip(fs, self.queues, strict=True))
         ]
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:  # noqa: ARG002 -- the other one needs it
@@ -61,7 +63,9 @@ class TimeSynchronizer(SimpleFilter):
         queue.pop(stamp_ns, None)
         queue[stamp_ns] = msg
         while len(queue) > self.queue_size:
-            del queue[next(iter(queue))]  # by arrival: after a clock has jumped back, those of before have the newest stamps
+            del queue[
+                next(iter(queue))
+            ]  # by arrival: after a clock has jumped back, those of before have the newest stamps
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
@@ -69,12 +73,20 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the one that has waited longest is dropped beyond.
+        queue_size: How many messages of each filter wait for their partners; the one that has
+            waited longest is dropped beyond.
         slop: All stamps of a set lie within less than so many seconds.
-        allow_headerless: Whether messages without a stamp are taken, with the time of their arrival.
+        allow_headerless: Whether messages without a stamp are taken, with the time of their
+            arrival.
     """
 
-    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int, slop: float, allow_headerless: bool = False) -> None:
+    def __init__(
+        self,
+        fs: Sequence[SimpleFilter],
+        queue_size: int,
+        slop: float,
+        allow_headerless: bool = False,
+    ) -> None:
         super().__init__(fs, queue_size)
         self.slop = Duration(seconds=slop)
         self.allow_headerless = allow_headerless
@@ -87,7 +99,10 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         with self.lock:
             self._keep(msg, stamp.nanoseconds, my_queue)
             found = self._closest_set(stamp.nanoseconds, my_queue_index)
-            messages = [queue.pop(stamp_ns) for queue, stamp_ns in zip(self.queues, found or (), strict=False)]
+            messages = [
+                queue.pop(stamp_ns)
+                for queue, stamp_ns in zip(self.queues, found or (), strict=False)
+            ]
         if found is not None:
             self.signalMessage(*messages)
 
@@ -96,8 +111,14 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         slop_ns = self.slop.nanoseconds
         candidates = []
         for number, queue in enumerate(self.queues):
-            near = [stamp_ns] if number == index else sorted(queue, key=lambda other: abs(other - stamp_ns))
-            candidates.append([other for other in near if other in queue and abs(other - stamp_ns) <= slop_ns])
+            near = (
+                [stamp_ns]
+                if number == index
+                else sorted(queue, key=lambda other: abs(other - stamp_ns))
+            )
+            candidates.append(
+                [other for other in near if other in queue and abs(other - stamp_ns) <= slop_ns]
+            )
         for stamps in product(*candidates):
             if max(stamps) - min(stamps) < slop_ns:
                 return stamps

@@ -8,8 +8,8 @@
     with rclpy.init():
         rclpy.spin(Node("talker"))
 
-The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are attributes of the package after
-``import rclpy``.
+The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are
+attributes of the package after ``import rclpy``.
 """
 
 from __future__ import annotations
@@ -55,7 +55,12 @@ class InitContextManager:
     def __enter__(self) -> Context:
         return self.context
 
-    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
         if self.context is get_default_context():
             try_shutdown()
             uninstall_signal_handlers()
@@ -76,7 +81,8 @@ def init(
         args: Command line whose ``--ros-args`` apply; None takes ``sys.argv``.
         context: What to initialize; None takes the default context.
         domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
-        signal_handler_options: Which signals shut down; None: both for the default context, none for others.
+        signal_handler_options: Which signals shut down; None: both for the default context, none
+            for others.
 
     Returns:
         A context manager that shuts down at its end; it can be ignored.
@@ -119,10 +125,12 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
 
     Args:
         context: None takes the default context.
-        uninstall_handlers: Whether signals get their former handlers back; None: when the default context is shut down.
+        uninstall_handlers: Whether signals get their former handlers back; None: when the default
+            context is shut down.
 
     Raises:
-        RuntimeError: It was never initialized, or was shut down before by a call (after a signal, one call is fine).
+        RuntimeError: It was never initialized, or was shut down before by a call (after a signal,
+            one call is fine).
     """
     is_default = context is None or context is get_default_context()
     _shutdown(context=context)
@@ -162,7 +170,9 @@ def create_node(
     )
 
 
-def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+def spin_once(
+    node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
     """Wait for one callback of ``node`` and run it.
 
     Args:
@@ -188,7 +198,8 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 
     Raises:
         KeyboardInterrupt: Ctrl-C, in the main thread.
-        ExternalShutdownException: SIGTERM, or another thread shut the context of a given executor down.
+        ExternalShutdownException: SIGTERM, or another thread shut the context of a given executor
+            down.
         Exception: What a callback raised.
     """
     executor = get_global_executor() if executor is None else executor
@@ -202,7 +213,9 @@ def spin(node: Node, executor: Executor | None = None) -> None:
             executor.remove_node(node)
 
 
-def spin_until_future_complete(node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+def spin_until_future_complete(
+    node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
     """Run the callbacks of ``node`` until ``future`` is done, the time is over, or the context is shut down.
 
     Args:
@@ -220,8 +233,14 @@ def spin_until_future_complete(node: Node, future: Future, executor: Executor | 
             executor.remove_node(node)
 
 
-#: Names that ROS 2's package has because it imports them; programs use ``rclpy.Parameter`` and the like.
-_ALSO_HERE = {"Context": "context", "Future": "task", "Parameter": "parameter", "get_rmw_implementation_identifier": "utilities"}
+#: Names that ROS 2's package has because it imports them; programs use ``rclpy.Parameter`` and the
+#: like.
+_ALSO_HERE = {
+    "Context": "context",
+    "Future": "task",
+    "Parameter": "parameter",
+    "get_rmw_implementation_identifier": "utilities",
+}
 
 
 def __getattr__(name: str) -> ModuleType | Any:

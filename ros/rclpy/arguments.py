@@ -2,7 +2,8 @@
 
 ::
 
-    program user args --ros-args -r from:=to -p name:=value --params-file f.yaml --log-level debug -- more user args
+    program user args --ros-args -r from:=to -p name:=value --params-file f.yaml --log-level debug
+    -- more user args
 """
 
 from __future__ import annotations
@@ -31,9 +32,17 @@ class _Option(NamedTuple):
     method: str
 
 
-_REMAP = _Option("remap rule", "Couldn't parse trailing {} flag. No remap rule found.", "_add_remap_rule")
-_PARAM = _Option("parameter override rule", "Couldn't parse trailing {} flag. No parameter override found.", "_add_parameter")
-_ENCLAVE = _Option("enclave name", "Couldn't parse trailing {} flag. No enclave path provided.", "_set_enclave")
+_REMAP = _Option(
+    "remap rule", "Couldn't parse trailing {} flag. No remap rule found.", "_add_remap_rule"
+)
+_PARAM = _Option(
+    "parameter override rule",
+    "Couldn't parse trailing {} flag. No parameter override found.",
+    "_add_parameter",
+)
+_ENCLAVE = _Option(
+    "enclave name", "Couldn't parse trailing {} flag. No enclave path provided.", "_set_enclave"
+)
 _OPTIONS = {
     "-r": _REMAP,
     "--remap": _REMAP,
@@ -41,10 +50,26 @@ _OPTIONS = {
     "--param": _PARAM,
     "-e": _ENCLAVE,
     "--enclave": _ENCLAVE,
-    "--params-file": _Option("params file", "Couldn't parse trailing {} flag. No file path provided.", "_add_parameter_file"),
-    "--log-level": _Option("log level", "Couldn't parse trailing log level flag: '{}'. No log level provided.", "_set_log_level"),
-    "--log-file-name": _Option("log file name prefix", "Couldn't parse trailing {} flag. No string prefix provided.", "_set_log_file_name"),
-    "--log-config-file": _Option("log config file", "Couldn't parse trailing {} flag. No file path provided.", "_set_log_config_file"),
+    "--params-file": _Option(
+        "params file",
+        "Couldn't parse trailing {} flag. No file path provided.",
+        "_add_parameter_file",
+    ),
+    "--log-level": _Option(
+        "log level",
+        "Couldn't parse trailing log level flag: '{}'. No log level provided.",
+        "_set_log_level",
+    ),
+    "--log-file-name": _Option(
+        "log file name prefix",
+        "Couldn't parse trailing {} flag. No string prefix provided.",
+        "_set_log_file_name",
+    ),
+    "--log-config-file": _Option(
+        "log config file",
+        "Couldn't parse trailing {} flag. No file path provided.",
+        "_set_log_config_file",
+    ),
 }
 _SWITCHES = {
     f"--{verb}-{attribute.replace('_', '-')}": (attribute, verb == "enable")
@@ -85,8 +110,10 @@ class Arguments:
         """Read a command line.
 
         Raises:
-            RCLInvalidROSArgsError: A rule is malformed, or a parameter file cannot be read; the text says which.
-            UnknownROSArgsError: A block holds something that is no flag; the text lists all of that.
+            RCLInvalidROSArgsError: A rule is malformed, or a parameter file cannot be read; the
+                text says which.
+            UnknownROSArgsError: A block holds something that is no flag; the text lists all of
+                that.
         """
         self = cls()
         unknown: list[str] = []
@@ -192,7 +219,9 @@ class Arguments:
         try:
             getattr(self, option.method)(value)
         except ValueError as error:
-            raise RCLInvalidROSArgsError(f"Couldn't parse {option.label}: '{flag} {value}'. Error: {error}") from None
+            raise RCLInvalidROSArgsError(
+                f"Couldn't parse {option.label}: '{flag} {value}'. Error: {error}"
+            ) from None
 
     def _add_remap_rule(self, text: str) -> None:
         from .impl.rcl_remap import parse_remap_rule
@@ -238,7 +267,9 @@ class Arguments:
         fault = names.validate_namespace(name)
         if fault is not None:
             message = fault.message.replace("namespace", "context name")
-            raise ValueError(f"Enclave name is not valid: '{message}'. Invalid index: {fault.invalid_index}")
+            raise ValueError(
+                f"Enclave name is not valid: '{message}'. Invalid index: {fault.invalid_index}"
+            )
         self.enclave = name
 
 

@@ -1,11 +1,12 @@
 """What all executors have in common: they wait for what the entities of their nodes have to do, and run it.
 
-One wait serves everything. The middleware's wait set holds the subscriptions, clients and services, and is told once when one comes or
-goes; the earliest timer gives the wait's limit; a guard condition, a finished future or another thread ends the wait. Nothing is collected
-anew for a pass, and nothing polls: an idle executor does not run at all.
+One wait serves everything. The middleware's wait set holds the subscriptions, clients and services,
+and is told once when one comes or goes; the earliest timer gives the wait's limit; a guard
+condition, a finished future or another thread ends the wait. Nothing is collected anew for a pass,
+and nothing polls: an idle executor does not run at all.
 
-Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of all nodes, then node by node its timers,
-subscriptions, guard conditions, clients and services.
+Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of
+all nodes, then node by node its timers, subscriptions, guard conditions, clients and services.
 """
 
 from __future__ import annotations
@@ -19,7 +20,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
 
-from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .executor_exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
 from .executor_wait import ExecutorWait
 from .hints import described
 from .running_callbacks import RunningCallbacks
@@ -81,7 +87,12 @@ class Executor:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
         self.shutdown()
 
     # Nodes
@@ -98,7 +109,9 @@ class Executor:
         from .node import Node
 
         if not isinstance(node, Node):
-            raise TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
+            raise TypeError(
+                f"An executor serves nodes, such as Node('name'), not {described(node)}"
+            )
         with self._lock:
             if node in self._nodes:
                 return False
@@ -149,7 +162,9 @@ class Executor:
 
     # Tasks
 
-    def create_task(self, callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any, **kwargs: Any) -> Task:
+    def create_task(
+        self, callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any, **kwargs: Any
+    ) -> Task:
         """Run a function or a coroutine on this executor.
 
         Returns:
@@ -170,7 +185,8 @@ class Executor:
         """Run callbacks until the executor or its context is shut down.
 
         Raises:
-            ExternalShutdownException: The context was shut down by a signal, or by another thread while it waited.
+            ExternalShutdownException: The context was shut down by a signal, or by another thread
+                while it waited.
             KeyboardInterrupt: Ctrl-C, in the main thread.
             Exception: What a callback raised.
         """
@@ -198,7 +214,9 @@ class Executor:
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run callbacks until ``future`` is done, the time is over, or the executor or its context is shut down."""
         self._wake_when_done(future)
-        deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+        deadline = (
+            None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+        )
         remaining = timeout_sec
         while self._context.ok() and not future.done() and not self._is_shutdown:
             self._spin_once(remaining, future.done)
@@ -207,7 +225,9 @@ class Executor:
                 if remaining <= 0:
                     return
 
-    def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+    def spin_once_until_future_complete(
+        self, future: Future, timeout_sec: float | None = None
+    ) -> None:
         """Wait for one callback and run it, unless ``future`` is done before."""
         self._wake_when_done(future)
         self._spin_once(timeout_sec, future.done)
@@ -218,10 +238,16 @@ class Executor:
         elif hasattr(future, "add_done_callback"):  # of concurrent.futures, for example
             future.add_done_callback(lambda _: self.wake())
         else:
-            raise TypeError(f"Expected a Future, such as call_async() returns, not {described(future)}")
+            raise TypeError(
+                f"Expected a Future, such as call_async() returns, not {described(future)}"
+            )
 
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None = None) -> None:
-        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+    def _spin_once(
+        self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
+    ) -> None:
+        timeout_ns = (
+            None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        )
         outer, me = self._spinning_thread, threading.get_ident()
         if outer is not None and outer != me:
             raise RuntimeError("Executor is already spinning")
@@ -233,28 +259,40 @@ class Executor:
         finally:
             self._spinning_thread = outer
 
-    def wait_for_ready_callbacks(self, timeout_sec: float | None = None) -> tuple[Task, Entity | None, Node | None]:
+    def wait_for_ready_callbacks(
+        self, timeout_sec: float | None = None
+    ) -> tuple[Task, Entity | None, Node | None]:
         """For executors of your own, whose ``spin_once`` decides where callbacks run: wait for the next one, its group claimed.
 
         Returns:
-            What to call exactly once, in any thread (a task: it keeps what the callback raises); whose callback it is, and the
-            node of that (both None for what :meth:`create_task` was given).
+            What to call exactly once, in any thread (a task: it keeps what the callback raises);
+            whose callback it is, and the node of that (both None for what :meth:`create_task` was
+            given).
 
         Raises:
             TimeoutException: Nothing was ready in time.
             ShutdownException, ExternalShutdownException: The executor or the context was shut down.
         """
-        source, work = self._next(None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000), None)
+        source, work = self._next(
+            None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000),
+            None,
+        )
         handler = Task(self._execute, (source, work))
         if isinstance(source, Task):
             return handler, None, None
-        return handler, source, next((node for node, index in self._nodes.items() if index == source._rank[0]), None)
+        return (
+            handler,
+            source,
+            next((node for node, index in self._nodes.items() if index == source._rank[0]), None),
+        )
 
     def _run(self, source: Entity | Task, work: Work | None) -> None:
         """Run what :meth:`_next` found; here or in another thread."""
         raise NotImplementedError
 
-    def _next(self, timeout_ns: int | None, condition: Callable[[], bool] | None) -> tuple[Entity | Task, Work | None]:
+    def _next(
+        self, timeout_ns: int | None, condition: Callable[[], bool] | None
+    ) -> tuple[Entity | Task, Work | None]:
         """The next thing to run, its callback group claimed."""
         deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
         expired = False
@@ -341,7 +379,9 @@ class Executor:
         return work
 
     def _pause(self, entity: Entity) -> None:
-        with self._lock:  # a thread that ends its callback may resume it at any moment: not in the middle of this
+        with (
+            self._lock
+        ):  # a thread that ends its callback may resume it at any moment: not in the middle of this
             self._paused.add(entity)
             entity._pause(self)
             self._self_waits.held_up(entity, list(self._holders.values()), self._nodes)
@@ -422,7 +462,9 @@ class Executor:
         self._wait.end()
         for blocked in list(self._blocked_waits):
             blocked.set()
-        if not self._running.wait_for_others(None if timeout_sec is None or timeout_sec < 0 else timeout_sec):
+        if not self._running.wait_for_others(
+            None if timeout_sec is None or timeout_sec < 0 else timeout_sec
+        ):
             return False
         for node in self.get_nodes():
             self.remove_node(node)
@@ -430,7 +472,9 @@ class Executor:
         return True
 
 
-async def await_or_execute(callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any) -> Any:
+async def await_or_execute(
+    callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any
+) -> Any:
     """The result of a function or of a coroutine (function)."""
     outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
     return await outcome if isinstance(outcome, CoroutineType) else outcome

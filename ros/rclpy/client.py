@@ -29,8 +29,9 @@ __all__ = ["Client"]
 class Client(IntrospectedEndpoint):
     """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`. Thread-safe.
 
-    Responses are handed to their futures whatever the callback group is doing: a callback that awaits a response, or blocks for it
-    in :meth:`call` while another thread spins, never waits for itself.
+    Responses are handed to their futures whatever the callback group is doing: a callback that
+    awaits a response, or blocks for it in :meth:`call` while another thread spins, never waits for
+    itself.
 
     Attributes:
         srv_type: The service class.
@@ -86,7 +87,9 @@ class Client(IntrospectedEndpoint):
             sequence_number = self._send(serialize(request))
             self._pending[sequence_number] = future
         if self._events is not None:
-            self._events.publish(EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request)
+            self._events.publish(
+                EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
+            )
         future._add_waiter(lambda: self._pending.pop(sequence_number, None))
         return future
 
@@ -101,12 +104,14 @@ class Client(IntrospectedEndpoint):
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request and block until its response is here.
 
-        Another thread may spin the node; in a callback of the executor itself only responses are served meanwhile, nothing else.
+        Another thread may spin the node; in a callback of the executor itself only responses are
+        served meanwhile, nothing else.
 
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
             TimeoutError: No response came within ``timeout_sec``.
-            RuntimeError: The service is in the executor that is blocked by this call: it could never answer.
+            RuntimeError: The service is in the executor that is blocked by this call: it could
+                never answer.
             ExternalShutdownException, ShutdownException: The context or the executor was shut down.
         """
         return self._block_for(self.call_async(request), timeout_sec)
@@ -155,7 +160,12 @@ class Client(IntrospectedEndpoint):
             except CdrError as error:
                 return future.set_exception, (error,)
             if self._events is not None:
-                self._events.publish(EventType.RESPONSE_RECEIVED, self._wire.client_id, sequence_number, response=response)
+                self._events.publish(
+                    EventType.RESPONSE_RECEIVED,
+                    self._wire.client_id,
+                    sequence_number,
+                    response=response,
+                )
             future._set_executor(None if self._executor is None else self._executor())
             return future.set_result, (response,)
         return None

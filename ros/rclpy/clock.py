@@ -1,6 +1,7 @@
 """Clocks: the system's, a steady one, and ROS time, which a simulation may drive.
 
-Jump callbacks run on the thread that moves the clock, without a lock held. All clocks are thread-safe.
+Jump callbacks run on the thread that moves the clock, without a lock held. All clocks are
+thread-safe.
 """
 
 from __future__ import annotations
@@ -24,7 +25,15 @@ if TYPE_CHECKING:
 
     from .context import Context
 
-__all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "ROSClock", "TimeJump"]
+__all__ = [
+    "Clock",
+    "ClockChange",
+    "ClockType",
+    "JumpHandle",
+    "JumpThreshold",
+    "ROSClock",
+    "TimeJump",
+]
 
 
 class ClockChange(Enum):
@@ -48,7 +57,13 @@ class JumpThreshold:
         ValueError: A duration has the wrong sign, or nothing is asked for.
     """
 
-    def __init__(self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True) -> None:
+    def __init__(
+        self,
+        *,
+        min_forward: Duration | None,
+        min_backward: Duration | None,
+        on_clock_change: bool = True,
+    ) -> None:
         if min_forward is None and min_backward is None and not on_clock_change:
             raise ValueError("At least one jump threshold must be enabled")
         if min_forward is not None and min_forward.nanoseconds <= 0:
@@ -61,7 +76,10 @@ class JumpThreshold:
 
     def is_crossed_by(self, jump: TimeJump) -> bool:
         """Whether ``jump`` is one of those that were asked for."""
-        if self.on_clock_change and jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+        if self.on_clock_change and jump.clock_change in (
+            ClockChange.ROS_TIME_ACTIVATED,
+            ClockChange.ROS_TIME_DEACTIVATED,
+        ):
             return True
         if self.min_backward is not None and jump.delta <= self.min_backward:
             return True
@@ -134,7 +152,12 @@ class JumpHandle:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, exc_type: type[BaseException] | None, exc: BaseException | None, traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
         self.unregister()
 
 
@@ -190,7 +213,9 @@ class Clock:
         Returns:
             A handle; ``unregister()`` ends it.
         """
-        return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
+        return JumpHandle(
+            clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback
+        )
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Wait until this clock shows ``until``.
@@ -200,7 +225,8 @@ class Clock:
             context: Its shutdown ends the wait; the default context if None.
 
         Returns:
-            True when the time has come, False after a shutdown or a change of the source of ROS time.
+            True when the time has come, False after a shutdown or a change of the source of ROS
+            time.
 
         Raises:
             NotInitializedException: The context is not valid.

@@ -31,8 +31,9 @@ _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the giv
 class Context:
     """Participates in a domain between :meth:`init` and :meth:`shutdown`. Thread-safe; also a context manager.
 
-    A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or the end of the process, so
-    that the program can still say goodbye; the one :meth:`shutdown` that follows a signal is no error.
+    A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or
+    the end of the process, so that the program can still say goodbye; the one :meth:`shutdown` that
+    follows a signal is no error.
     """
 
     def __init__(self) -> None:
@@ -44,12 +45,19 @@ class Context:
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
         self._waits: set[threading.Event] = set()
 
-    def init(self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None) -> None:
+    def init(
+        self,
+        args: list[str] | None = None,
+        *,
+        initialize_logging: bool = True,
+        domain_id: int | None = None,
+    ) -> None:
         """Join a domain.
 
         Args:
             args: Command line whose ``--ros-args`` apply to all nodes; None takes ``sys.argv``.
-            initialize_logging: Whether log levels of the command line take effect and the log file is opened.
+            initialize_logging: Whether log levels of the command line take effect and the log file
+                is opened.
             domain_id: None takes ``ROS_DOMAIN_ID``, else 0.
 
         Raises:
@@ -67,11 +75,15 @@ class Context:
                 raise RuntimeError("Context.init() must only be called once")
             self._arguments = Arguments.parse_global(sys.argv if args is None else args)
             self._wire = open_context(domain_id)
-            _ = self._wire.graph  # discovery begins here, so that the first question about the graph finds it known
+            _ = (
+                self._wire.graph
+            )  # discovery begins here, so that the first question about the graph finds it known
             self._valid = True
             _open_contexts.add(self)
             signals.listeners.add(self)
-            if initialize_logging and len(_open_contexts) == 1:  # the first context's command line decides, as in ROS 2
+            if (
+                initialize_logging and len(_open_contexts) == 1
+            ):  # the first context's command line decides, as in ROS 2
                 from . import logging
 
                 logging.configure(self._arguments)
@@ -199,7 +211,9 @@ class Context:
             raise TypeError("callback should be a callable, got {}", type(callback))
         with self._lock:
             if self._valid:
-                self._callbacks = [reference for reference in self._callbacks if reference() is not None]
+                self._callbacks = [
+                    reference for reference in self._callbacks if reference() is not None
+                ]
                 self._callbacks.append(_reference(callback))
                 return
         callback()
@@ -207,7 +221,12 @@ class Context:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc_val: BaseException | None,
+        exc_tb: TracebackType | None,
+    ) -> None:
         self.try_shutdown()
 
 

@@ -61,22 +61,46 @@ class Duration:
         return f"Duration(nanoseconds={self._nanoseconds})"
 
     def __str__(self) -> str:
-        return "Infinite" if self._nanoseconds == Infinite.nanoseconds else f"{self._nanoseconds} nanoseconds"
+        return (
+            "Infinite"
+            if self._nanoseconds == Infinite.nanoseconds
+            else f"{self._nanoseconds} nanoseconds"
+        )
 
     def __eq__(self, other: object) -> bool:
-        return self._nanoseconds == other._nanoseconds if isinstance(other, Duration) else NotImplemented
+        return (
+            self._nanoseconds == other._nanoseconds
+            if isinstance(other, Duration)
+            else NotImplemented
+        )
 
     def __lt__(self, other: Any) -> bool:
-        return self._nanoseconds < other._nanoseconds if isinstance(other, Duration) else NotImplemented
+        return (
+            self._nanoseconds < other._nanoseconds
+            if isinstance(other, Duration)
+            else NotImplemented
+        )
 
     def __le__(self, other: Any) -> bool:
-        return self._nanoseconds <= other._nanoseconds if isinstance(other, Duration) else NotImplemented
+        return (
+            self._nanoseconds <= other._nanoseconds
+            if isinstance(other, Duration)
+            else NotImplemented
+        )
 
     def __gt__(self, other: Any) -> bool:
-        return self._nanoseconds > other._nanoseconds if isinstance(other, Duration) else NotImplemented
+        return (
+            self._nanoseconds > other._nanoseconds
+            if isinstance(other, Duration)
+            else NotImplemented
+        )
 
     def __ge__(self, other: Any) -> bool:
-        return self._nanoseconds >= other._nanoseconds if isinstance(other, Duration) else NotImplemented
+        return (
+            self._nanoseconds >= other._nanoseconds
+            if isinstance(other, Duration)
+            else NotImplemented
+        )
 
 
 #: A span that never ends: what a QoS policy has when it is not limited.

@@ -23,15 +23,17 @@ Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
 class Entity:
     """Base of all entities.
 
-    An entity is *attached* to at most one executor, that of its node. When it is ready, the executor claims its callback group, calls
-    :meth:`_work` and runs the work that comes back. An entity whose group is busy is *paused*: it must not report itself ready
-    again before it is *resumed*, or the executor would spin.
+    An entity is *attached* to at most one executor, that of its node. When it is ready, the
+    executor claims its callback group, calls :meth:`_work` and runs the work that comes back. An
+    entity whose group is busy is *paused*: it must not report itself ready again before it is
+    *resumed*, or the executor would spin.
 
     Attributes:
         callback_group: Says which callbacks may run at the same time.
     """
 
-    #: Place in the order of one node's entities within a cycle of the executor (waitables of all nodes come first).
+    #: Place in the order of one node's entities within a cycle of the executor (waitables of all
+    #: nodes come first).
     _ORDER = 0
     #: Whether its work has to respect the callback group.
     _GATED = True

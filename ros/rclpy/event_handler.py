@@ -125,9 +125,14 @@ _INFOS: dict[EventKind, Callable[[EventStatus], Any]] = {
     EventKind.LIVELINESS_LOST: lambda status: QoSLivelinessLostInfo(*status[:2]),
     EventKind.MESSAGE_LOST: lambda status: QoSMessageLostInfo(*status[:2]),
     EventKind.LIVELINESS_CHANGED: lambda status: QoSLivelinessChangedInfo(
-        status.current_count, status.total_count, status.current_count_change, status.total_count_change
+        status.current_count,
+        status.total_count,
+        status.current_count_change,
+        status.total_count_change,
     ),
-    EventKind.INCOMPATIBLE_QOS: lambda status: QoSRequestedIncompatibleQoSInfo(*status[:2], QoSPolicyKind(status.last_policy_kind)),
+    EventKind.INCOMPATIBLE_QOS: lambda status: QoSRequestedIncompatibleQoSInfo(
+        *status[:2], QoSPolicyKind(status.last_policy_kind)
+    ),
     EventKind.MATCHED: lambda status: QoSSubscriptionMatchedInfo(*status[:4]),
 }
 
@@ -185,7 +190,11 @@ class _EventCallbacks:
         raise NotImplementedError
 
     def create_event_handlers(
-        self, callback_group: CallbackGroup, endpoint: base.Publisher | base.Subscription, topic_name: str, logger: RcutilsLogger
+        self,
+        callback_group: CallbackGroup,
+        endpoint: base.Publisher | base.Subscription,
+        topic_name: str,
+        logger: RcutilsLogger,
     ) -> list[EventHandler]:
         """Make a handler for each callback; called by the node when it creates the endpoint.
 
@@ -193,21 +202,29 @@ class _EventCallbacks:
             UnsupportedEventTypeError: The middleware cannot report one of the events.
         """
         if self.incompatible_type is not None:
-            raise UnsupportedEventTypeError("the middleware does not report endpoints of another type")
+            raise UnsupportedEventTypeError(
+                "the middleware does not report endpoints of another type"
+            )
         wanted = self._wanted()
         if self.incompatible_qos is None and self.use_default_callbacks:
             wanted[EventKind.INCOMPATIBLE_QOS] = self._warn_of_incompatible_qos(topic_name, logger)
         return [
-            EventHandler(callback_group=callback_group, callback=callback, event_type=kind, endpoint=endpoint)
+            EventHandler(
+                callback_group=callback_group, callback=callback, event_type=kind, endpoint=endpoint
+            )
             for kind, callback in wanted.items()
             if callback is not None
         ]
 
-    def _warn_of_incompatible_qos(self, topic_name: str, logger: RcutilsLogger) -> Callable[[QoSRequestedIncompatibleQoSInfo], None]:
+    def _warn_of_incompatible_qos(
+        self, topic_name: str, logger: RcutilsLogger
+    ) -> Callable[[QoSRequestedIncompatibleQoSInfo], None]:
         text = self._WARNING
 
         def warn(event: QoSRequestedIncompatibleQoSInfo) -> None:
-            logger.warning(text.format(topic_name, qos_policy_name_from_kind(event.last_policy_kind)))
+            logger.warning(
+                text.format(topic_name, qos_policy_name_from_kind(event.last_policy_kind))
+            )
 
         return warn
 

@@ -1,8 +1,9 @@
 """Ctrl-C ends a program without a traceback when the program does not catch ``KeyboardInterrupt``.
 
-Nobody asked where the program was when it was told to end, also when that was while it still imported. The exit status stays that of an
-interrupted program. The same goes for threads that spin: ``ExternalShutdownException`` is how they learn of the signal, not a fault.
-A command line that cannot be read is told in one line.
+Nobody asked where the program was when it was told to end, also when that was while it still
+imported. The exit status stays that of an interrupted program. The same goes for threads that spin:
+``ExternalShutdownException`` is how they learn of the signal, not a fault. A command line that
+cannot be read is told in one line.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
     """Whether ``--ros-args`` could not be read: the text says all, and the program is not at fault."""
     while traceback is not None and traceback.tb_next is not None:
         traceback = traceback.tb_next
-    return traceback is not None and traceback.tb_frame.f_globals.get("__name__") == "rclpy.arguments"
+    return (
+        traceback is not None and traceback.tb_frame.f_globals.get("__name__") == "rclpy.arguments"
+    )
 
 
 def _thread_hook(arguments: threading.ExceptHookArgs) -> None:

@@ -1,7 +1,8 @@
 """The errors of ROS 2's client library, with its texts.
 
-Those of executors are in :mod:`rclpy.executors`, those of the layers below in ``rclpy._rclpy_pybind11``.
-Some carry a ``hint``: what exists and what to do; tracebacks show it as a note on Python 3.11 and later.
+Those of executors are in :mod:`rclpy.executors`, those of the layers below in
+``rclpy._rclpy_pybind11``. Some carry a ``hint``: what exists and what to do; tracebacks show it as
+a note on Python 3.11 and later.
 """
 
 from __future__ import annotations
@@ -62,7 +63,9 @@ class NameValidationException(Exception):
         invalid_index: Where in the name.
     """
 
-    def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+    def __init__(
+        self, name_type: str, name: str, error_msg: str, invalid_index: int, *args: object
+    ) -> None:
         marker = " " * invalid_index + "^"
         super().__init__(f"Invalid {name_type}: {error_msg}:\n  '{name}'\n   {marker}", *args)
         self.name_type = name_type

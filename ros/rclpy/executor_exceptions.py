@@ -5,7 +5,12 @@ from __future__ import annotations
 #: Where they can be imported from, and what tracebacks say.
 _MODULE = "rclpy.executors"
 
-__all__ = ["ConditionReachedException", "ExternalShutdownException", "ShutdownException", "TimeoutException"]
+__all__ = [
+    "ConditionReachedException",
+    "ExternalShutdownException",
+    "ShutdownException",
+    "TimeoutException",
+]
 
 
 class TimeoutException(Exception):

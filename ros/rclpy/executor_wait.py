@@ -63,7 +63,11 @@ class ExecutorWait:
             if until_timer is not None and (timeout_ns is None or until_timer < timeout_ns):
                 timeout_ns = until_timer
         # one look at the table for each: another thread may unwatch it at any moment
-        entities = [entity for wire in self._wait_for_wire(timeout_ns) if (entity := self._by_wire.get(wire)) is not None]
+        entities = [
+            entity
+            for wire in self._wait_for_wire(timeout_ns)
+            if (entity := self._by_wire.get(wire)) is not None
+        ]
         entities += self.timers.pop_due()
         while self._notified:
             entities.append(self._notified.popleft())

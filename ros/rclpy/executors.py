@@ -5,7 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .base_executor import Executor, await_or_execute
-from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .executor_exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
 from .multi_threaded_executor import MultiThreadedExecutor
 
 if TYPE_CHECKING:

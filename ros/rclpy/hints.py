@@ -21,4 +21,8 @@ def described(value: Any) -> str:
     """What a value is, in words: ``None``, ``the class String``, ``an object of type float``."""
     if value is None:
         return "None"
-    return f"the class {value.__qualname__}" if isinstance(value, type) else f"an object of type {type(value).__qualname__}"
+    return (
+        f"the class {value.__qualname__}"
+        if isinstance(value, type)
+        else f"an object of type {type(value).__qualname__}"
+    )

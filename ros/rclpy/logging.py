@@ -1,6 +1,7 @@
 """Loggers by name, their levels, and where their messages go.
 
-A line goes to the standard error stream, to a file in :func:`get_logging_directory`, and to ``/rosout`` when its logger belongs to a node::
+A line goes to the standard error stream, to a file in :func:`get_logging_directory`, and to
+``/rosout`` when its logger belongs to a node::
 
     [INFO] [1700000000.123456789] [turtle_tf2_broadcaster]: text
 """
@@ -61,7 +62,9 @@ def configure(arguments: Arguments) -> None:
         file_prefix=arguments.log_file_name,
     )
     if arguments.log_config_file is not None:
-        get_logger("rcl").warning(f"Configuration files of logging are not supported: '{arguments.log_config_file}' is ignored")
+        get_logger("rcl").warning(
+            f"Configuration files of logging are not supported: '{arguments.log_config_file}' is ignored"
+        )
 
 
 def shutdown() -> None:
@@ -104,7 +107,9 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         known = ", ".join(severity.name for severity in LoggingSeverity)
-        raise RuntimeError(f"There is no log severity '{log_severity}'; there are {known}") from None
+        raise RuntimeError(
+            f"There is no log severity '{log_severity}'; there are {known}"
+        ) from None
 
 
 def get_logging_directory() -> Path:

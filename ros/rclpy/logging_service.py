@@ -23,13 +23,20 @@ class LoggingService:
             (GetLoggerLevels, "get_logger_levels", self._get_logger_levels),
             (SetLoggerLevels, "set_logger_levels", self._set_logger_levels),
         ):
-            node.create_service(service_type, f"{node.get_name()}/{name}", callback, qos_profile=qos_profile_services_default)
+            node.create_service(
+                service_type,
+                f"{node.get_name()}/{name}",
+                callback,
+                qos_profile=qos_profile_services_default,
+            )
 
     def _get_logger_levels(self, request: Any, response: Any) -> Any:
         from rcl_interfaces.msg import LoggerLevel
 
         for name in request.names:
-            response.levels.append(LoggerLevel(name=name, level=logging.get_logger_level(name).value))
+            response.levels.append(
+                LoggerLevel(name=name, level=logging.get_logger_level(name).value)
+            )
         return response
 
     def _set_logger_levels(self, request: Any, response: Any) -> Any:

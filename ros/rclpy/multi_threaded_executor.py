@@ -9,7 +9,12 @@ from typing import TYPE_CHECKING
 
 from .base_executor import Executor
 from .entity import Entity
-from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .executor_exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +33,8 @@ class MultiThreadedExecutor(Executor):
     What a callback raises leaves ``spin`` in the spinning thread.
 
     Args:
-        num_threads: Size of the pool; None takes the number of processors that this process may use.
+        num_threads: Size of the pool; None takes the number of processors that this process may
+            use.
         context: None takes the default context.
     """
 
@@ -37,16 +43,25 @@ class MultiThreadedExecutor(Executor):
 
         super().__init__(context=context)
         if num_threads is None:
-            num_threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+            num_threads = (
+                len(os.sched_getaffinity(0))
+                if hasattr(os, "sched_getaffinity")
+                else os.cpu_count() or 1
+            )
         if num_threads == 1:
             import warnings
 
-            warnings.warn("MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.", stacklevel=2)
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
         self._executor: ThreadPoolExecutor = ThreadPoolExecutor(num_threads)
         self._free_threads = num_threads
         self._failures: deque[BaseException] = deque()
 
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None = None) -> None:
+    def _spin_once(
+        self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
+    ) -> None:
         try:
             super()._spin_once(timeout_sec, condition)
         except ExternalShutdownException:
@@ -67,7 +82,9 @@ class MultiThreadedExecutor(Executor):
 
     def _run(self, source: Entity | Task, work: Work | None) -> None:
         if isinstance(source, Entity) and not source._GATED:
-            self._execute(source, work)  # handing a response to its future takes no thread: all of them may be waiting for it
+            self._execute(
+                source, work
+            )  # handing a response to its future takes no thread: all of them may be waiting for it
             return
         with self._lock:
             self._free_threads -= 1

@@ -1,10 +1,12 @@
 """The node: a named participant of the graph that owns publishers, subscriptions, services, timers and parameters.
 
-:class:`Node` itself holds no logic: each method hands over to the part that does the work. ``node_endpoints.py`` makes and keeps the
-endpoints, ``node_graph.py`` answers questions about other nodes, ``parameters.py`` keeps the parameters.
+:class:`Node` itself holds no logic: each method hands over to the part that does the work.
+``node_endpoints.py`` makes and keeps the endpoints, ``node_graph.py`` answers questions about other
+nodes, ``parameters.py`` keeps the parameters.
 
-Programs derive from it and have attributes of their own: beside those that ROS 2's has (``_logger``, ``_clock`` …), ours begin with two
-underscores, or with ``_rclpy`` where other modules need them.
+Programs derive from it and have attributes of their own: beside those that ROS 2's has
+(``_logger``, ``_clock`` …), ours begin with two underscores, or with ``_rclpy`` where other modules
+need them.
 """
 
 from __future__ import annotations
@@ -59,7 +61,8 @@ if TYPE_CHECKING:
 
 __all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError", "component_arguments"]
 
-#: Command line for the next node of this thread, whose class need not know that it is loaded as a component.
+#: Command line for the next node of this thread, whose class need not know that it is loaded as a
+#: component.
 component_arguments: ContextVar[list[str] | None] = ContextVar("component_arguments", default=None)
 
 #: Tools leave nodes out whose names begin so.
@@ -74,7 +77,9 @@ class _MadeByConstructor:
 
     def __get__(self, node: object, owner: type | None = None) -> Any:
         error = AttributeError(f"{type(node).__name__!r} object has no attribute {self._name!r}")
-        raise with_hint(error, "A node is used before it was made: call super().__init__('name') first")
+        raise with_hint(
+            error, "A node is used before it was made: call super().__init__('name') first"
+        )
 
 
 class Node:
@@ -83,7 +88,8 @@ class Node:
     Args:
         node_name: Base name (no slashes); ``--ros-args -r __node:=…`` replaces it.
         context: None takes the default context.
-        cli_args: Command line of this node alone; its ``--ros-args`` come before those of the context.
+        cli_args: Command line of this node alone; its ``--ros-args`` come before those of the
+            context.
         namespace: None and "" mean "/"; ``--ros-args -r __ns:=…`` replaces it.
         use_global_arguments: Whether the command line of the context applies.
         enable_rosout: Whether what it logs is published on ``/rosout``.
@@ -121,9 +127,13 @@ class Node:
         self.__executor: weakref.ref[Executor] | None = None
         self.__destroyed = False
         self._context = _usable_context(context)
-        self.__arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
+        self.__arguments = _arguments(
+            self._context, cli_args, use_global_arguments=use_global_arguments
+        )
         self.__name, self.__namespace = _names(node_name, namespace or "/", self.__arguments)
-        self.__wire = self._context.wire.create_node(self.__name, self.__namespace, self.__arguments.enclave)
+        self.__wire = self._context.wire.create_node(
+            self.__name, self.__namespace, self.__arguments.enclave
+        )
         self._logger = get_logger(self.get_fully_qualified_name()[1:].replace("/", "."))
         self._clock = ROSClock()
         self._rclpy_endpoints = NodeEndpoints(self, self.__arguments)
@@ -152,7 +162,9 @@ class Node:
     def __parameter_event_publisher(self) -> Publisher:
         from rcl_interfaces.msg import ParameterEvent
 
-        return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
+        return self.create_publisher(
+            ParameterEvent, "/parameter_events", qos_profile_parameter_events
+        )
 
     # What it is
 
@@ -287,7 +299,8 @@ class Node:
             topic: Name of the topic.
             qos_profile: Quality of service, or a history depth.
             callback_group: For event callbacks; None takes the node's default.
-            event_callbacks: What to call on events of the quality of service (:class:`rclpy.event_handler.PublisherEventCallbacks`).
+            event_callbacks: What to call on events of the quality of service
+                (:class:`rclpy.event_handler.PublisherEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             publisher_class: Class to instantiate.
 
@@ -297,7 +310,13 @@ class Node:
             ValueError: The depth is negative.
         """
         return self._rclpy_endpoints.create_publisher(
-            msg_type, topic, qos_profile, callback_group, event_callbacks, qos_overriding_options, publisher_class
+            msg_type,
+            topic,
+            qos_profile,
+            callback_group,
+            event_callbacks,
+            qos_overriding_options,
+            publisher_class,
         )
 
     def create_subscription(
@@ -318,14 +337,16 @@ class Node:
         Args:
             msg_type: Class of its messages.
             topic: Name of the topic.
-            callback: Called with each message, and with a message info when it takes two arguments; may be ``async``.
+            callback: Called with each message, and with a message info when it takes two arguments;
+                may be ``async``.
             qos_profile: Quality of service, or a history depth.
             callback_group: None takes the node's default.
             event_callbacks: What to call on events of the quality of service
                 (:class:`rclpy.event_handler.SubscriptionEventCallbacks`).
             qos_overriding_options: Which policies parameters may override.
             raw: Whether the callback gets the serialized bytes.
-            content_filter_options: Without effect, as with any middleware that cannot filter; ``is_cft_enabled`` says so.
+            content_filter_options: Without effect, as with any middleware that cannot filter;
+                ``is_cft_enabled`` says so.
 
         Raises:
             InvalidTopicNameException: The name breaks the rules.
@@ -334,7 +355,14 @@ class Node:
             RuntimeError: The callback takes neither one nor two arguments.
         """
         return self._rclpy_endpoints.create_subscription(
-            msg_type, topic, callback, qos_profile, callback_group, event_callbacks, qos_overriding_options, raw
+            msg_type,
+            topic,
+            callback,
+            qos_profile,
+            callback_group,
+            event_callbacks,
+            qos_overriding_options,
+            raw,
         )
 
     def create_client(
@@ -372,14 +400,17 @@ class Node:
         Args:
             srv_type: The service class.
             srv_name: Name of the service.
-            callback: Called with a request and an empty response, returns the response; may be ``async``.
+            callback: Called with a request and an empty response, returns the response; may be
+                ``async``.
             qos_profile: Quality of service of requests and responses.
             callback_group: None takes the node's default.
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        return self._rclpy_endpoints.create_service(srv_type, srv_name, callback, qos_profile, callback_group)
+        return self._rclpy_endpoints.create_service(
+            srv_type, srv_name, callback, qos_profile, callback_group
+        )
 
     def create_timer(
         self,
@@ -398,7 +429,9 @@ class Node:
             clock: None takes the node's clock.
             autostart: False: it starts with :meth:`Timer.reset <rclpy.timer.Timer.reset>`.
         """
-        return self._rclpy_endpoints.create_timer(timer_period_sec, callback, callback_group, clock or self._clock, autostart)
+        return self._rclpy_endpoints.create_timer(
+            timer_period_sec, callback, callback_group, clock or self._clock, autostart
+        )
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz; another thread has to spin the node.
@@ -408,7 +441,9 @@ class Node:
         """
         return self._rclpy_endpoints.create_rate(frequency, clock or self._clock)
 
-    def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None) -> GuardCondition:
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
         """Something whose ``trigger()`` has ``callback()`` called on the executor."""
         return self._rclpy_endpoints.create_guard_condition(callback, callback_group)
 
@@ -462,13 +497,18 @@ class Node:
     # Parameters
 
     def declare_parameter(
-        self, name: str, value: Any = None, descriptor: ParameterDescriptor | None = None, ignore_override: bool = False
+        self,
+        name: str,
+        value: Any = None,
+        descriptor: ParameterDescriptor | None = None,
+        ignore_override: bool = False,
     ) -> Parameter:
         """Declare a parameter.
 
         Args:
             name: Its name.
-            value: Default value, or a :class:`Parameter.Type <rclpy.parameter.Parameter.Type>` for a parameter without one.
+            value: Default value, or a :class:`Parameter.Type <rclpy.parameter.Parameter.Type>` for
+                a parameter without one.
             descriptor: Description, ranges, whether it is read-only or may change its type.
             ignore_override: Whether ``value`` goes before what the command line says.
 
@@ -483,7 +523,9 @@ class Node:
         """
         return self._parameters.declare_parameter(name, value, descriptor, ignore_override)
 
-    def declare_parameters(self, namespace: str, parameters: list[Any], ignore_override: bool = False) -> list[Parameter]:
+    def declare_parameters(
+        self, namespace: str, parameters: list[Any], ignore_override: bool = False
+    ) -> list[Parameter]:
         """Declare several parameters, ``(name[, value or type[, descriptor]])`` each, their names after ``namespace`` and a dot."""
         return self._parameters.declare_parameters(namespace, parameters, ignore_override)
 
@@ -549,15 +591,21 @@ class Node:
         """The descriptors of parameters."""
         return self._parameters.describe_parameters(names)
 
-    def set_descriptor(self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None) -> Any:
+    def set_descriptor(
+        self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None
+    ) -> Any:
         """Give a parameter another descriptor, and ``alternative_value`` if its value does not fit it."""
         return self._parameters.set_descriptor(name, descriptor, alternative_value)
 
-    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+    def add_pre_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], list[Parameter]]
+    ) -> None:
         """Have ``callback`` look through, and change, the list of parameters before they are checked."""
         self._parameters.add_pre_set_parameters_callback(callback)
 
-    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+    def add_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
         """Have ``callback`` accept or refuse new values."""
         self._parameters.add_on_set_parameters_callback(callback)
 
@@ -565,15 +613,21 @@ class Node:
         """Have ``callback`` told of parameters that were set."""
         self._parameters.add_post_set_parameters_callback(callback)
 
-    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+    def remove_pre_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], list[Parameter]]
+    ) -> None:
         """Undo :meth:`add_pre_set_parameters_callback`."""
         self._parameters.remove_pre_set_parameters_callback(callback)
 
-    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+    def remove_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
         """Undo :meth:`add_on_set_parameters_callback`."""
         self._parameters.remove_on_set_parameters_callback(callback)
 
-    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+    def remove_post_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], None]
+    ) -> None:
         """Undo :meth:`add_post_set_parameters_callback`."""
         self._parameters.remove_post_set_parameters_callback(callback)
 
@@ -593,7 +647,10 @@ class Node:
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Fully qualified names of all nodes."""
-        return [names.fully_qualified_node_name(name, namespace) for name, namespace, _ in self.__graph.node_names()]
+        return [
+            names.fully_qualified_node_name(name, namespace)
+            for name, namespace, _ in self.__graph.node_names()
+        ]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
@@ -613,13 +670,19 @@ class Node:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> list[tuple[str, list[str]]]:
         """Topics that a node subscribes to; raises ``NodeNameNonExistentError``."""
-        return self.__graph.by_node("subscription", node_name, node_namespace, no_demangle=no_demangle)
+        return self.__graph.by_node(
+            "subscription", node_name, node_namespace, no_demangle=no_demangle
+        )
 
-    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
+    def get_service_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> list[tuple[str, list[str]]]:
         """Services that a node offers; raises ``NodeNameNonExistentError``."""
         return self.__graph.services_by_node("service", node_name, node_namespace)
 
-    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
+    def get_client_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> list[tuple[str, list[str]]]:
         """Services that a node calls; raises ``NodeNameNonExistentError``."""
         return self.__graph.services_by_node("client", node_name, node_namespace)
 
@@ -639,11 +702,15 @@ class Node:
         """How many servers a service has."""
         return self.__graph.count_service("service", service_name)
 
-    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+    def get_publishers_info_by_topic(
+        self, topic_name: str, no_mangle: bool = False
+    ) -> list[TopicEndpointInfo]:
         """What is known of each publisher of a topic."""
         return self.__graph.endpoint_infos("publisher", topic_name, no_mangle=no_mangle)
 
-    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+    def get_subscriptions_info_by_topic(
+        self, topic_name: str, no_mangle: bool = False
+    ) -> list[TopicEndpointInfo]:
         """What is known of each subscription of a topic."""
         return self.__graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
 
@@ -662,7 +729,9 @@ def _usable_context(context: Context | None) -> Context:
     return context
 
 
-def _arguments(context: Context, cli_args: list[str] | None, *, use_global_arguments: bool) -> Arguments:
+def _arguments(
+    context: Context, cli_args: list[str] | None, *, use_global_arguments: bool
+) -> Arguments:
     """The node's own command line before the context's."""
     from .arguments import Arguments
 

@@ -21,7 +21,12 @@ from .qos import QoSProfile
 from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer
-from .type_support import check_is_valid_msg_type, check_is_valid_srv_type, service_type_ids, type_id
+from .type_support import (
+    check_is_valid_msg_type,
+    check_is_valid_srv_type,
+    service_type_ids,
+    type_id,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -60,7 +65,12 @@ class NodeEndpoints:
     def entities(self) -> list[Entity]:
         """Those that an executor serves."""
         with self._lock:
-            return [owned for group in self._owned.values() for owned in group if isinstance(owned, Entity)]
+            return [
+                owned
+                for group in self._owned.values()
+                for owned in group
+                if isinstance(owned, Entity)
+            ]
 
     def create_publisher(
         self,
@@ -79,14 +89,20 @@ class NodeEndpoints:
         return self._own(Publisher, publisher)
 
     def make_publisher(
-        self, msg_type: Any, topic: str, qos_profile: QoSProfile | int, publisher_class: type[Publisher] = Publisher
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """A publisher that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         self._require_context("publisher")
-        wire = self._node._rclpy_wire.create_publisher(name, type_id(type_name(msg_type)), profile.to_wire())
+        wire = self._node._rclpy_wire.create_publisher(
+            name, type_id(type_name(msg_type)), profile.to_wire()
+        )
         return publisher_class(wire, msg_type, profile, self._node.context)
 
     def create_subscription(
@@ -102,8 +118,12 @@ class NodeEndpoints:
     ) -> Subscription:
         """See :meth:`rclpy.node.Node.create_subscription`."""
         profile = self._overridden("subscription", topic, qos_profile, qos_overriding_options)
-        subscription = self.make_subscription(msg_type, topic, callback, profile, callback_group, raw)
-        self._own_events(subscription, event_callbacks or SubscriptionEventCallbacks(), callback_group)
+        subscription = self.make_subscription(
+            msg_type, topic, callback, profile, callback_group, raw
+        )
+        self._own_events(
+            subscription, event_callbacks or SubscriptionEventCallbacks(), callback_group
+        )
         return self._own(Subscription, subscription)
 
     def make_subscription(
@@ -120,11 +140,19 @@ class NodeEndpoints:
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         self._require_context("subscription")
-        wire = self._node._rclpy_wire.create_subscription(name, type_id(type_name(msg_type)), profile.to_wire())
+        wire = self._node._rclpy_wire.create_subscription(
+            name, type_id(type_name(msg_type)), profile.to_wire()
+        )
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
 
-    def _overridden(self, kind: str, topic: str, qos_profile: QoSProfile | int, options: QoSOverridingOptions | None) -> QoSProfile:
+    def _overridden(
+        self,
+        kind: str,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        options: QoSOverridingOptions | None,
+    ) -> QoSProfile:
         """The profile with what parameters say, where ``options`` lets them."""
         profile = validate_qos(qos_profile)
         if options is None:
@@ -148,23 +176,49 @@ class NodeEndpoints:
         callback_group: CallbackGroup | None,
     ) -> None:
         endpoint.event_handlers = event_callbacks.create_event_handlers(
-            callback_group or self.default_callback_group, endpoint._wire, endpoint.topic, self._node.get_logger()
+            callback_group or self.default_callback_group,
+            endpoint._wire,
+            endpoint.topic,
+            self._node.get_logger(),
         )
         for handler in endpoint.event_handlers:
             self._own(EventHandler, handler)
 
-    def create_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+    ) -> Client:
         """See :meth:`rclpy.node.Node.create_client`."""
         return self._own(Client, self.make_client(srv_type, srv_name, qos_profile, callback_group))
 
-    def make_client(self, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup | None) -> Client:
+    def make_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+    ) -> Client:
         """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
         self._require_context("client")
-        wire = self._node._rclpy_wire.create_client(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        wire = self._node._rclpy_wire.create_client(
+            name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
+        )
         group = callback_group or self.default_callback_group
-        return Client(wire, srv_type, srv_name, qos_profile, group, self._node.context, self._node.get_logger(), self._node._rclpy_wire)
+        return Client(
+            wire,
+            srv_type,
+            srv_name,
+            qos_profile,
+            group,
+            self._node.context,
+            self._node.get_logger(),
+            self._node._rclpy_wire,
+        )
 
     def create_service(
         self,
@@ -175,7 +229,9 @@ class NodeEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Service:
         """See :meth:`rclpy.node.Node.create_service`."""
-        return self._own(Service, self.make_service(srv_type, srv_name, callback, qos_profile, callback_group))
+        return self._own(
+            Service, self.make_service(srv_type, srv_name, callback, qos_profile, callback_group)
+        )
 
     def make_service(
         self,
@@ -191,29 +247,54 @@ class NodeEndpoints:
         _check_callable(callback)
         name = self.resolve_service(srv_name)
         self._require_context("service")
-        wire = self._node._rclpy_wire.create_service(name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire())
+        wire = self._node._rclpy_wire.create_service(
+            name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
+        )
         group = callback_group or self.default_callback_group
-        return service_class(wire, srv_type, srv_name, callback, group, qos_profile, self._node.get_logger(), self._node._rclpy_wire)
+        return service_class(
+            wire,
+            srv_type,
+            srv_name,
+            callback,
+            group,
+            qos_profile,
+            self._node.get_logger(),
+            self._node._rclpy_wire,
+        )
 
     def create_timer(
-        self, period_sec: float, callback: Callable[[], Any] | None, callback_group: CallbackGroup | None, clock: Clock, autostart: bool
+        self,
+        period_sec: float,
+        callback: Callable[[], Any] | None,
+        callback_group: CallbackGroup | None,
+        clock: Clock,
+        autostart: bool,
     ) -> Timer:
         """See :meth:`rclpy.node.Node.create_timer`."""
         if callback is not None:
             _check_callable(callback)
         group = callback_group or self.default_callback_group
         period_ns = int(float(period_sec) * 1_000_000_000)
-        return self._own(Timer, Timer(callback, group, period_ns, clock, context=self._node.context, autostart=autostart))
+        return self._own(
+            Timer,
+            Timer(
+                callback, group, period_ns, clock, context=self._node.context, autostart=autostart
+            ),
+        )
 
     def create_rate(self, frequency: float, clock: Clock) -> Rate:
         """See :meth:`rclpy.node.Node.create_rate`."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         # a group of its own: a callback that sleeps must not hold up the timer that wakes it
-        timer = self.create_timer(1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock, autostart=True)
+        timer = self.create_timer(
+            1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock, autostart=True
+        )
         return Rate(timer, context=self._node.context)
 
-    def create_guard_condition(self, callback: Callable[[], Any], callback_group: CallbackGroup | None) -> GuardCondition:
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None
+    ) -> GuardCondition:
         """See :meth:`rclpy.node.Node.create_guard_condition`."""
         group = callback_group or self.default_callback_group
         return self._own(GuardCondition, GuardCondition(callback, group, self._node.context))
@@ -276,7 +357,9 @@ class NodeEndpoints:
         expanded = self._expand(topic, InvalidTopicNameException)
         if only_expand:
             return expanded
-        return self._arguments.remap_topic(expanded, self._node.get_name(), self._node.get_namespace())
+        return self._arguments.remap_topic(
+            expanded, self._node.get_name(), self._node.get_namespace()
+        )
 
     def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a service, remapped unless ``only_expand``.
@@ -287,16 +370,22 @@ class NodeEndpoints:
         expanded = self._expand(service, InvalidServiceNameException)
         if only_expand:
             return expanded
-        return self._arguments.remap_service(expanded, self._node.get_name(), self._node.get_namespace())
+        return self._arguments.remap_service(
+            expanded, self._node.get_name(), self._node.get_namespace()
+        )
 
-    def _expand(self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]) -> str:
+    def _expand(
+        self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]
+    ) -> str:
         if not isinstance(name, str):
             raise TypeError(f"The name of a topic or service is a str, not {described(name)}")
         fault = names.validate_topic_name(name)
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
         try:
-            expanded = names.expand_topic_name(name, self._node.get_name(), self._node.get_namespace())
+            expanded = names.expand_topic_name(
+                name, self._node.get_name(), self._node.get_namespace()
+            )
         except ValueError as unknown:
             raise error(name, str(unknown), 0) from None
         fault = names.validate_full_topic_name(expanded)
@@ -308,7 +397,9 @@ class NodeEndpoints:
 def _check_callable(callback: Any) -> None:
     if not callable(callback):
         error = TypeError(f"'{type(callback).__name__}' object is not callable")
-        raise with_hint(error, "Pass the function itself (self.callback), not what it returns (self.callback())")
+        raise with_hint(
+            error, "Pass the function itself (self.callback), not what it returns (self.callback())"
+        )
 
 
 def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:

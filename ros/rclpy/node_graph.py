@@ -45,7 +45,9 @@ class NodeGraph:
         """Name, namespace and enclave of all nodes."""
         return [tuple(node) for node in self._graph.nodes()]  # type: ignore[misc]
 
-    def by_node(self, kind: str, node_name: str, node_namespace: str, *, no_demangle: bool = False) -> NamesAndTypes:
+    def by_node(
+        self, kind: str, node_name: str, node_namespace: str, *, no_demangle: bool = False
+    ) -> NamesAndTypes:
         """Topics that a node publishes (``kind`` "publisher") or subscribes to ("subscription").
 
         Raises:
@@ -54,7 +56,11 @@ class NodeGraph:
 
         def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
             if no_demangle:
-                topic = names.topic_to_dds(endpoint.topic) if endpoint.topic.startswith("/") else endpoint.topic
+                topic = (
+                    names.topic_to_dds(endpoint.topic)
+                    if endpoint.topic.startswith("/")
+                    else endpoint.topic
+                )
                 return topic, names.type_to_dds(endpoint.type_name)
             return (endpoint.topic, endpoint.type_name) if endpoint.topic.startswith("/") else None
 
@@ -70,21 +76,43 @@ class NodeGraph:
         def name_and_type(endpoint: EndpointInfo) -> tuple[str, str] | None:
             service = names.service_from_dds(endpoint.topic)
             is_request = endpoint.topic.startswith("rq/")
-            return (service, names.service_type(endpoint.type_name)) if service is not None and is_request else None
+            return (
+                (service, names.service_type(endpoint.type_name))
+                if service is not None and is_request
+                else None
+            )
 
         # a server is known by the requests it reads, a client by those it writes
-        return self._of_node("subscription" if kind == "service" else "publisher", node_name, node_namespace, name_and_type)
+        return self._of_node(
+            "subscription" if kind == "service" else "publisher",
+            node_name,
+            node_namespace,
+            name_and_type,
+        )
 
     def _of_node(
-        self, kind: str, node_name: str, node_namespace: str, name_and_type: Callable[[EndpointInfo], tuple[str, str] | None]
+        self,
+        kind: str,
+        node_name: str,
+        node_namespace: str,
+        name_and_type: Callable[[EndpointInfo], tuple[str, str] | None],
     ) -> NamesAndTypes:
-        if not any((node.name, node.namespace) == (node_name, node_namespace) for node in self._graph.nodes()):
+        if not any(
+            (node.name, node.namespace) == (node_name, node_namespace)
+            for node in self._graph.nodes()
+        ):
             fqn = names.fully_qualified_node_name(node_name, node_namespace)
-            raise NodeNameNonExistentError(f"Failed to get names and types: cannot get names and types for nonexistent node: {fqn}")
+            raise NodeNameNonExistentError(
+                f"Failed to get names and types: cannot get names and types for nonexistent node: {fqn}"
+            )
         found: dict[str, set[str]] = {}
         for endpoint in self._graph.endpoints():
             owner = endpoint.node
-            if endpoint.kind != kind or owner is None or (owner.name, owner.namespace) != (node_name, node_namespace):
+            if (
+                endpoint.kind != kind
+                or owner is None
+                or (owner.name, owner.namespace) != (node_name, node_namespace)
+            ):
                 continue
             pair = name_and_type(endpoint)
             if pair is not None:
@@ -98,7 +126,9 @@ class NodeGraph:
             InvalidTopicNameException: The name breaks the rules.
         """
         name = self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
-        return sum(endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints())
+        return sum(
+            endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints()
+        )
 
     def count_service(self, kind: str, service: str) -> int:
         """How many servers (``kind`` "service") or clients ("client") a service has.
@@ -106,9 +136,13 @@ class NodeGraph:
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        name = self._full_name(service, self._node.resolve_service_name, InvalidServiceNameException)
+        name = self._full_name(
+            service, self._node.resolve_service_name, InvalidServiceNameException
+        )
         wanted = ("subscription" if kind == "service" else "publisher", names.request_topic(name))
-        return sum((endpoint.kind, endpoint.topic) == wanted for endpoint in self._graph.endpoints())
+        return sum(
+            (endpoint.kind, endpoint.topic) == wanted for endpoint in self._graph.endpoints()
+        )
 
     @staticmethod
     def _full_name(
@@ -126,20 +160,35 @@ class NodeGraph:
         """What is known of each publisher or subscription of a topic."""
         from .topic_endpoint_info import TopicEndpointInfo
 
-        name = topic if no_mangle else self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+        name = (
+            topic
+            if no_mangle
+            else self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+        )
         found = []
         for endpoint in self._graph.endpoints():
-            spelled = names.topic_to_dds(endpoint.topic) if no_mangle and endpoint.topic.startswith("/") else endpoint.topic
+            spelled = (
+                names.topic_to_dds(endpoint.topic)
+                if no_mangle and endpoint.topic.startswith("/")
+                else endpoint.topic
+            )
             if endpoint.kind == kind and spelled == name:
                 found.append(TopicEndpointInfo.from_wire(endpoint))
         return found
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:
         """See :meth:`rclpy.node.Node.wait_for_node`."""
-        wanted = fully_qualified_node_name if fully_qualified_node_name.startswith("/") else f"/{fully_qualified_node_name}"
+        wanted = (
+            fully_qualified_node_name
+            if fully_qualified_node_name.startswith("/")
+            else f"/{fully_qualified_node_name}"
+        )
 
         def is_there() -> bool:
-            return any(names.fully_qualified_node_name(node.name, node.namespace) == wanted for node in self._graph.nodes())
+            return any(
+                names.fully_qualified_node_name(node.name, node.namespace) == wanted
+                for node in self._graph.nodes()
+            )
 
         timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
         return self._node.context._wait_for_graph(is_there, timeout_ns)

@@ -61,11 +61,15 @@ class Parameter:
                 if isinstance(parameter_value, python_type):
                     return cls[scalar]
             if not _is_array(parameter_value):
-                raise TypeError(f"The given value is not one of the allowed types '{parameter_value}'.")
+                raise TypeError(
+                    f"The given value is not one of the allowed types '{parameter_value}'."
+                )
             for python_type, item in _ITEMS:
                 if all(isinstance(each, python_type) for each in parameter_value):
                     return cls[f"{item}_ARRAY"]
-            raise TypeError(f"The given value is not a list of one of the allowed types '{parameter_value}'.")
+            raise TypeError(
+                f"The given value is not a list of one of the allowed types '{parameter_value}'."
+            )
 
         def check(self, parameter_value: Any) -> bool:
             """Whether a Python value agrees with this type."""
@@ -74,7 +78,9 @@ class Parameter:
             if not self.name.endswith("_ARRAY"):
                 return isinstance(parameter_value, _PYTHON_TYPES[self.name])
             item_type = _PYTHON_TYPES[self.name.removesuffix("_ARRAY")]
-            return _is_array(parameter_value) and all(isinstance(each, item_type) for each in parameter_value)
+            return _is_array(parameter_value) and all(
+                isinstance(each, item_type) for each in parameter_value
+            )
 
     def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
         if type_ is None:
@@ -132,7 +138,12 @@ class Parameter:
 
 
 # bool comes before int, of which Python makes it a kind.
-_SCALARS: tuple[tuple[type, str], ...] = ((bool, "BOOL"), (int, "INTEGER"), (float, "DOUBLE"), (str, "STRING"))
+_SCALARS: tuple[tuple[type, str], ...] = (
+    (bool, "BOOL"),
+    (int, "INTEGER"),
+    (float, "DOUBLE"),
+    (str, "STRING"),
+)
 _ITEMS: tuple[tuple[type, str], ...] = ((bytes, "BYTE"), *_SCALARS)
 _PYTHON_TYPES = {name: python_type for python_type, name in _ITEMS}
 
@@ -158,7 +169,9 @@ def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue
         type_ = Parameter.Type(parameter_value.type)
     except ValueError:
         raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
-    return None if type_ is Parameter.Type.NOT_SET else getattr(parameter_value, _value_field(type_))
+    return (
+        None if type_ is Parameter.Type.NOT_SET else getattr(parameter_value, _value_field(type_))
+    )
 
 
 def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
@@ -184,7 +197,10 @@ def _value_from_yaml(value: Any, text: str) -> rcl_interfaces.msg.ParameterValue
 
 
 def parameter_dict_from_yaml_file(
-    parameter_file: str, use_wildcard: bool = False, target_nodes: Sequence[str] | None = None, namespace: str = ""
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: Sequence[str] | None = None,
+    namespace: str = "",
 ) -> dict[str, rcl_interfaces.msg.Parameter]:
     """Read parameters from a YAML file.
 
@@ -208,10 +224,14 @@ def parameter_dict_from_yaml_file(
         raise RuntimeError(  # noqa: TRY004 - what ROS 2 raises
             f"YAML file is not a valid ROS parameter file: '{parameter_file}' holds no nodes"
         )
-    nodes = [name for name in content if name != "/**"] if target_nodes is None else list(target_nodes)
+    nodes = (
+        [name for name in content if name != "/**"] if target_nodes is None else list(target_nodes)
+    )
     for node in nodes:
         if node not in content:
-            raise RuntimeError(f"Param file does not contain parameters for {node},only for nodes: {list(content)} ")
+            raise RuntimeError(
+                f"Param file does not contain parameters for {node},only for nodes: {list(content)} "
+            )
     if use_wildcard and "/**" in content:
         nodes.insert(0, "/**")
     if not nodes:
@@ -225,7 +245,9 @@ def parameter_dict_from_yaml_file(
     return parameters
 
 
-def _flatten(tree: dict[Any, Any], prefix: str, parameters: dict[str, rcl_interfaces.msg.Parameter]) -> None:
+def _flatten(
+    tree: dict[Any, Any], prefix: str, parameters: dict[str, rcl_interfaces.msg.Parameter]
+) -> None:
     from rcl_interfaces.msg import Parameter as ParameterMsg
 
     for key, value in tree.items():

@@ -26,7 +26,8 @@ class AsyncParameterClient:
 
     Args:
         node: The node that asks; an executor has to spin it.
-        remote_node_name: Name of the other node, relative to the namespace of ``node`` unless it starts with a slash.
+        remote_node_name: Name of the other node, relative to the namespace of ``node`` unless it
+            starts with a slash.
         qos_profile: Of the service clients.
         callback_group: Of the service clients.
     """
@@ -45,14 +46,18 @@ class AsyncParameterClient:
 
         def client(service_type: Any, name: str) -> Client:
             service = f"{remote_node_name}/{name}"
-            return node.create_client(service_type, service, qos_profile=qos_profile, callback_group=callback_group)
+            return node.create_client(
+                service_type, service, qos_profile=qos_profile, callback_group=callback_group
+            )
 
         self._get_parameter_client = client(srv.GetParameters, "get_parameters")
         self._list_parameter_client = client(srv.ListParameters, "list_parameters")
         self._set_parameter_client = client(srv.SetParameters, "set_parameters")
         self._get_parameter_types_client = client(srv.GetParameterTypes, "get_parameter_types")
         self._describe_parameters_client = client(srv.DescribeParameters, "describe_parameters")
-        self._set_parameters_atomically_client = client(srv.SetParametersAtomically, "set_parameters_atomically")
+        self._set_parameters_atomically_client = client(
+            srv.SetParametersAtomically, "set_parameters_atomically"
+        )
 
     def _clients(self) -> tuple[Client, ...]:
         return (
@@ -76,11 +81,17 @@ class AsyncParameterClient:
         """
         deadline = None if timeout_sec is None else time.monotonic() + timeout_sec
         return all(
-            client.wait_for_service(None if deadline is None else max(0.0, deadline - time.monotonic())) for client in self._clients()
+            client.wait_for_service(
+                None if deadline is None else max(0.0, deadline - time.monotonic())
+            )
+            for client in self._clients()
         )
 
     def list_parameters(
-        self, prefixes: list[str] | None = None, depth: int | None = None, callback: Callable[[Future], None] | None = None
+        self,
+        prefixes: list[str] | None = None,
+        depth: int | None = None,
+        callback: Callable[[Future], None] | None = None,
     ) -> Future:
         """List parameters.
 
@@ -91,36 +102,58 @@ class AsyncParameterClient:
         """
         from rcl_interfaces.srv import ListParameters
 
-        return _ask(self._list_parameter_client, ListParameters.Request(prefixes=prefixes or [], depth=depth or 0), callback)
+        return _ask(
+            self._list_parameter_client,
+            ListParameters.Request(prefixes=prefixes or [], depth=depth or 0),
+            callback,
+        )
 
-    def get_parameters(self, names: list[str], callback: Callable[[Future], None] | None = None) -> Future:
+    def get_parameters(
+        self, names: list[str], callback: Callable[[Future], None] | None = None
+    ) -> Future:
         """Get values."""
         from rcl_interfaces.srv import GetParameters
 
         return _ask(self._get_parameter_client, GetParameters.Request(names=names), callback)
 
     def set_parameters(
-        self, parameters: Sequence[Parameter | rcl_interfaces.msg.Parameter], callback: Callable[[Future], None] | None = None
+        self,
+        parameters: Sequence[Parameter | rcl_interfaces.msg.Parameter],
+        callback: Callable[[Future], None] | None = None,
     ) -> Future:
         """Set values, one after the other."""
         from rcl_interfaces.srv import SetParameters
 
-        return _ask(self._set_parameter_client, SetParameters.Request(parameters=_messages(parameters)), callback)
+        return _ask(
+            self._set_parameter_client,
+            SetParameters.Request(parameters=_messages(parameters)),
+            callback,
+        )
 
-    def describe_parameters(self, names: list[str], callback: Callable[[Future], None] | None = None) -> Future:
+    def describe_parameters(
+        self, names: list[str], callback: Callable[[Future], None] | None = None
+    ) -> Future:
         """Get descriptors."""
         from rcl_interfaces.srv import DescribeParameters
 
-        return _ask(self._describe_parameters_client, DescribeParameters.Request(names=names), callback)
+        return _ask(
+            self._describe_parameters_client, DescribeParameters.Request(names=names), callback
+        )
 
-    def get_parameter_types(self, names: list[str], callback: Callable[[Future], None] | None = None) -> Future:
+    def get_parameter_types(
+        self, names: list[str], callback: Callable[[Future], None] | None = None
+    ) -> Future:
         """Get types."""
         from rcl_interfaces.srv import GetParameterTypes
 
-        return _ask(self._get_parameter_types_client, GetParameterTypes.Request(names=names), callback)
+        return _ask(
+            self._get_parameter_types_client, GetParameterTypes.Request(names=names), callback
+        )
 
     def set_parameters_atomically(
-        self, parameters: Sequence[Parameter | rcl_interfaces.msg.Parameter], callback: Callable[[Future], None] | None = None
+        self,
+        parameters: Sequence[Parameter | rcl_interfaces.msg.Parameter],
+        callback: Callable[[Future], None] | None = None,
     ) -> Future:
         """Set all values or none."""
         from rcl_interfaces.srv import SetParametersAtomically
@@ -128,21 +161,33 @@ class AsyncParameterClient:
         request = SetParametersAtomically.Request(parameters=_messages(parameters))
         return _ask(self._set_parameters_atomically_client, request, callback)
 
-    def delete_parameters(self, names: list[str], callback: Callable[[Future], None] | None = None) -> Future:
+    def delete_parameters(
+        self, names: list[str], callback: Callable[[Future], None] | None = None
+    ) -> Future:
         """Undeclare parameters; only those whose type may change can be."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
-        self, parameter_file: str, use_wildcard: bool = False, callback: Callable[[Future], None] | None = None
+        self,
+        parameter_file: str,
+        use_wildcard: bool = False,
+        callback: Callable[[Future], None] | None = None,
     ) -> Future:
         """Set what a YAML file says, one value after the other; see :func:`rclpy.parameter.parameter_dict_from_yaml_file`."""
-        return self.set_parameters(list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback)
+        return self.set_parameters(
+            list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback
+        )
 
     def load_parameter_file_atomically(
-        self, parameter_file: str, use_wildcard: bool = False, callback: Callable[[Future], None] | None = None
+        self,
+        parameter_file: str,
+        use_wildcard: bool = False,
+        callback: Callable[[Future], None] | None = None,
     ) -> Future:
         """Set all of what a YAML file says or nothing."""
-        return self.set_parameters_atomically(list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback)
+        return self.set_parameters_atomically(
+            list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback
+        )
 
 
 def _ask(client: Client, request: Any, callback: Callable[[Future], None] | None) -> Future:
@@ -153,4 +198,7 @@ def _ask(client: Client, request: Any, callback: Callable[[Future], None] | None
 
 
 def _messages(parameters: Sequence[Any]) -> list[rcl_interfaces.msg.Parameter]:
-    return [parameter.to_parameter_msg() if isinstance(parameter, Parameter) else parameter for parameter in parameters]
+    return [
+        parameter.to_parameter_msg() if isinstance(parameter, Parameter) else parameter
+        for parameter in parameters
+    ]

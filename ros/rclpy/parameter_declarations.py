@@ -19,7 +19,9 @@ def new_descriptor() -> ParameterDescriptor:
     return ParameterDescriptor()
 
 
-def read_declaration(index: int, declaration: tuple[Any, ...]) -> tuple[str, Any, ParameterDescriptor]:
+def read_declaration(
+    index: int, declaration: tuple[Any, ...]
+) -> tuple[str, Any, ParameterDescriptor]:
     """Name, default value (None when there is none) and descriptor with the type filled in.
 
     Raises:
@@ -37,7 +39,9 @@ def read_declaration(index: int, declaration: tuple[Any, ...]) -> tuple[str, Any
     if descriptor is None and len(declaration) < 3:
         descriptor = ParameterDescriptor()
     if not isinstance(descriptor, ParameterDescriptor):
-        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+        raise TypeError(
+            f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor."
+        )
     if len(declaration) == 1:
         _warn_of_name_alone(name)
         descriptor.dynamic_typing = True

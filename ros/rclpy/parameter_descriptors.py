@@ -18,7 +18,12 @@ WRONG_TYPE = "Wrong parameter type"
 READ_ONLY = "Trying to set a read-only parameter: {}."
 
 
-def refusal(parameter: Parameter, descriptor: rcl_interfaces.msg.ParameterDescriptor, *, declaring: bool = False) -> str:
+def refusal(
+    parameter: Parameter,
+    descriptor: rcl_interfaces.msg.ParameterDescriptor,
+    *,
+    declaring: bool = False,
+) -> str:
     """Why ``parameter`` must not be set; an empty string when it may.
 
     Args:
@@ -29,7 +34,11 @@ def refusal(parameter: Parameter, descriptor: rcl_interfaces.msg.ParameterDescri
     if descriptor.read_only and not declaring:
         return READ_ONLY.format(parameter.name)
     if parameter.type_ is Parameter.Type.NOT_SET:
-        return "" if declaring or descriptor.dynamic_typing else "Static parameter cannot be undeclared"
+        return (
+            ""
+            if declaring or descriptor.dynamic_typing
+            else "Static parameter cannot be undeclared"
+        )
     if not descriptor.dynamic_typing and descriptor.type != parameter.type_.value:
         return f"{WRONG_TYPE}, expected '{Parameter.Type(descriptor.type)}' got '{parameter.type_}'"
     if parameter.type_ is Parameter.Type.INTEGER and descriptor.integer_range:

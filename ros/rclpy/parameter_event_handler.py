@@ -22,7 +22,12 @@ __all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "Parameter
 class ParameterCallbackHandle:
     """A callback for one parameter; :meth:`ParameterEventHandler.remove_parameter_callback` takes it."""
 
-    def __init__(self, parameter_name: str, node_name: str, callback: Callable[[rcl_interfaces.msg.Parameter], None]) -> None:
+    def __init__(
+        self,
+        parameter_name: str,
+        node_name: str,
+        callback: Callable[[rcl_interfaces.msg.Parameter], None],
+    ) -> None:
         self.parameter_name = parameter_name
         self.node_name = node_name
         self.callback = callback
@@ -50,18 +55,26 @@ class ParameterEventHandler:
         self.qos_profile = qos_profile
         self._parameter_callbacks: list[ParameterCallbackHandle] = []
         self._event_callbacks: list[ParameterEventCallbackHandle] = []
-        self.parameter_event_subscription = node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile)
+        self.parameter_event_subscription = node.create_subscription(
+            ParameterEvent, "/parameter_events", self._on_event, qos_profile
+        )
 
     def destroy(self) -> None:
         """Listen no longer."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
     @staticmethod
-    def get_parameter_from_event(event: ParameterEvent, parameter_name: str, node_name: str) -> rcl_interfaces.msg.Parameter | None:
+    def get_parameter_from_event(
+        event: ParameterEvent, parameter_name: str, node_name: str
+    ) -> rcl_interfaces.msg.Parameter | None:
         """The new or changed parameter of that name, if the event has it."""
         if event.node != node_name:
             return None
-        found = [each for each in ParameterEventHandler.get_parameters_from_event(event) if each.name == parameter_name]
+        found = [
+            each
+            for each in ParameterEventHandler.get_parameters_from_event(event)
+            if each.name == parameter_name
+        ]
         return found[0] if found else None
 
     @staticmethod
@@ -70,7 +83,9 @@ class ParameterEventHandler:
         yield from event.new_parameters
         yield from event.changed_parameters
 
-    def add_parameter_event_callback(self, callback: Callable[[ParameterEvent], None]) -> ParameterEventCallbackHandle:
+    def add_parameter_event_callback(
+        self, callback: Callable[[ParameterEvent], None]
+    ) -> ParameterEventCallbackHandle:
         """Call ``callback(event)`` for every event of every node."""
         handle = ParameterEventCallbackHandle(callback)
         self._event_callbacks.insert(0, handle)
@@ -87,13 +102,17 @@ class ParameterEventHandler:
         self._event_callbacks.remove(handle)
 
     def add_parameter_callback(
-        self, parameter_name: str, node_name: str, callback: Callable[[rcl_interfaces.msg.Parameter], None]
+        self,
+        parameter_name: str,
+        node_name: str,
+        callback: Callable[[rcl_interfaces.msg.Parameter], None],
     ) -> ParameterCallbackHandle:
         """Call ``callback(parameter)`` when a parameter is declared or changed.
 
         Args:
             parameter_name: Its name.
-            node_name: Node that has it: fully qualified, relative to the own namespace, or empty for the own node.
+            node_name: Node that has it: fully qualified, relative to the own namespace, or empty
+                for the own node.
             callback: Gets the message of the parameter.
         """
         handle = ParameterCallbackHandle(parameter_name, self._resolve(node_name), callback)
@@ -113,11 +132,17 @@ class ParameterEventHandler:
     def _resolve(self, node_name: str) -> str:
         if not node_name:
             return self.node.get_fully_qualified_name()
-        return node_name if node_name.startswith("/") else names.fully_qualified_node_name(node_name, self.node.get_namespace())
+        return (
+            node_name
+            if node_name.startswith("/")
+            else names.fully_qualified_node_name(node_name, self.node.get_namespace())
+        )
 
     def _on_event(self, event: ParameterEvent) -> None:
         for handle in list(self._parameter_callbacks):
-            parameter = self.get_parameter_from_event(event, handle.parameter_name, handle.node_name)
+            parameter = self.get_parameter_from_event(
+                event, handle.parameter_name, handle.node_name
+            )
             if parameter is not None:
                 handle.callback(parameter)
         for each in list(self._event_callbacks):

@@ -31,9 +31,18 @@ class ParameterService:
             (srv.GetParameterTypes, "get_parameter_types", self._get_parameter_types),
             (srv.ListParameters, "list_parameters", self._list_parameters),
             (srv.SetParameters, "set_parameters", self._set_parameters),
-            (srv.SetParametersAtomically, "set_parameters_atomically", self._set_parameters_atomically),
+            (
+                srv.SetParametersAtomically,
+                "set_parameters_atomically",
+                self._set_parameters_atomically,
+            ),
         ):
-            node.create_service(service_type, f"{node.get_name()}/{name}", callback, qos_profile=qos_profile_parameters)
+            node.create_service(
+                service_type,
+                f"{node.get_name()}/{name}",
+                callback,
+                qos_profile=qos_profile_parameters,
+            )
 
     def _node(self) -> Node:
         node = self._node_weak_ref()
@@ -46,13 +55,18 @@ class ParameterService:
 
         node = self._node()
         names = request.names
-        response.descriptors = [node.describe_parameter(name) if node.has_parameter(name) else ParameterDescriptor() for name in names]
+        response.descriptors = [
+            node.describe_parameter(name) if node.has_parameter(name) else ParameterDescriptor()
+            for name in names
+        ]
         return response
 
     def _get_parameters(self, request: Any, response: Any) -> Any:
         node = self._node()
         try:
-            response.values = [node.get_parameter(name).get_parameter_value() for name in request.names]
+            response.values = [
+                node.get_parameter(name).get_parameter_value() for name in request.names
+            ]
         except (ParameterNotDeclaredException, ParameterUninitializedException):
             response.values = []  # ROS 2 gives no value at all when one is missing
         return response
@@ -81,6 +95,8 @@ class ParameterService:
         from rcl_interfaces.msg import SetParametersResult
 
         try:
-            return self._node().set_parameters_atomically([Parameter.from_parameter_msg(message) for message in messages])
+            return self._node().set_parameters_atomically(
+                [Parameter.from_parameter_msg(message) for message in messages]
+            )
         except (ParameterNotDeclaredException, ValueError) as error:
             return SetParametersResult(successful=False, reason=str(error))

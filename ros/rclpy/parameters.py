@@ -21,7 +21,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     import rcl_interfaces.msg
-    from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterEvent, ParameterValue, SetParametersResult
+    from rcl_interfaces.msg import (
+        ListParametersResult,
+        ParameterDescriptor,
+        ParameterEvent,
+        ParameterValue,
+        SetParametersResult,
+    )
 
     from .time import Time
 
@@ -33,13 +39,15 @@ _EMPTY_LIST = "parameter list cannot be empty, this might be due to pre_set_para
 class NodeParameters:
     """Holds the parameters of a node.
 
-    A change goes through these steps, in ROS 2's order: callbacks before it, which may change the list; type, range and read-only;
-    the deciding callbacks, newest first; the store; an event; callbacks after it. No lock is held over a callback.
+    A change goes through these steps, in ROS 2's order: callbacks before it, which may change the
+    list; type, range and read-only; the deciding callbacks, newest first; the store; an event;
+    callbacks after it. No lock is held over a callback.
 
     Args:
         node_fqn: Fully qualified name of the node, for events.
         overrides: Values from the command line, which replace those of declarations.
-        constructor_overrides: Values that the program gave to the node; they win over the command line's.
+        constructor_overrides: Values that the program gave to the node; they win over the command
+            line's.
         allow_undeclared: Whether parameters may be read and set without a declaration.
         now: Gives the stamp of events.
         publish_event: Takes the events.
@@ -57,7 +65,9 @@ class NodeParameters:
     ) -> None:
         self._node_fqn = node_fqn
         self._overrides = dict(overrides)
-        self._overrides.update((parameter.name, parameter.value) for parameter in constructor_overrides or ())
+        self._overrides.update(
+            (parameter.name, parameter.value) for parameter in constructor_overrides or ()
+        )
         self._allow_undeclared = allow_undeclared
         self._now = now
         self._publish_event = publish_event
@@ -70,29 +80,41 @@ class NodeParameters:
     # -- declaring
 
     def declare_parameter(
-        self, name: str, value: Any = None, descriptor: ParameterDescriptor | None = None, ignore_override: bool = False
+        self,
+        name: str,
+        value: Any = None,
+        descriptor: ParameterDescriptor | None = None,
+        ignore_override: bool = False,
     ) -> Parameter:
         """Declare one parameter; see :meth:`declare_parameters` for what is raised.
 
         Args:
             name: Its name.
-            value: Default value, which fixes the type, or a ``Parameter.Type`` to fix the type alone.
+            value: Default value, which fixes the type, or a ``Parameter.Type`` to fix the type
+                alone.
             descriptor: Range, description, read-only, dynamic typing.
             ignore_override: Whether to use ``value`` even if the command line says otherwise.
 
         Returns:
             The parameter with the value that it got.
         """
-        declaration = (name,) if value is None and descriptor is None else (name, value, descriptor or new_descriptor())
+        declaration = (
+            (name,)
+            if value is None and descriptor is None
+            else (name, value, descriptor or new_descriptor())
+        )
         return self.declare_parameters("", [declaration], ignore_override)[0]
 
-    def declare_parameters(self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False) -> list[Parameter]:
+    def declare_parameters(
+        self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
+    ) -> list[Parameter]:
         """Declare several parameters, each as ``(name)``, ``(name, value or type)`` or ``(name, value or type, descriptor)``.
 
         Args:
             namespace: Put before each name, with a dot between; nothing if empty.
             parameters: The declarations.
-            ignore_override: Whether to use the given values even if the command line says otherwise.
+            ignore_override: Whether to use the given values even if the command line says
+                otherwise.
 
         Returns:
             The parameters with the values that they got.
@@ -121,7 +143,9 @@ class NodeParameters:
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
             if reason.startswith(parameter_descriptors.WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
-                raise InvalidParameterTypeException(parameter, expected.name).with_hint(yaml_hint(parameter, expected))
+                raise InvalidParameterTypeException(parameter, expected.name).with_hint(
+                    yaml_hint(parameter, expected)
+                )
             if reason:
                 raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._parameters[name] for name in declared]
@@ -157,7 +181,8 @@ class NodeParameters:
         """One parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
             ParameterUninitializedException: It was declared with a type alone, and was never set.
         """
         parameter = self._parameters.get(name)
@@ -180,18 +205,27 @@ class NodeParameters:
         parameter = self._parameters.get(name)
         if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
             return parameter
-        return Parameter(name, Parameter.Type.NOT_SET) if alternative_value is None else alternative_value
+        return (
+            Parameter(name, Parameter.Type.NOT_SET)
+            if alternative_value is None
+            else alternative_value
+        )
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """The parameters below ``prefix``, by the rest of their names."""
         start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
-        return {name[len(start) :]: parameter for name, parameter in list(self._parameters.items()) if name.startswith(start)}
+        return {
+            name[len(start) :]: parameter
+            for name, parameter in list(self._parameters.items())
+            if name.startswith(start)
+        }
 
     def get_parameter_type(self, name: str) -> int:
         """The number of a parameter's type.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
         """
         if name not in self._parameters and not self._allow_undeclared:
             raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
@@ -222,7 +256,9 @@ class NodeParameters:
             raise ValueError("The depth must be greater than or equal to zero")
         names = [name for name in list(self._parameters) if _is_listed(name, prefixes, depth)]
         parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
-        return ListParametersResult(names=names, prefixes=list(dict.fromkeys(parent for parent in parents if parent)))
+        return ListParametersResult(
+            names=names, prefixes=list(dict.fromkeys(parent for parent in parents if parent))
+        )
 
     # -- setting
 
@@ -233,7 +269,8 @@ class NodeParameters:
             A result for each; a failure does not keep the others from being set.
 
         Raises:
-            ParameterNotDeclaredException: One is not declared and undeclared ones are not allowed; those before it are set.
+            ParameterNotDeclaredException: One is not declared and undeclared ones are not allowed;
+                those before it are set.
         """
         return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
 
@@ -255,23 +292,35 @@ class NodeParameters:
         return SetParametersResult(successful=not reason, reason=reason)
 
     def _check_declared(self, parameter_list: list[Parameter]) -> None:
-        undeclared = [parameter.name for parameter in parameter_list if parameter.name not in self._parameters]
+        undeclared = [
+            parameter.name for parameter in parameter_list if parameter.name not in self._parameters
+        ]
         if undeclared and not self._allow_undeclared:
             # ROS 2 leaves the first name out of this text; the hint has all of them.
             hint = " ".join(self._hint(name) for name in undeclared)
             raise ParameterNotDeclaredException(undeclared[1:]).with_hint(hint)
 
-    def _set_atomically(self, parameter_list: list[Parameter], declarations: dict[str, ParameterDescriptor] | None = None) -> str:
+    def _set_atomically(
+        self,
+        parameter_list: list[Parameter],
+        declarations: dict[str, ParameterDescriptor] | None = None,
+    ) -> str:
         """Check, store and tell; returns why not, an empty string when it is done."""
-        descriptors = declarations or {parameter.name: self._descriptor(parameter.name) for parameter in parameter_list}
+        descriptors = declarations or {
+            parameter.name: self._descriptor(parameter.name) for parameter in parameter_list
+        }
         for parameter in parameter_list:
-            reason = parameter_descriptors.refusal(parameter, descriptors[parameter.name], declaring=declarations is not None)
+            reason = parameter_descriptors.refusal(
+                parameter, descriptors[parameter.name], declaring=declarations is not None
+            )
             if reason:
                 return reason
         for callback in list(self._on_set_callbacks):
             result = callback(parameter_list)
             if result is None:
-                raise TypeError(f"{callback!r} decides about parameters: it has to return a SetParametersResult, but returned None")
+                raise TypeError(
+                    f"{callback!r} decides about parameters: it has to return a SetParametersResult, but returned None"
+                )
             if not result.successful:
                 return result.reason or "refused by a callback, which gave no reason"
         event = self._store(parameter_list, descriptors, declaring=declarations is not None)
@@ -280,7 +329,13 @@ class NodeParameters:
             after(parameter_list)
         return ""
 
-    def _store(self, parameter_list: list[Parameter], descriptors: dict[str, ParameterDescriptor], *, declaring: bool) -> ParameterEvent:
+    def _store(
+        self,
+        parameter_list: list[Parameter],
+        descriptors: dict[str, ParameterDescriptor],
+        *,
+        declaring: bool,
+    ) -> ParameterEvent:
         from rcl_interfaces.msg import ParameterEvent
 
         event = ParameterEvent(node=self._node_fqn)
@@ -292,7 +347,9 @@ class NodeParameters:
                 self._descriptors.pop(name, None)
                 continue
             is_new = self.get_parameter_or(name).type_ is Parameter.Type.NOT_SET
-            (event.new_parameters if is_new else event.changed_parameters).append(parameter.to_parameter_msg())
+            (event.new_parameters if is_new else event.changed_parameters).append(
+                parameter.to_parameter_msg()
+            )
             self._descriptors[name] = descriptors[name]
             self._parameters[name] = parameter
         event.stamp = self._now().to_msg()
@@ -304,7 +361,8 @@ class NodeParameters:
         """What was declared of a parameter, with its present type.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
         """
         descriptor = self._descriptors.get(name)
         if descriptor is None:
@@ -321,7 +379,10 @@ class NodeParameters:
         return [self.describe_parameter(name) for name in names]
 
     def set_descriptor(
-        self, name: str, descriptor: ParameterDescriptor, alternative_value: ParameterValue | None = None
+        self,
+        name: str,
+        descriptor: ParameterDescriptor,
+        alternative_value: ParameterValue | None = None,
     ) -> rcl_interfaces.msg.ParameterValue:
         """Give a parameter another descriptor.
 
@@ -334,7 +395,8 @@ class NodeParameters:
             The value that the parameter has now.
 
         Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not allowed.
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
             ParameterImmutableException: It is read-only.
             InvalidParameterValueException: Neither value agrees with the descriptor.
         """
@@ -349,7 +411,9 @@ class NodeParameters:
             if alternative_value is not None:
                 from rcl_interfaces.msg import Parameter as ParameterMsg
 
-                alternative = Parameter.from_parameter_msg(ParameterMsg(name=name, value=alternative_value))
+                alternative = Parameter.from_parameter_msg(
+                    ParameterMsg(name=name, value=alternative_value)
+                )
             reason = self._set_atomically([alternative], {name: descriptor})
             if reason:
                 raise InvalidParameterValueException(name, alternative.value, reason)
@@ -358,11 +422,15 @@ class NodeParameters:
 
     # -- callbacks
 
-    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+    def add_pre_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], list[Parameter]]
+    ) -> None:
         """Call ``callback(parameters)`` before parameters are set; what it returns is set instead."""
         self._pre_set_callbacks.insert(0, callback)
 
-    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+    def add_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
         """Let ``callback(parameters)`` decide whether parameters are set or declared; it is asked before the older ones."""
         self._on_set_callbacks.insert(0, callback)
 
@@ -370,15 +438,21 @@ class NodeParameters:
         """Call ``callback(parameters)`` after parameters were set or declared."""
         self._post_set_callbacks.insert(0, callback)
 
-    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+    def remove_pre_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], list[Parameter]]
+    ) -> None:
         """Undo :meth:`add_pre_set_parameters_callback`; ValueError when it was not added."""
         self._pre_set_callbacks.remove(callback)
 
-    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+    def remove_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
         """Undo :meth:`add_on_set_parameters_callback`; ValueError when it was not added."""
         self._on_set_callbacks.remove(callback)
 
-    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+    def remove_post_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], None]
+    ) -> None:
         """Undo :meth:`add_post_set_parameters_callback`; ValueError when it was not added."""
         self._post_set_callbacks.remove(callback)
 
@@ -396,7 +470,11 @@ class NodeParameters:
         import difflib
 
         near = difflib.get_close_matches(name, self._parameters, n=3)
-        known = f"did you mean {' or '.join(map(repr, near))}?" if near else f"declared are {sorted(self._parameters)}."
+        known = (
+            f"did you mean {' or '.join(map(repr, near))}?"
+            if near
+            else f"declared are {sorted(self._parameters)}."
+        )
         return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
 
 
@@ -407,6 +485,10 @@ def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
     if not prefixes:
         return is_near(name)
     return any(
-        name == prefix or (name.startswith(f"{prefix}{PARAMETER_SEPARATOR_STRING}") and is_near(name[len(prefix) + 1 :]))
+        name == prefix
+        or (
+            name.startswith(f"{prefix}{PARAMETER_SEPARATOR_STRING}")
+            and is_near(name[len(prefix) + 1 :])
+        )
         for prefix in prefixes
     )

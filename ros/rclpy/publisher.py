@@ -37,7 +37,9 @@ class Publisher:
         qos_profile: Its quality of service.
     """
 
-    def __init__(self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, context: Context) -> None:
+    def __init__(
+        self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, context: Context
+    ) -> None:
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.topic = wire.topic
@@ -118,7 +120,9 @@ class Publisher:
         self._check_usable()
         deadline_ns = None if timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
         while True:  # in slices: the middleware's wait hears neither of signals nor of a shutdown
-            remaining_ns = _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
+            remaining_ns = (
+                _SLICE_NS if deadline_ns is None else max(0, deadline_ns - time.monotonic_ns())
+            )
             if self._wire.wait_for_acknowledgments(min(remaining_ns, _SLICE_NS)):
                 return True
             if remaining_ns == 0 or not self._context.ok():

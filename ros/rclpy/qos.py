@@ -76,7 +76,8 @@ class QoSProfile:
         lifespan: How long a sample is valid; unlimited unless given.
         deadline: Longest expected time between samples; unlimited unless given.
         liveliness: SYSTEM_DEFAULT unless given.
-        liveliness_lease_duration: How long a publisher counts as alive without a sign; unlimited unless given.
+        liveliness_lease_duration: How long a publisher counts as alive without a sign; unlimited
+            unless given.
         avoid_ros_namespace_conventions: Use the topic name without ROS 2's prefix.
 
     Raises:
@@ -110,7 +111,9 @@ class QoSProfile:
     )
 
     def __init__(self, **kwargs: Any) -> None:
-        assert all(key in self._FIELDS for key in kwargs), f"Invalid arguments passed to constructor: {kwargs.keys()!r}"
+        assert all(key in self._FIELDS for key in kwargs), (
+            f"Invalid arguments passed to constructor: {kwargs.keys()!r}"
+        )
         if "history" not in kwargs and "depth" not in kwargs:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
         self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
@@ -335,11 +338,14 @@ class QoSCheckCompatibleResult(NamedTuple):
     reason: str
 
 
-def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> QoSCheckCompatibleResult:
+def qos_check_compatible(
+    publisher_qos: QoSProfile, subscription_qos: QoSProfile
+) -> QoSCheckCompatibleResult:
     """Tell whether a publisher and a subscription with these profiles would match.
 
     Returns:
-        ``(compatibility, reason)``; the reason is empty when they do, and a WARNING means that a profile leaves it open.
+        ``(compatibility, reason)``; the reason is empty when they do, and a WARNING means that a
+        profile leaves it open.
     """
     from .qos_compatibility import check
 

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .qos import DurabilityPolicy, LivelinessPolicy, QoSCompatibility, QoSPolicyEnum, QoSProfile, ReliabilityPolicy
+from .qos import (
+    DurabilityPolicy,
+    LivelinessPolicy,
+    QoSCompatibility,
+    QoSPolicyEnum,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 
 if TYPE_CHECKING:
     from .duration import Duration
@@ -31,16 +38,25 @@ def check(publisher: QoSProfile, subscription: QoSProfile) -> tuple[QoSCompatibi
 
 def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
     found = []
-    if publisher.reliability == ReliabilityPolicy.BEST_EFFORT and subscription.reliability == ReliabilityPolicy.RELIABLE:
+    if (
+        publisher.reliability == ReliabilityPolicy.BEST_EFFORT
+        and subscription.reliability == ReliabilityPolicy.RELIABLE
+    ):
         found.append("Best effort publisher and reliable subscription")
-    if publisher.durability == DurabilityPolicy.VOLATILE and subscription.durability == DurabilityPolicy.TRANSIENT_LOCAL:
+    if (
+        publisher.durability == DurabilityPolicy.VOLATILE
+        and subscription.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    ):
         found.append("Volatile publisher and transient local subscription")
     if _is_limited(subscription.deadline):
         if not _is_limited(publisher.deadline):
             found.append("Subscription has a deadline, but publisher does not")
         elif subscription.deadline < publisher.deadline:
             found.append("Subscription deadline is less than publisher deadline")
-    if publisher.liveliness == LivelinessPolicy.AUTOMATIC and subscription.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC:
+    if (
+        publisher.liveliness == LivelinessPolicy.AUTOMATIC
+        and subscription.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
+    ):
         found.append("Publisher's liveliness is automatic and subscription's is manual by topic")
     if _is_limited(subscription.liveliness_lease_duration):
         if not _is_limited(publisher.liveliness_lease_duration):
@@ -51,19 +67,39 @@ def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
 
 
 def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
-    reliability, durability = (publisher.reliability, subscription.reliability), (publisher.durability, subscription.durability)
+    reliability, durability = (
+        (publisher.reliability, subscription.reliability),
+        (publisher.durability, subscription.durability),
+    )
     liveliness = (publisher.liveliness, subscription.liveliness)
     findings = [
-        _open("reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE),
-        _open("durabilty", *durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL),
+        _open(
+            "reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
+        ),
+        _open(
+            "durabilty", *durability, DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL
+        ),
     ]
-    if not all(map(_is_open, liveliness)):  # both are open in every preset, and then the middleware settles on the same
-        findings.append(_open("liveliness", *liveliness, LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC))
+    if not all(
+        map(_is_open, liveliness)
+    ):  # both are open in every preset, and then the middleware settles on the same
+        findings.append(
+            _open(
+                "liveliness",
+                *liveliness,
+                LivelinessPolicy.AUTOMATIC,
+                LivelinessPolicy.MANUAL_BY_TOPIC,
+            )
+        )
     return [finding for finding in findings if finding]
 
 
 def _open(
-    policy: str, offered: QoSPolicyEnum, requested: QoSPolicyEnum, weakest_offer: QoSPolicyEnum, strictest_request: QoSPolicyEnum
+    policy: str,
+    offered: QoSPolicyEnum,
+    requested: QoSPolicyEnum,
+    weakest_offer: QoSPolicyEnum,
+    strictest_request: QoSPolicyEnum,
 ) -> str:
     """The warning for a policy that the middleware will settle; ``durabilty`` is ROS 2's own spelling."""
     if _is_open(offered) and _is_open(requested):

@@ -50,7 +50,10 @@ class QoSOverridingOptions:
 
     @classmethod
     def with_default_policies(
-        cls, *, callback: Callable[[QoSProfile], SetParametersResult] | None = None, entity_id: str | None = None
+        cls,
+        *,
+        callback: Callable[[QoSProfile], SetParametersResult] | None = None,
+        entity_id: str | None = None,
     ) -> QoSOverridingOptions:
         """History, depth and reliability."""
         policies = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
@@ -81,7 +84,9 @@ def __getattr__(name: str) -> Any:
     return SetParametersResult
 
 
-def declare_qos_parameters(entity_type: str, node: Node, topic_name: str, qos: QoSProfile, options: QoSOverridingOptions) -> None:
+def declare_qos_parameters(
+    entity_type: str, node: Node, topic_name: str, qos: QoSProfile, options: QoSOverridingOptions
+) -> None:
     """Declare the parameters of an endpoint and put their values into ``qos``.
 
     Args:
@@ -95,16 +100,30 @@ def declare_qos_parameters(entity_type: str, node: Node, topic_name: str, qos: Q
         InvalidQosOverridesError: The callback refused the profile.
         ValueError: A parameter has a value that its policy has not.
     """
-    prefix = f"qos_overrides.{topic_name}.{entity_type}" + (f"_{options.entity_id}" if options.entity_id is not None else "")
-    what = f"for {entity_type} `{topic_name}`" + (f" with id `{options.entity_id}`" if options.entity_id is not None else "")
+    prefix = f"qos_overrides.{topic_name}.{entity_type}" + (
+        f"_{options.entity_id}" if options.entity_id is not None else ""
+    )
+    what = f"for {entity_type} `{topic_name}`" + (
+        f" with id `{options.entity_id}`" if options.entity_id is not None else ""
+    )
     for policy in options.policy_kinds:
         if policy is QoSPolicyKind.LIFESPAN and entity_type == "subscription":
             continue  # samples live as long as the publisher says
         field = policy.name.lower()  # type: ignore[union-attr]  # single flags have names
-        setattr(qos, field, _from_parameter(getattr(qos, field), _declare(node, f"{prefix}.{field}", getattr(qos, field), what), field))
+        setattr(
+            qos,
+            field,
+            _from_parameter(
+                getattr(qos, field),
+                _declare(node, f"{prefix}.{field}", getattr(qos, field), what),
+                field,
+            ),
+        )
     result = None if options.callback is None else options.callback(qos)
     if result is not None and not result.successful:
-        raise InvalidQosOverridesError(f"Provided QoS overrides {what}, are not valid: {result.reason}")
+        raise InvalidQosOverridesError(
+            f"Provided QoS overrides {what}, are not valid: {result.reason}"
+        )
 
 
 def _declare(node: Node, name: str, default: Any, what: str) -> Any:
@@ -134,4 +153,6 @@ def _from_parameter(present: Any, value: Any, field: str) -> Any:
         return type(present)(type(present).get_from_short_key(value))
     except KeyError:
         known = ", ".join(type(present).short_keys())
-        raise ValueError(f"Unexpected QoS override for policy `{field}`: `{value}`; there are {known}") from None
+        raise ValueError(
+            f"Unexpected QoS override for policy `{field}`: `{value}`; there are {known}"
+        ) from None

@@ -33,7 +33,10 @@ class RosoutPublisher:
 
     def _publish(self, record: LogRecord) -> None:
         if self._message_types is None:
-            self._message_types = msg.get_message(_TYPE), msg.get_message("builtin_interfaces/msg/Time")
+            self._message_types = (
+                msg.get_message(_TYPE),
+                msg.get_message("builtin_interfaces/msg/Time"),
+            )
         log_type, time_type = self._message_types
         seconds, nanoseconds = divmod(record.stamp_ns, 1_000_000_000)
         log = log_type(
@@ -48,7 +51,9 @@ class RosoutPublisher:
         try:
             self._wire.publish(msg.serialize(log))
         except WireError:
-            log_output.remove_rosout_sink(self._logger_name)  # the context is gone; the console still has the line
+            log_output.remove_rosout_sink(
+                self._logger_name
+            )  # the context is gone; the console still has the line
 
     def close(self) -> None:
         """Publish no further records. Idempotent."""

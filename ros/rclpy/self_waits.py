@@ -28,11 +28,19 @@ class SelfWaits:
     def held_up(self, entity: Entity, suspended: Collection[Entity], nodes: Iterable[Node]) -> None:
         """An entity has work that its group does not let it do; ``suspended``: whose async callbacks await something.
 
-        It counts when it is a service, one of those callbacks holds its group, and a client of ``nodes`` waits for its response.
+        It counts when it is a service, one of those callbacks holds its group, and a client of
+        ``nodes`` waits for its response.
         """
-        if isinstance(entity, Service) and any(other.callback_group is entity.callback_group for other in suspended):
-            clients: list[Client] = [client for node in nodes for client in node._rclpy_endpoints.of(Client)]
-            if any(client._pending and client._wire.service == entity._wire.service for client in clients):
+        if isinstance(entity, Service) and any(
+            other.callback_group is entity.callback_group for other in suspended
+        ):
+            clients: list[Client] = [
+                client for node in nodes for client in node._rclpy_endpoints.of(Client)
+            ]
+            if any(
+                client._pending and client._wire.service == entity._wire.service
+                for client in clients
+            ):
                 self._due[entity] = time.monotonic_ns() + _PATIENCE_NS
 
     def goes_on(self, entity: Entity) -> None:

@@ -75,17 +75,27 @@ class Service(IntrospectedEndpoint):
             raise with_hint(TypeError(), hint)
         self._wire.send_response(header, serialize(response))
         if self._events is not None:
-            self._events.publish(EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response)
+            self._events.publish(
+                EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response
+            )
 
     def _take(self) -> Work | None:
         for header, cdr in self._wire.take(1):
             try:
                 request = deserialize(self.srv_type.Request, cdr)
             except CdrError as error:
-                self._logger.error(f"Ignoring a malformed request to service '{self._wire.service}': {error}", throttle_duration_sec=5.0)  # noqa: TRY400 - a ROS logger
+                self._logger.error(  # noqa: TRY400 - a ROS logger
+                    f"Ignoring a malformed request to service '{self._wire.service}': {error}",
+                    throttle_duration_sec=5.0,
+                )
                 return None
             if self._events is not None:
-                self._events.publish(EventType.REQUEST_RECEIVED, header.client_id, header.sequence_number, request=request)
+                self._events.publish(
+                    EventType.REQUEST_RECEIVED,
+                    header.client_id,
+                    header.sequence_number,
+                    request=request,
+                )
             return self._answer, (header, request)
         return None
 

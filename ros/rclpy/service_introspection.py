@@ -52,7 +52,13 @@ class IntrospectedEndpoint(Entity):
 
     srv_type: Any
 
-    def __init__(self, wire: base.Client | base.Service, wire_node: base.Node, srv_type: Any, callback_group: CallbackGroup) -> None:
+    def __init__(
+        self,
+        wire: base.Client | base.Service,
+        wire_node: base.Node,
+        srv_type: Any,
+        callback_group: CallbackGroup,
+    ) -> None:
         super().__init__(callback_group)
         self.srv_type = srv_type
         self._wire: Any = wire
@@ -66,14 +72,18 @@ class IntrospectedEndpoint(Entity):
         return str(self._wire.service)
 
     def configure_introspection(
-        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+        self,
+        clock: Clock,
+        service_event_qos_profile: QoSProfile,
+        introspection_state: ServiceIntrospectionState,
     ) -> None:
         """Publish what is sent and received on ``<service>/_service_event``.
 
         Args:
             clock: Gives the stamps.
             service_event_qos_profile: Quality of service of the events.
-            introspection_state: Whether nothing, the circumstances, or the contents too are published.
+            introspection_state: Whether nothing, the circumstances, or the contents too are
+                published.
         """
         self._check_usable()
         former, self._events = self._events, None
@@ -82,8 +92,15 @@ class IntrospectedEndpoint(Entity):
         if introspection_state != ServiceIntrospectionState.OFF:
             event_type = type_id(f"{type_name(self.srv_type)}_Event")
             topic = f"{self._wire.service}/_service_event"
-            wire = self._wire_node.create_publisher(topic, event_type, service_event_qos_profile.to_wire())
-            self._events = _EventPublisher(wire, self.srv_type, clock, introspection_state == ServiceIntrospectionState.CONTENTS)
+            wire = self._wire_node.create_publisher(
+                topic, event_type, service_event_qos_profile.to_wire()
+            )
+            self._events = _EventPublisher(
+                wire,
+                self.srv_type,
+                clock,
+                introspection_state == ServiceIntrospectionState.CONTENTS,
+            )
 
     def _attach(self, executor: Executor) -> None:
         executor._wait.watch(self._wire, self)
@@ -105,7 +122,9 @@ class _EventPublisher(NamedTuple):
     clock: Clock
     with_contents: bool
 
-    def publish(self, event_type: EventType, client_id: int, sequence_number: int, **content: Any) -> None:
+    def publish(
+        self, event_type: EventType, client_id: int, sequence_number: int, **content: Any
+    ) -> None:
         """Publish that ``content`` (``request=`` or ``response=``) of this client's request with this number passed by."""
         if self.wire.subscription_count() == 0:
             return

@@ -1,9 +1,11 @@
 """SIGINT and SIGTERM: they end every wait of the middleware and shut all contexts down.
 
-Python runs its signal handlers in the main thread, between two bytecodes: a thread that blocks in the middleware would never get
-there. So the interpreter's C handler writes the signal's number into a pipe (:func:`signal.set_wakeup_fd`), and one owned thread reads the
-pipe and shuts the contexts down, which wakes their wait sets. The main thread leaves its wait and Python raises
-``KeyboardInterrupt`` there, for SIGINT. SIGTERM raises nothing by itself: ``spin`` raises ``ExternalShutdownException``.
+Python runs its signal handlers in the main thread, between two bytecodes: a thread that blocks in
+the middleware would never get there. So the interpreter's C handler writes the signal's number into
+a pipe (:func:`signal.set_wakeup_fd`), and one owned thread reads the pipe and shuts the contexts
+down, which wakes their wait sets. The main thread leaves its wait and Python raises
+``KeyboardInterrupt`` there, for SIGINT. SIGTERM raises nothing by itself: ``spin`` raises
+``ExternalShutdownException``.
 """
 
 from __future__ import annotations
@@ -22,9 +24,15 @@ from . import excepthooks
 if TYPE_CHECKING:
     from types import FrameType
 
-__all__ = ["SignalHandlerOptions", "get_current_signal_handlers_options", "install_signal_handlers", "uninstall_signal_handlers"]
+__all__ = [
+    "SignalHandlerOptions",
+    "get_current_signal_handlers_options",
+    "install_signal_handlers",
+    "uninstall_signal_handlers",
+]
 
-#: A terminal and `ros2 launch` both send SIGINT for one Ctrl-C: within this time the second one is not a new request of the user.
+#: A terminal and `ros2 launch` both send SIGINT for one Ctrl-C: within this time the second one is
+#: not a new request of the user.
 REPEATED_INTERRUPT_S = 1.0
 
 _STOP = 0
@@ -139,13 +147,22 @@ def get_current_signal_handlers_options() -> SignalHandlerOptions:
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
     """Handle the signals of ``options``; nothing happens when handlers are installed already.
 
-    Python allows this in the main thread only: elsewhere nothing is installed, and signals stay the main program's business.
+    Python allows this in the main thread only: elsewhere nothing is installed, and signals stay the
+    main program's business.
     """
     global _watcher, _options  # noqa: PLW0603 - signal handlers belong to the process
     with _lock:
-        if _watcher is not None or options == SignalHandlerOptions.NO or threading.current_thread() is not threading.main_thread():
+        if (
+            _watcher is not None
+            or options == SignalHandlerOptions.NO
+            or threading.current_thread() is not threading.main_thread()
+        ):
             return
-        signals = [signum for signum in (signal.SIGINT, signal.SIGTERM) if options & SignalHandlerOptions[signum.name]]
+        signals = [
+            signum
+            for signum in (signal.SIGINT, signal.SIGTERM)
+            if options & SignalHandlerOptions[signum.name]
+        ]
         excepthooks.install()
         _watcher = _Watcher(signals)
         _options = SignalHandlerOptions(options)
@@ -191,4 +208,8 @@ def _end() -> None:
 
 atexit.register(_end)
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork_in_parent, after_in_child=_after_fork_in_child)
+    os.register_at_fork(
+        before=_before_fork,
+        after_in_parent=_after_fork_in_parent,
+        after_in_child=_after_fork_in_child,
+    )

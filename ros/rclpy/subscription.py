@@ -97,7 +97,9 @@ class Subscription(Entity):
     def _detach(self, executor: Executor) -> None:
         executor._wait.unwatch(self._wire)
 
-    def take_message(self, _msg_type: Any = None, _raw: bool | None = None) -> tuple[Any, MessageInfo] | None:
+    def take_message(
+        self, _msg_type: Any = None, _raw: bool | None = None
+    ) -> tuple[Any, MessageInfo] | None:
         """For waitables and programs that look by themselves: the next message and its info, or None; CdrError when it is malformed.
 
         ROS 2's handles want to be told class and rawness, which ours know.
@@ -111,9 +113,14 @@ class Subscription(Entity):
             try:
                 message = cdr if self.raw else deserialize(self.msg_type, cdr)
             except CdrError as error:
-                self._logger.error(f"Ignoring a malformed message on topic '{self.topic}': {error}", throttle_duration_sec=5.0)  # noqa: TRY400 - a ROS logger
+                self._logger.error(  # noqa: TRY400 - a ROS logger
+                    f"Ignoring a malformed message on topic '{self.topic}': {error}",
+                    throttle_duration_sec=5.0,
+                )
                 return None
-            return self._callback, ((message, _message_info(info)) if self._with_info else (message,))
+            return self._callback, (
+                (message, _message_info(info)) if self._with_info else (message,)
+            )
         return None
 
     def _close(self) -> None:
@@ -137,7 +144,9 @@ def _callback_type(callback: Callable[..., Any]) -> Subscription.CallbackType:
     Raises:
         RuntimeError: It takes neither.
     """
-    code = getattr(callback, "__code__", None)  # a plain function or method, without importing inspect
+    code = getattr(
+        callback, "__code__", None
+    )  # a plain function or method, without importing inspect
     if code is not None and not code.co_flags & 0x0C and not hasattr(callback, "__wrapped__"):
         count = code.co_argcount - (1 if hasattr(callback, "__self__") else 0)
         required = count - len(callback.__defaults__ or ())

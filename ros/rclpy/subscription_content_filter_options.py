@@ -1,7 +1,7 @@
 """Content filters: which messages a subscription asks its middleware to leave out.
 
-Cyclone DDS filters nothing, neither in ROS 2 (``rmw_cyclonedds_cpp``) nor here: ``is_cft_enabled`` of a subscription is False, and all
-messages arrive.
+Cyclone DDS filters nothing, neither in ROS 2 (``rmw_cyclonedds_cpp``) nor here: ``is_cft_enabled``
+of a subscription is False, and all messages arrive.
 """
 
 from __future__ import annotations

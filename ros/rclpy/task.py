@@ -1,7 +1,8 @@
 """Futures and tasks: results that come later, and the ``async def`` callbacks that wait for them.
 
-A :class:`Future` can be awaited on an rclpy executor and in a running asyncio loop alike: on an executor the awaiting task sleeps until
-the future is done (nothing polls), in asyncio it becomes an asyncio future of that loop.
+A :class:`Future` can be awaited on an rclpy executor and in a running asyncio loop alike: on an
+executor the awaiting task sleeps until the future is done (nothing polls), in asyncio it becomes an
+asyncio future of that loop.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ class Future:
     """The outcome of something that is not finished yet. Thread-safe.
 
     Args:
-        executor: When given, done-callbacks run as tasks of it; else in the thread that finishes the future.
+        executor: When given, done-callbacks run as tasks of it; else in the thread that finishes
+            the future.
     """
 
     def __init__(self, *, executor: Executor | None = None) -> None:
@@ -41,7 +43,9 @@ class Future:
 
     def __del__(self) -> None:
         if self._exception is not None and not self._exception_fetched:
-            print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)  # noqa: T201 - ROS 2's text and place
+            print(  # noqa: T201 - ROS 2's text and place
+                f"The following exception was never retrieved: {self._exception}", file=sys.stderr
+            )
 
     def __await__(self) -> Generator[Any, None, Any]:
         if self._pending():
@@ -105,7 +109,8 @@ class Future:
     def add_done_callback(self, callback: Callable[[Future], Any]) -> None:
         """Call ``callback(future)`` when it is done; at once when it is done already.
 
-        With an executor the callback runs as a task of that executor (exceptions leave its ``spin``), else in the finishing thread.
+        With an executor the callback runs as a task of that executor (exceptions leave its
+        ``spin``), else in the finishing thread.
         """
         with self._lock:
             if self._pending():
@@ -125,7 +130,9 @@ class Future:
             self._callbacks.remove(callback)
             return True
 
-    def _finish(self, *, result: Any = None, exception: BaseException | None = None, cancelled: bool = False) -> None:
+    def _finish(
+        self, *, result: Any = None, exception: BaseException | None = None, cancelled: bool = False
+    ) -> None:
         with self._lock:
             if cancelled and not self._pending():
                 return
@@ -178,8 +185,9 @@ class Future:
 class Task(Future):
     """Runs a function or a coroutine; its result or exception becomes the task's.
 
-    Calling the task runs it up to its next ``await`` of something unfinished. A task belongs to an executor that calls it;
-    :meth:`Executor.create_task <rclpy.executors.Executor.create_task>` makes one.
+    Calling the task runs it up to its next ``await`` of something unfinished. A task belongs to an
+    executor that calls it; :meth:`Executor.create_task <rclpy.executors.Executor.create_task>`
+    makes one.
     """
 
     def __init__(

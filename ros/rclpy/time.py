@@ -18,7 +18,8 @@ class Time:
     """A point in time: nanoseconds since the epoch of its clock type. Immutable.
 
     Args:
-        seconds: Whole or fractional seconds, rounded towards zero to nanoseconds; a float keeps about 1e-7 s of a present date.
+        seconds: Whole or fractional seconds, rounded towards zero to nanoseconds; a float keeps
+            about 1e-7 s of a present date.
         nanoseconds: Added to the seconds.
         clock_type: Times of different clock types cannot be compared or subtracted.
 
@@ -31,7 +32,13 @@ class Time:
     __slots__ = ("_clock_type", "_nanoseconds")
     __hash__ = None  # type: ignore[assignment]  # as in ROS 2
 
-    def __init__(self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+    def __init__(
+        self,
+        *,
+        seconds: float = 0,
+        nanoseconds: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
         if seconds < 0:
@@ -66,7 +73,9 @@ class Time:
         return TimeMsg(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
-    def from_msg(cls, msg: builtin_interfaces.msg.Time, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
+    def from_msg(
+        cls, msg: builtin_interfaces.msg.Time, clock_type: ClockType = ClockType.ROS_TIME
+    ) -> Time:
         """Convert from the message type.
 
         Raises:
@@ -85,7 +94,9 @@ class Time:
         if not isinstance(other, Duration):
             return NotImplemented
         try:
-            return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self._clock_type)
+            return Time(
+                nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self._clock_type
+            )
         except OverflowError as error:
             raise OverflowError("Addition leads to overflow in C storage.") from error
 
@@ -98,7 +109,9 @@ class Time:
             return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
         if isinstance(other, Duration):
             try:
-                return Time(nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self._clock_type)
+                return Time(
+                    nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self._clock_type
+                )
             except ValueError as error:
                 raise ValueError("Subtraction leads to negative time") from error
         return NotImplemented
@@ -111,16 +124,22 @@ class Time:
         return True
 
     def __eq__(self, other: object) -> bool:
-        return self._nanoseconds == other._nanoseconds if self._comparable(other) else NotImplemented  # type: ignore[attr-defined]
+        if not self._comparable(other):
+            return NotImplemented
+        return self._nanoseconds == other._nanoseconds  # type: ignore[attr-defined, no-any-return]
 
     def __lt__(self, other: Any) -> bool:
         return self._nanoseconds < other._nanoseconds if self._comparable(other) else NotImplemented
 
     def __le__(self, other: Any) -> bool:
-        return self._nanoseconds <= other._nanoseconds if self._comparable(other) else NotImplemented
+        return (
+            self._nanoseconds <= other._nanoseconds if self._comparable(other) else NotImplemented
+        )
 
     def __gt__(self, other: Any) -> bool:
         return self._nanoseconds > other._nanoseconds if self._comparable(other) else NotImplemented
 
     def __ge__(self, other: Any) -> bool:
-        return self._nanoseconds >= other._nanoseconds if self._comparable(other) else NotImplemented
+        return (
+            self._nanoseconds >= other._nanoseconds if self._comparable(other) else NotImplemented
+        )

@@ -29,7 +29,8 @@ class TimeSource:
     """Gives the time of ``/clock`` to the clocks that are attached; it is 0 until the first message.
 
     Args:
-        node: The node whose parameter decides and who subscribes; more can be said by :meth:`attach_node`.
+        node: The node whose parameter decides and who subscribes; more can be said by
+            :meth:`attach_node`.
     """
 
     def __init__(self, *, node: Node | None = None) -> None:
@@ -69,7 +70,9 @@ class TimeSource:
         if parameter.type_ is Parameter.Type.BOOL:
             self.ros_time_is_active = parameter.value
         elif parameter.type_ is not Parameter.Type.NOT_SET:
-            node.get_logger().error(f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {parameter.type_!r} should be bool")
+            node.get_logger().error(
+                f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {parameter.type_!r} should be bool"
+            )
         node.add_on_set_parameters_callback(self._decide_on_parameters)
 
     def detach_node(self) -> None:
@@ -102,7 +105,9 @@ class TimeSource:
         from rosgraph_msgs.msg import Clock as ClockMsg
 
         profile = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._clock_subscription = node.create_subscription(ClockMsg, CLOCK_TOPIC, self.clock_callback, profile)
+        self._clock_subscription = node.create_subscription(
+            ClockMsg, CLOCK_TOPIC, self.clock_callback, profile
+        )
 
     def _unsubscribe(self) -> None:
         node, subscription = self._attached_node(), self._clock_subscription
@@ -128,7 +133,10 @@ class TimeSource:
         for parameter in parameters:
             if parameter.name == USE_SIM_TIME_NAME:
                 if parameter.type_ is not Parameter.Type.BOOL:
-                    return SetParametersResult(successful=False, reason=f"{USE_SIM_TIME_NAME} parameter set to something besides a bool")
+                    return SetParametersResult(
+                        successful=False,
+                        reason=f"{USE_SIM_TIME_NAME} parameter set to something besides a bool",
+                    )
                 wanted = parameter.value
         if wanted is not None:
             self.ros_time_is_active = wanted

@@ -24,8 +24,9 @@ __all__ = ["Rate", "Timer"]
 class Timer(Entity):
     """Calls ``callback()`` once per period of ``clock``, for the first time after one period.
 
-    When a call comes late, the following ones keep the old rhythm; periods that were missed entirely are skipped, never made up for.
-    On a ROS clock that follows ``/clock``, the timer follows simulated time, its stops and jumps included.
+    When a call comes late, the following ones keep the old rhythm; periods that were missed
+    entirely are skipped, never made up for. On a ROS clock that follows ``/clock``, the timer
+    follows simulated time, its stops and jumps included.
     """
 
     _ORDER = 0
@@ -156,8 +157,14 @@ class Timer(Entity):
         from .clock import JumpThreshold
         from .duration import Duration
 
-        every_jump = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=Duration(nanoseconds=-1), on_clock_change=True)
-        return self._clock.create_jump_callback(every_jump, pre_callback=self._before_jump, post_callback=self._after_jump)
+        every_jump = JumpThreshold(
+            min_forward=Duration(nanoseconds=1),
+            min_backward=Duration(nanoseconds=-1),
+            on_clock_change=True,
+        )
+        return self._clock.create_jump_callback(
+            every_jump, pre_callback=self._before_jump, post_callback=self._after_jump
+        )
 
     def _before_jump(self) -> None:
         self._remaining_ns = self._next_call_ns - self._now_ns()
@@ -205,14 +212,19 @@ class Rate:
 
         Raises:
             ROSInterruptException: The context was shut down.
-            RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would end the sleep.
+            RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would
+                end the sleep.
         """
         executor = None if self._timer._executor is None else self._timer._executor()
         if executor is not None and executor._spinning_thread == threading.get_ident():
-            raise RuntimeError("Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up")
+            raise RuntimeError(
+                "Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"
+            )
         with self._ticked:
             seen = self._ticks
-            self._ticked.wait_for(lambda: self._ticks != seen or self._interrupted or self._destroyed)
+            self._ticked.wait_for(
+                lambda: self._ticks != seen or self._interrupted or self._destroyed
+            )
             if self._interrupted:
                 raise ROSInterruptException
             if self._destroyed:

@@ -19,10 +19,12 @@ __all__ = ["TimerQueue"]
 class TimerQueue:
     """A heap of due moments on the monotonic clock. Thread-safe.
 
-    A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the newest ticket of a timer counts.
+    A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the
+    newest ticket of a timer counts.
 
     Args:
-        on_earlier: Called, without locks held, when the next moment came nearer: whoever waits for it must wait anew.
+        on_earlier: Called, without locks held, when the next moment came nearer: whoever waits for
+            it must wait anew.
     """
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:

@@ -35,7 +35,15 @@ class TopicEndpointInfo:
         qos_profile: As it was announced.
     """
 
-    __slots__ = ("endpoint_gid", "endpoint_type", "node_name", "node_namespace", "qos_profile", "topic_type", "topic_type_hash")
+    __slots__ = (
+        "endpoint_gid",
+        "endpoint_type",
+        "node_name",
+        "node_namespace",
+        "qos_profile",
+        "topic_type",
+        "topic_type_hash",
+    )
     __hash__ = None  # type: ignore[assignment]  # mutable
 
     def __init__(self, **kwargs: Any) -> None:
@@ -45,7 +53,9 @@ class TopicEndpointInfo:
         self.node_namespace: str = kwargs.get("node_namespace", "")
         self.topic_type: str = kwargs.get("topic_type", "")
         self.topic_type_hash: TypeHash = kwargs.get("topic_type_hash", TypeHash())
-        self.endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum(kwargs.get("endpoint_type", TopicEndpointTypeEnum.INVALID))
+        self.endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum(
+            kwargs.get("endpoint_type", TopicEndpointTypeEnum.INVALID)
+        )
         self.endpoint_gid: list[int] = kwargs.get("endpoint_gid", [])
         self.qos_profile: QoSProfile = kwargs.get("qos_profile", qos_profile_unknown)
 
@@ -70,7 +80,11 @@ class TopicEndpointInfo:
 
     def __str__(self) -> str:
         qos = self.qos_profile
-        history = qos.history.name if qos.history != HistoryPolicy.KEEP_LAST else f"{qos.history.name} ({qos.depth})"
+        history = (
+            qos.history.name
+            if qos.history != HistoryPolicy.KEEP_LAST
+            else f"{qos.history.name} ({qos.depth})"
+        )
         return "\n".join(
             [
                 f"Node name: {self.node_name}",

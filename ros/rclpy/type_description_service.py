@@ -26,14 +26,21 @@ class TypeDescriptionService:
         if not node.has_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM):
             from rcl_interfaces.msg import ParameterDescriptor
 
-            descriptor = ParameterDescriptor(description="If enabled, start the ~/get_type_description service.", read_only=True)
+            descriptor = ParameterDescriptor(
+                description="If enabled, start the ~/get_type_description service.", read_only=True
+            )
             node.declare_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM, True, descriptor)
         if not node.get_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM).value:
             return
         from type_description_interfaces.srv import GetTypeDescription
 
         name = f"{node.get_name()}/get_type_description"
-        node.create_service(GetTypeDescription, name, self._get_type_description, qos_profile=qos_profile_services_default)
+        node.create_service(
+            GetTypeDescription,
+            name,
+            self._get_type_description,
+            qos_profile=qos_profile_services_default,
+        )
 
     def _get_type_description(self, request: Any, response: Any) -> Any:
         from turtlewire.msg.type_hash import referenced_types
@@ -50,7 +57,9 @@ class TypeDescriptionService:
         else:
             names = [request.type_name, *referenced_types(request.type_name)]
             main, *referenced = (_describe(name) for name in names)
-            response.type_description = TypeDescription(type_description=main, referenced_type_descriptions=referenced)
+            response.type_description = TypeDescription(
+                type_description=main, referenced_type_descriptions=referenced
+            )
             if request.include_type_sources:
                 response.type_sources = [_source(name) for name in names]
             response.successful = True
@@ -65,7 +74,12 @@ def _describe(type_name: str) -> IndividualTypeDescription:
     fields = []
     for name, type_ in members(load_interface(type_name)):
         type_id, capacity, string_capacity, nested = field_type_parts(type_)
-        field_type = FieldType(type_id=type_id, capacity=capacity, string_capacity=string_capacity, nested_type_name=nested)
+        field_type = FieldType(
+            type_id=type_id,
+            capacity=capacity,
+            string_capacity=string_capacity,
+            nested_type_name=nested,
+        )
         fields.append(Field(name=name, type=field_type))
     return IndividualTypeDescription(type_name=type_name, fields=fields)
 
@@ -79,4 +93,6 @@ def _source(type_name: str) -> TypeSource:
     except InterfaceError:
         return TypeSource(type_name=type_name, encoding="implicit")
     with open(path, encoding="utf-8") as file:
-        return TypeSource(type_name=type_name, encoding=path.rpartition(".")[2], raw_file_contents=file.read())
+        return TypeSource(
+            type_name=type_name, encoding=path.rpartition(".")[2], raw_file_contents=file.read()
+        )

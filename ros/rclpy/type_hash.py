@@ -53,7 +53,11 @@ class TypeHash:
         self._value = value
 
     def __eq__(self, other: object) -> bool:
-        return (self._version, self._value) == (other._version, other._value) if isinstance(other, TypeHash) else NotImplemented
+        return (
+            (self._version, self._value) == (other._version, other._value)
+            if isinstance(other, TypeHash)
+            else NotImplemented
+        )
 
     def __str__(self) -> str:
         if self._version <= 0 or len(self._value) != _VALUE_SIZE:

@@ -9,7 +9,13 @@ from turtlewire.wire.base import TypeId
 
 from .hints import described, with_hint
 
-__all__ = ["check_for_type_support", "check_is_valid_msg_type", "check_is_valid_srv_type", "service_type_ids", "type_id"]
+__all__ = [
+    "check_for_type_support",
+    "check_is_valid_msg_type",
+    "check_is_valid_srv_type",
+    "service_type_ids",
+    "type_id",
+]
 
 _ROS_1_HINT = (
     " This might be a ROS 1 message type but it should be a ROS 2 message type."
@@ -23,32 +29,44 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     Raises:
         AttributeError: It is not; the text is ROS 2's.
     """
-    if not isinstance(msg_or_srv_type, type) or not issubclass(msg_or_srv_type, (msg.Message, msg.Service, msg.Action)):
+    if not isinstance(msg_or_srv_type, type) or not issubclass(
+        msg_or_srv_type, (msg.Message, msg.Service, msg.Action)
+    ):
         kind = type(msg_or_srv_type).__name__
-        error = AttributeError(f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}")
-        raise with_hint(error, f"Expected a class such as std_msgs.msg.String, not {described(msg_or_srv_type)}")
+        error = AttributeError(
+            f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}"
+        )
+        raise with_hint(
+            error, f"Expected a class such as std_msgs.msg.String, not {described(msg_or_srv_type)}"
+        )
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
     """Make sure that something is a message class.
 
     Raises:
-        RuntimeError: It is a service or action class; AttributeError when it is no interface class at all.
+        RuntimeError: It is a service or action class; AttributeError when it is no interface class
+            at all.
     """
     check_for_type_support(msg_type)
     if not issubclass(msg_type, msg.Message):
-        raise RuntimeError("The message type provided is not valid, this might be a service or action")  # noqa: TRY004 - ROS 2's
+        raise RuntimeError(  # noqa: TRY004 - ROS 2's
+            "The message type provided is not valid, this might be a service or action"
+        )
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
     """Make sure that something is a service class.
 
     Raises:
-        RuntimeError: It is a message or action class; AttributeError when it is no interface class at all.
+        RuntimeError: It is a message or action class; AttributeError when it is no interface class
+            at all.
     """
     check_for_type_support(srv_type)
     if not issubclass(srv_type, msg.Service):
-        raise RuntimeError("The service type provided is not valid, this might be a message or action")  # noqa: TRY004 - likewise
+        raise RuntimeError(  # noqa: TRY004 - likewise
+            "The service type provided is not valid, this might be a message or action"
+        )
 
 
 def type_id(name: str) -> TypeId:

@@ -27,7 +27,8 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
     """The context that is used where none is given.
 
     Args:
-        shutting_down: Return it for the last time: the next call makes a new one, so that ``init`` can follow ``shutdown``.
+        shutting_down: Return it for the last time: the next call makes a new one, so that ``init``
+            can follow ``shutdown``.
     """
     global _default_context  # noqa: PLW0603 - there is one for the process
     from .context import Context

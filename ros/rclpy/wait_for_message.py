@@ -16,11 +16,17 @@ __all__ = ["wait_for_message"]
 
 
 def wait_for_message(
-    msg_type: Any, node: Node, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
+    msg_type: Any,
+    node: Node,
+    topic: str,
+    *,
+    qos_profile: QoSProfile | int = 1,
+    time_to_wait: float = -1,
 ) -> tuple[bool, Any]:
     """Block until a message comes.
 
-    The node need not be spun, and may be: only the subscription made here is served, by an executor of its own.
+    The node need not be spun, and may be: only the subscription made here is served, by an executor
+    of its own.
 
     Args:
         msg_type: Class of the message.
@@ -33,8 +39,12 @@ def wait_for_message(
         Whether a message came, and the message or None.
     """
     came = Future()
-    group = MutuallyExclusiveCallbackGroup()  # the node's own may be held by the callback that waits here
-    subscription = node._rclpy_endpoints.make_subscription(msg_type, topic, came.set_result, qos_profile, group)
+    group = (
+        MutuallyExclusiveCallbackGroup()
+    )  # the node's own may be held by the callback that waits here
+    subscription = node._rclpy_endpoints.make_subscription(
+        msg_type, topic, came.set_result, qos_profile, group
+    )
     with SingleThreadedExecutor(context=node.context) as executor:
         executor._adopt(subscription)
         try:

@@ -6,7 +6,12 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from .executor_exceptions import ConditionReachedException, ExternalShutdownException, ShutdownException, TimeoutException
+from .executor_exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
 from .service import Service
 
 if TYPE_CHECKING:
@@ -24,8 +29,9 @@ _PATIENCE_S = 1.0
 def wait_for_response(future: Future, client: Client, timeout_sec: float | None) -> Any:
     """Block until ``future`` is done.
 
-    Outside of the executor's thread this waits for whoever spins, and says so in the log when nobody does. In a callback of a
-    single-threaded executor it serves the responses itself, since nobody else can.
+    Outside of the executor's thread this waits for whoever spins, and says so in the log when
+    nobody does. In a callback of a single-threaded executor it serves the responses itself, since
+    nobody else can.
 
     Raises:
         TimeoutError: The time was over before.
@@ -43,7 +49,9 @@ def wait_for_response(future: Future, client: Client, timeout_sec: float | None)
     return future.result()
 
 
-def _serve_responses(executor: Executor, future: Future, client: Client, deadline: float | None) -> None:
+def _serve_responses(
+    executor: Executor, future: Future, client: Client, deadline: float | None
+) -> None:
     """In a callback of ``executor``: hand responses to their futures, and do nothing else, until ``future`` is done."""
 
     def is_hopeless() -> bool:
@@ -54,10 +62,18 @@ def _serve_responses(executor: Executor, future: Future, client: Client, deadlin
     try:
         while not future.done() and (deadline is None or time.monotonic() < deadline):
             if is_hopeless():
-                raise RuntimeError("The service is served by the executor that this call blocks: it would never answer")
-            remaining = None if deadline is None else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
+                raise RuntimeError(
+                    "The service is served by the executor that this call blocks: it would never answer"
+                )
+            remaining = (
+                None
+                if deadline is None
+                else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
+            )
             try:
-                executor._execute(*executor._next(remaining, lambda: future.done() or is_hopeless()))
+                executor._execute(
+                    *executor._next(remaining, lambda: future.done() or is_hopeless())
+                )
             except (TimeoutException, ConditionReachedException):
                 continue
     finally:
@@ -67,10 +83,14 @@ def _serve_responses(executor: Executor, future: Future, client: Client, deadlin
 
 def _is_served_by(client: Client, entities: set[Entity]) -> bool:
     name = client._wire.service
-    return any(isinstance(entity, Service) and entity._wire.service == name for entity in list(entities))
+    return any(
+        isinstance(entity, Service) and entity._wire.service == name for entity in list(entities)
+    )
 
 
-def _wait_for_other_thread(future: Future, client: Client, executor: Executor | None, deadline: float | None) -> None:
+def _wait_for_other_thread(
+    future: Future, client: Client, executor: Executor | None, deadline: float | None
+) -> None:
     done = threading.Event()
     future._add_waiter(done.set)
     waits = [client._context._waits] + ([] if executor is None else [executor._blocked_waits])
@@ -112,7 +132,9 @@ def _warn_of_long_wait(client: Client, executor: Executor | None) -> None:
 
 def _wait(done: threading.Event, deadline: float | None, at_most: float | None) -> bool:
     remaining = None if deadline is None else max(0.0, deadline - time.monotonic())
-    return done.wait(at_most if remaining is None else min(remaining, remaining if at_most is None else at_most))
+    return done.wait(
+        at_most if remaining is None else min(remaining, remaining if at_most is None else at_most)
+    )
 
 
 def _raise_if_ended(client: Client, executor: Executor | None) -> None:

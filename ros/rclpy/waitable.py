@@ -22,7 +22,14 @@ __all__ = ["NumberOfEntities", "WaitSet", "Waitable"]
 class NumberOfEntities:
     """How many entities of each kind a waitable waits for."""
 
-    __slots__ = ["num_clients", "num_events", "num_guard_conditions", "num_services", "num_subscriptions", "num_timers"]
+    __slots__ = [
+        "num_clients",
+        "num_events",
+        "num_guard_conditions",
+        "num_services",
+        "num_subscriptions",
+        "num_timers",
+    ]
 
     def __init__(
         self,
@@ -61,7 +68,11 @@ class WaitSet:
     """The entities that a waitable waits for, and which of them are ready."""
 
     def __init__(self) -> None:
-        self._entities: dict[str, list[Entity]] = {"guard_condition": [], "subscription": [], "timer": []}
+        self._entities: dict[str, list[Entity]] = {
+            "guard_condition": [],
+            "subscription": [],
+            "timer": [],
+        }
         self._ready: set[Entity] = set()
 
     def add_guard_condition(self, guard_condition: GuardCondition) -> int:
@@ -92,10 +103,11 @@ class WaitSet:
 class Waitable(Entity):
     """Something an executor serves that consists of several entities.
 
-    The executor serves the parts; to the outside they are one: they come and go together, and run before the other entities of a cycle.
-    A program's own waitable says in :meth:`add_to_wait_set` what it waits for; then :meth:`is_ready`, :meth:`take_data` and
-    :meth:`execute` are called in this order. Its parts are entities that it made itself (``GuardCondition(None, None)``), not entities
-    that a node serves already.
+    The executor serves the parts; to the outside they are one: they come and go together, and run
+    before the other entities of a cycle. A program's own waitable says in :meth:`add_to_wait_set`
+    what it waits for; then :meth:`is_ready`, :meth:`take_data` and :meth:`execute` are called in
+    this order. Its parts are entities that it made itself (``GuardCondition(None, None)``), not
+    entities that a node serves already.
     """
 
     _ORDER = -1

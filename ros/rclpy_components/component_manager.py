@@ -21,9 +21,10 @@ __all__ = ["ComponentManager"]
 class ComponentManager(Node):
     """Offers the services by which ROS 2 loads, unloads and lists components: ``~/_container/load_node`` and its like.
 
-    A component is a class of nodes, given as ``package.module.Class``. It is constructed without arguments, as its own ``main()`` would
-    do it; name, namespace, parameters and remappings of the request apply to it as those of a command line do. Components do not wait
-    for each other: each runs in a thread of its own.
+    A component is a class of nodes, given as ``package.module.Class``. It is constructed without
+    arguments, as its own ``main()`` would do it; name, namespace, parameters and remappings of the
+    request apply to it as those of a command line do. Components do not wait for each other: each
+    runs in a thread of its own.
     """
 
     def __init__(self, node_name: str = "ComponentManager", **options: Any) -> None:
@@ -44,7 +45,9 @@ class ComponentManager(Node):
         try:
             node = _construct(request)
         except Exception as error:  # noqa: BLE001  components are other people's code
-            self.get_logger().error(f"Component constructor threw an exception: {error}\n{traceback.format_exc()}")
+            self.get_logger().error(
+                f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
+            )
             response.error_message = f"{type(error).__name__}: {error}"
             return response
         self._last_id += 1
@@ -66,7 +69,9 @@ class ComponentManager(Node):
 
     def _on_list(self, _request: Any, response: Any) -> Any:
         response.unique_ids = list(self._components)
-        response.full_node_names = [component.node.get_fully_qualified_name() for component in self._components.values()]
+        response.full_node_names = [
+            component.node.get_fully_qualified_name() for component in self._components.values()
+        ]
         return response
 
 
@@ -86,7 +91,9 @@ class _Component:
         except (ExternalShutdownException, ShutdownException):
             pass
         except Exception:  # noqa: BLE001  the other components of the process go on
-            self.node.get_logger().fatal(f"The component ends, for a callback failed:\n{traceback.format_exc()}")
+            self.node.get_logger().fatal(
+                f"The component ends, for a callback failed:\n{traceback.format_exc()}"
+            )
 
     def unload(self) -> None:
         self._executor.shutdown()
@@ -97,7 +104,9 @@ class _Component:
 def _construct(request: Any) -> Node:
     module_name, _, class_name = request.plugin_name.replace(":", ".").rpartition(".")
     if not module_name:
-        raise ValueError(f"'{request.plugin_name}' is no component of {request.package_name}; expected 'package.module.Class'")
+        raise ValueError(
+            f"'{request.plugin_name}' is no component of {request.package_name}; expected 'package.module.Class'"
+        )
     node_class = getattr(importlib.import_module(module_name), class_name)
     token = component_arguments.set(_words(request))
     try:
@@ -124,6 +133,10 @@ def _words(request: Any) -> list[str]:
     for parameter in request.parameters:
         value = parameter_value_to_python(parameter.value)
         value = list(value) if hasattr(value, "typecode") else value
-        text = yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True).removesuffix("...\n").strip()
+        text = (
+            yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True)
+            .removesuffix("...\n")
+            .strip()
+        )
         words += ["-p", f"{parameter.name}:={text}"]
     return words

@@ -27,7 +27,8 @@ __all__ = [
 ]
 
 
-# Transforms are published at 10 Hz and more, static ones are kept for late joiners; nobody waits longer for a TAB.
+# Transforms are published at 10 Hz and more, static ones are kept for late joiners; nobody waits
+# longer for a TAB.
 _LISTEN_S = 0.5
 _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
@@ -58,7 +59,10 @@ def interfaces(**_: Any) -> list[str]:
     from turtlewire import msg
 
     return sorted(
-        f"{package}/{kind}/{name}" for package, kinds in msg.interface_names().items() for kind, names in kinds.items() for name in names
+        f"{package}/{kind}/{name}"
+        for package, kinds in msg.interface_names().items()
+        for kind, names in kinds.items()
+        for name in names
     )
 
 

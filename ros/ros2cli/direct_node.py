@@ -32,9 +32,13 @@ class DirectNode:
         from rclpy.parameter import Parameter
 
         rclpy.init(args=[])
-        overrides = [Parameter("use_sim_time", value=True)] if getattr(args, "use_sim_time", False) else []
+        overrides = (
+            [Parameter("use_sim_time", value=True)] if getattr(args, "use_sim_time", False) else []
+        )
         self.node: Node = rclpy.create_node(
-            name or f"_ros2cli_{os.getpid()}", start_parameter_services=False, parameter_overrides=overrides
+            name or f"_ros2cli_{os.getpid()}",
+            start_parameter_services=False,
+            parameter_overrides=overrides,
         )
         self._spin_time: float | None = getattr(args, "spin_time", None)
 
@@ -48,7 +52,12 @@ class DirectNode:
         wait_until_discovered(self.graph, self._spin_time)
         return self
 
-    def __exit__(self, _type: type[BaseException] | None, _error: BaseException | None, _traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        _type: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: TracebackType | None,
+    ) -> None:
         """Leave the domain."""
         import rclpy
 

@@ -18,13 +18,18 @@ if TYPE_CHECKING:
 
 __all__ = ["GraphNode", "add_spin_arguments", "add_strategy_arguments", "wait_until_discovered"]
 
-# Other hosts are given so much time to answer; participants of this host are counted. Measured on two cores: the last of 50 participants
-# answers 70 ms after the first question.
+# Other hosts are given so much time to answer; participants of this host are counted. Measured on
+# two cores: the last of 50 participants answers 70 ms after the first question.
 _ANSWER_S = 0.15
 _PATIENCE_S = 2.0
 
 _NODE_TOPICS = (
-    ("/rosout", "rcl_interfaces/msg/Log", "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac", 10_000_000_000),
+    (
+        "/rosout",
+        "rcl_interfaces/msg/Log",
+        "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac",
+        10_000_000_000,
+    ),
     (
         "/parameter_events",
         "rcl_interfaces/msg/ParameterEvent",
@@ -36,27 +41,41 @@ _NODE_TOPICS = (
 
 def add_spin_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of all verbs that take part in a domain."""
-    parser.add_argument("--spin-time", type=float, default=None, help="Seconds to wait for discovery; by default until all is known")
-    parser.add_argument("-s", "--use-sim-time", action="store_true", help="Take the time from /clock")
+    parser.add_argument(
+        "--spin-time",
+        type=float,
+        default=None,
+        help="Seconds to wait for discovery; by default until all is known",
+    )
+    parser.add_argument(
+        "-s", "--use-sim-time", action="store_true", help="Take the time from /clock"
+    )
 
 
 def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of verbs that only look at the graph."""
     add_spin_arguments(parser)
-    parser.add_argument("--no-daemon", action="store_true", help="Accepted for compatibility: there is no daemon")
+    parser.add_argument(
+        "--no-daemon", action="store_true", help="Accepted for compatibility: there is no daemon"
+    )
 
 
 def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
     """Wait until the graph is known.
 
-    That is when all participants of this host, and all that they announced, are known, and other hosts that are in range had the time
-    to answer. When something that is announced does not arrive, the wait ends after two seconds without news.
+    That is when all participants of this host, and all that they announced, are known, and other
+    hosts that are in range had the time to answer. When something that is announced does not
+    arrive, the wait ends after two seconds without news.
 
     Args:
         graph: The graph.
         spin_time: Wait exactly so many seconds instead.
     """
-    only_this_host = sys.platform == "linux" and discovery().range in (Range.LOCALHOST, Range.OFF) and not discovery().static_peers
+    only_this_host = (
+        sys.platform == "linux"
+        and discovery().range in (Range.LOCALHOST, Range.OFF)
+        and not discovery().static_peers
+    )
     answer_time = 0.0 if only_this_host else _ANSWER_S
     changed = threading.Event()
     stop_listening = graph.add_listener(changed.set)
@@ -94,10 +113,15 @@ class GraphNode:
         self._context = open_context()
         self.name = f"_ros2cli_{os.getpid()}"
         node = self._context.create_node(self.name)
-        # Every node has these; without them the lists of an empty domain would differ from those of ROS 2.
+        # Every node has these; without them the lists of an empty domain would differ from those of
+        # ROS 2.
         for topic, type_name, type_hash, lifespan in _NODE_TOPICS:
             durability = Durability.TRANSIENT_LOCAL if lifespan else Durability.VOLATILE
-            node.create_publisher(topic, TypeId(type_name, type_hash), QoS(depth=1000, durability=durability, lifespan_ns=lifespan))
+            node.create_publisher(
+                topic,
+                TypeId(type_name, type_hash),
+                QoS(depth=1000, durability=durability, lifespan_ns=lifespan),
+            )
         self._spin_time = spin_time
 
     @property
@@ -110,6 +134,11 @@ class GraphNode:
         wait_until_discovered(self.graph, self._spin_time)
         return self.graph
 
-    def __exit__(self, _type: type[BaseException] | None, _error: BaseException | None, _traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        _type: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: TracebackType | None,
+    ) -> None:
         """Leave the domain."""
         self._context.close()

@@ -68,7 +68,11 @@ def node_exists(graph: Graph, full_name: str) -> bool:
 
 def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo]:
     """The publishers (``kind`` "publisher") or subscriptions ("subscription") of a topic."""
-    return [endpoint for endpoint in graph.endpoints() if endpoint.topic == topic and endpoint.kind == kind]
+    return [
+        endpoint
+        for endpoint in graph.endpoints()
+        if endpoint.topic == topic and endpoint.kind == kind
+    ]
 
 
 def publishers(graph: Graph, full_name: str, *, hidden: bool = False) -> NamesAndTypes:
@@ -112,12 +116,21 @@ def action_nodes(graph: Graph, action: str, kind: str) -> NamesAndTypes:
 
 
 def _of_node(
-    graph: Graph, full_name: str, kind: str, name_and_type: Callable[[EndpointInfo], tuple[str, str] | None], *, hidden: bool
+    graph: Graph,
+    full_name: str,
+    kind: str,
+    name_and_type: Callable[[EndpointInfo], tuple[str, str] | None],
+    *,
+    hidden: bool,
 ) -> NamesAndTypes:
     found: dict[str, set[str]] = {}
     for endpoint in graph.endpoints():
         node = endpoint.node
-        if endpoint.kind != kind or node is None or names.fully_qualified_node_name(node.name, node.namespace) != full_name:
+        if (
+            endpoint.kind != kind
+            or node is None
+            or names.fully_qualified_node_name(node.name, node.namespace) != full_name
+        ):
             continue
         pair = name_and_type(endpoint)
         if pair is not None:
@@ -132,7 +145,11 @@ def _topic(endpoint: EndpointInfo) -> tuple[str, str] | None:
 def _service(endpoint: EndpointInfo) -> tuple[str, str] | None:
     service = names.service_from_dds(endpoint.topic)
     is_request = endpoint.topic.startswith("rq/")
-    return (service, names.service_type(endpoint.type_name)) if service is not None and is_request else None
+    return (
+        (service, names.service_type(endpoint.type_name))
+        if service is not None and is_request
+        else None
+    )
 
 
 def _actions(feedback_topics: Iterable[tuple[str, list[str]]]) -> NamesAndTypes:

@@ -78,7 +78,9 @@ def _run(words: list[str]) -> int:
     if unknown:
         options = _OPTION.findall(getattr(args, "parser", parser).format_usage())
         parser.error(f"unrecognized arguments: {' '.join(unknown)}{_hint(unknown[0], options)}")
-    if not args.use_python_default_buffering and sys.stdout is not None:  # None: whoever started this has closed it
+    if (
+        not args.use_python_default_buffering and sys.stdout is not None
+    ):  # None: whoever started this has closed it
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     return _status(args)
 
@@ -89,21 +91,37 @@ def make_parser(words: list[str]) -> argparse.ArgumentParser:
     Args:
         words: The words after ``ros2``.
     """
-    parser = _Parser(prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False)
-    parser.add_argument("--use-python-default-buffering", action="store_true", help="Leave the buffering of the output to Python")
+    parser = _Parser(
+        prog="ros2", description="Look at, run and talk to ROS 2 nodes.", allow_abbrev=False
+    )
+    parser.add_argument(
+        "--use-python-default-buffering",
+        action="store_true",
+        help="Leave the buffering of the output to Python",
+    )
     parser.set_defaults(show_help=parser.print_help)
     _add_choices(parser, "ros2", COMMANDS, words, "ros2cli.commands")
     return parser
 
 
-def _add_choices(parser: argparse.ArgumentParser, prog: str, choices: dict[str, str], words: list[str], package: str) -> None:
+def _add_choices(
+    parser: argparse.ArgumentParser,
+    prog: str,
+    choices: dict[str, str],
+    words: list[str],
+    package: str,
+) -> None:
     """Add commands or verbs; the one that the words name is loaded."""
     title = "Verbs" if " " in prog else "Commands"
     rest = "<command>" if prog == "ros2" else "<verb>"
-    group = parser.add_subparsers(title=title, metavar=f"Call `{prog} {rest} -h` for more detailed usage.")
+    group = parser.add_subparsers(
+        title=title, metavar=f"Call `{prog} {rest} -h` for more detailed usage."
+    )
     chosen = next((word for word in words if not word.startswith("-")), None)
     for name, summary in choices.items():
-        sub = group.add_parser(name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False)
+        sub = group.add_parser(
+            name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False
+        )
         if name == chosen:
             _load(sub, f"{prog} {name}", words[words.index(name) + 1 :], f"{package}.{name}")
 

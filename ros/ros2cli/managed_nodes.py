@@ -19,7 +19,11 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
     """Full names of the nodes that offer to tell their state, sorted."""
     from ros2cli.graph import is_hidden_node, services
 
-    names = [name.removesuffix(_SERVICE) for name, types in services(graph, hidden=True) if name.endswith(_SERVICE) and _TYPE in types]
+    names = [
+        name.removesuffix(_SERVICE)
+        for name, types in services(graph, hidden=True)
+        if name.endswith(_SERVICE) and _TYPE in types
+    ]
     return sorted(name for name in names if hidden or not is_hidden_node(name))
 
 

@@ -89,7 +89,11 @@ def files(
         node_name: Name of an executable to begin with, or None.
     """
     depends = "".join(f"  <depend>{escape(dependency)}</depend>\n" for dependency in dependencies)
-    script = "" if node_name is None else f"\n            '{node_name} = {name}.{node_name}:main',\n        "
+    script = (
+        ""
+        if node_name is None
+        else f"\n            '{node_name} = {name}.{node_name}:main',\n        "
+    )
     made = {
         "package.xml": _MANIFEST.format(
             format=package_format,
@@ -102,7 +106,12 @@ def files(
         ),
         f"{name}/__init__.py": "",
         "setup.py": _SETUP.format(
-            name=name, maintainer=maintainer[0], email=maintainer[1], description=description, license=license_name, script=script
+            name=name,
+            maintainer=maintainer[0],
+            email=maintainer[1],
+            description=description,
+            license=license_name,
+            script=script,
         ),
         "setup.cfg": _SETUP_CFG.format(name=name),
         f"resource/{name}": "",

@@ -12,7 +12,13 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["TYPE_NAMES", "RemoteParameters", "add_name_argument", "add_node_arguments", "full_node_name"]
+__all__ = [
+    "TYPE_NAMES",
+    "RemoteParameters",
+    "add_name_argument",
+    "add_node_arguments",
+    "full_node_name",
+]
 
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.
 TYPE_NAMES = {
@@ -34,10 +40,24 @@ _TIMEOUT_S = 5.0
 def add_node_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """Define what all verbs share."""
     add_strategy_arguments(parser)
-    node = parser.add_argument("node_name", nargs="?" if optional else None, help="Full name of the node, for example /turtlesim")
+    node = parser.add_argument(
+        "node_name",
+        nargs="?" if optional else None,
+        help="Full name of the node, for example /turtlesim",
+    )
     node.completer = node_names  # type: ignore[attr-defined]
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also nodes whose name begins with an underscore")
-    parser.add_argument("--timeout", metavar="N", type=float, default=_TIMEOUT_S, help="Wait at most N seconds for the node's answer")
+    parser.add_argument(
+        "--include-hidden-nodes",
+        action="store_true",
+        help="Also nodes whose name begins with an underscore",
+    )
+    parser.add_argument(
+        "--timeout",
+        metavar="N",
+        type=float,
+        default=_TIMEOUT_S,
+        help="Wait at most N seconds for the node's answer",
+    )
 
 
 def add_name_argument(parser: argparse.ArgumentParser) -> None:
@@ -63,7 +83,9 @@ class RemoteParameters:
         RuntimeError: There is no such node.
     """
 
-    def __init__(self, direct: DirectNode, args: argparse.Namespace, node_name: str | None = None) -> None:
+    def __init__(
+        self, direct: DirectNode, args: argparse.Namespace, node_name: str | None = None
+    ) -> None:
         from rclpy.parameter_client import AsyncParameterClient
         from ros2cli.graph import node_exists
 
@@ -80,11 +102,15 @@ class RemoteParameters:
 
     def _ask(self, method: str, *args: Any) -> Any:
         if not self._client.wait_for_services(self._timeout):
-            raise RuntimeError(f"Wait for service timed out: the node '{self.node_name}' has no parameter services")
+            raise RuntimeError(
+                f"Wait for service timed out: the node '{self.node_name}' has no parameter services"
+            )
         try:
             return self._direct.result(getattr(self._client, method)(*args), self._timeout)
         except TimeoutError as error:
-            raise RuntimeError(f"The node '{self.node_name}' did not answer within {self._timeout} s") from error
+            raise RuntimeError(
+                f"The node '{self.node_name}' did not answer within {self._timeout} s"
+            ) from error
 
     def meant(self, name: str) -> str:
         """A line with the nearest parameters, to be put behind a message; empty when there is one of this name, or none is near."""

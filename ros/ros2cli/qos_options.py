@@ -29,11 +29,19 @@ def add_qos_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with")
     parser.add_argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue")
     parser.add_argument("--qos-history", choices=_HISTORY, help="What the queue keeps")
-    parser.add_argument("--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again")
-    parser.add_argument("--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages")
-    parser.add_argument("--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive")
     parser.add_argument(
-        "--qos-liveliness-lease-duration-seconds", type=positive_float, help="How long it counts as alive without saying so"
+        "--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again"
+    )
+    parser.add_argument(
+        "--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages"
+    )
+    parser.add_argument(
+        "--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive"
+    )
+    parser.add_argument(
+        "--qos-liveliness-lease-duration-seconds",
+        type=positive_float,
+        help="How long it counts as alive without saying so",
     )
 
 
@@ -53,8 +61,17 @@ def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
     from rclpy.duration import Duration
 
     chosen = qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or default)
-    profile = qos.QoSProfile(**{name: getattr(chosen, name) for name in ("history", "depth", "reliability", "durability", "liveliness")})
-    kinds = {"history": qos.HistoryPolicy, "reliability": qos.ReliabilityPolicy, "durability": qos.DurabilityPolicy}
+    profile = qos.QoSProfile(
+        **{
+            name: getattr(chosen, name)
+            for name in ("history", "depth", "reliability", "durability", "liveliness")
+        }
+    )
+    kinds = {
+        "history": qos.HistoryPolicy,
+        "reliability": qos.ReliabilityPolicy,
+        "durability": qos.DurabilityPolicy,
+    }
     for name, kind in {**kinds, "liveliness": qos.LivelinessPolicy}.items():
         text = getattr(args, f"qos_{name}")
         if text is not None:
@@ -76,7 +93,12 @@ def matching_publishers(graph: Graph, topic: str) -> QoSProfile:
     from turtlewire.wire.qos import Durability, Reliability
 
     profile = qos.QoSPresetProfiles.get_from_short_key("sensor_data")
-    profile = qos.QoSProfile(history=profile.history, depth=10, reliability=profile.reliability, durability=profile.durability)
+    profile = qos.QoSProfile(
+        history=profile.history,
+        depth=10,
+        reliability=profile.reliability,
+        durability=profile.durability,
+    )
     ends = endpoints_of_topic(graph, topic, "publisher")
     if not ends:
         return profile
@@ -94,4 +116,6 @@ def matching_publishers(graph: Graph, topic: str) -> QoSProfile:
 
 
 def _say_fallback(offered: str, used: str) -> None:
-    print(f"Some, but not all, publishers are offering {offered}. Falling back to {used} as it will connect to all publishers")
+    print(
+        f"Some, but not all, publishers are offering {offered}. Falling back to {used} as it will connect to all publishers"
+    )

@@ -19,7 +19,9 @@ def system_report() -> str:
             "processor": platform.machine(),
             "python": f"{platform.python_version()} ({sys.executable})",
         },
-        "RMW MIDDLEWARE": {"middleware name": os.environ.get("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")},
+        "RMW MIDDLEWARE": {
+            "middleware name": os.environ.get("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
+        },
         "ROS 2 INFORMATION": _ros_information(),
     }
     blocks = [_block(title, [facts]) for title, facts in sections.items()]

@@ -23,7 +23,9 @@ def message_class(type_name: str) -> Any:
     except (AttributeError, ModuleNotFoundError, ValueError):
         from ros2cli.suggestion import interface_meant
 
-        raise RuntimeError(f"The passed message type is invalid{interface_meant(type_name, 'msg')}") from None
+        raise RuntimeError(
+            f"The passed message type is invalid{interface_meant(type_name, 'msg')}"
+        ) from None
 
 
 def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> Any:
@@ -52,7 +54,9 @@ def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> 
         direct.wait_for(lambda: bool(graph.topic_names_and_types().get(topic)))
         types = graph.topic_names_and_types()[topic]
     if len(types) > 1:
-        raise RuntimeError(f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]")
+        raise RuntimeError(
+            f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"
+        )
     try:
         return message_class(types[0])
     except RuntimeError:

@@ -24,13 +24,19 @@ def get_message_slot_types(msg: Message) -> OrderedDict[str, AbstractType]:
 
 
 def message_to_yaml(
-    msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False, flow_style: bool = False
+    msg: Message,
+    *,
+    truncate_length: int | None = None,
+    no_arr: bool = False,
+    no_str: bool = False,
+    flow_style: bool = False,
 ) -> str:
     """A message as YAML.
 
     Args:
         msg: The message.
-        truncate_length: Show at most so many elements of a sequence and characters of a string, then ``...``.
+        truncate_length: Show at most so many elements of a sequence and characters of a string,
+            then ``...``.
         no_arr: Show type and length of sequences and arrays in their place.
         no_str: Show the length of strings in their place.
         flow_style: Write sequences on one line, ``[1, 2]``.
@@ -44,7 +50,10 @@ def message_to_yaml(
         """Writes mappings in the order they have, always in block style."""
 
     def represent_mapping(dumper: yaml.Dumper, data: OrderedDict[str, Any]) -> yaml.MappingNode:
-        items = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in data.items()]
+        items = [
+            (dumper.represent_data(key), dumper.represent_data(value))
+            for key, value in data.items()
+        ]
         return yaml.MappingNode("tag:yaml.org,2002:map", items)
 
     Dumper.add_representer(OrderedDict, represent_mapping)
@@ -65,11 +74,15 @@ def message_to_ordereddict(
 
     def convert(value: Any, type_: AbstractType | None) -> Any:
         if hasattr(value, "SLOT_TYPES"):
-            return message_to_ordereddict(value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+            return message_to_ordereddict(
+                value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
+            )
         if isinstance(value, bytes):
             return _shortened(value.decode("latin-1"), truncate_length)
         if isinstance(value, str):
-            return f"<string length: <{len(value)}>>" if no_str else _shortened(value, truncate_length)
+            return (
+                f"<string length: <{len(value)}>>" if no_str else _shortened(value, truncate_length)
+            )
         if _is_sequence(value):
             if no_arr and type_ is not None:
                 return _abbreviation(value, type_)
@@ -77,15 +90,22 @@ def message_to_ordereddict(
             return [*shown, _ELLIPSIS] if len(shown) < len(value) else shown
         return value.item() if hasattr(value, "item") else value
 
-    return OrderedDict((name, convert(getattr(msg, name), type_)) for name, type_ in get_message_slot_types(msg).items())
+    return OrderedDict(
+        (name, convert(getattr(msg, name), type_))
+        for name, type_ in get_message_slot_types(msg).items()
+    )
 
 
-def message_to_csv(msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
+def message_to_csv(
+    msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> str:
     """A message as comma-separated values, nested ones flattened; the arguments are those of `message_to_yaml`."""
 
     def convert(value: Any, type_: AbstractType | None) -> str:
         if hasattr(value, "SLOT_TYPES"):
-            return message_to_csv(value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+            return message_to_csv(
+                value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
+            )
         if _is_sequence(value):
             if no_arr and type_ is not None:
                 return _abbreviation(value, type_)
@@ -94,10 +114,16 @@ def message_to_csv(msg: Message, *, truncate_length: int | None = None, no_arr: 
         if isinstance(value, (str, bytes)) and no_str:
             return f"<string length: <{len(value)}>>"
         if isinstance(value, bytes):
-            return str(value if truncate_length is None or len(value) <= truncate_length else value[:truncate_length] + b"...")
+            return str(
+                value
+                if truncate_length is None or len(value) <= truncate_length
+                else value[:truncate_length] + b"..."
+            )
         return _shortened(str(value), truncate_length) if isinstance(value, str) else str(value)
 
-    return ",".join(convert(getattr(msg, name), type_) for name, type_ in get_message_slot_types(msg).items())
+    return ",".join(
+        convert(getattr(msg, name), type_) for name, type_ in get_message_slot_types(msg).items()
+    )
 
 
 def _is_sequence(value: Any) -> bool:
@@ -111,7 +137,9 @@ def _shortened(text: str, length: int | None) -> str:
 def _abbreviation(value: Any, type_: AbstractType) -> str:
     assert isinstance(type_, AbstractNestedType)
     element = type_.value_type
-    name = element.full_name if isinstance(element, NamespacedType) else str(element).partition("<")[0]
+    name = (
+        element.full_name if isinstance(element, NamespacedType) else str(element).partition("<")[0]
+    )
     if isinstance(type_, Array):
         return f"<array type: {name}[{type_.size}]>"
     limit = f"[{type_.maximum_size}]" if isinstance(type_, BoundedSequence) else ""

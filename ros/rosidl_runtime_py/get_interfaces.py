@@ -71,7 +71,9 @@ def get_interface_path(interface_name: str) -> str:
     """
     parts = interface_name.split("/")
     if len(parts) < 2:
-        raise ValueError(f"Invalid name '{interface_name}'. Expected at least two parts separated by '/'")
+        raise ValueError(
+            f"Invalid name '{interface_name}'. Expected at least two parts separated by '/'"
+        )
     if not all(parts):
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain empty parts")
     if ".." in parts:
@@ -81,7 +83,9 @@ def get_interface_path(interface_name: str) -> str:
     return msg.interface_path(interface_name.partition(".")[0])
 
 
-def _interfaces(package_names: Iterable[str] | None, kinds: tuple[str, ...]) -> dict[str, list[str]]:
+def _interfaces(
+    package_names: Iterable[str] | None, kinds: tuple[str, ...]
+) -> dict[str, list[str]]:
     packages = msg.interface_names()
     found: dict[str, list[str]] = {}
     for package in packages if package_names is None else package_names:

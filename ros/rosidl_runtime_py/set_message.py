@@ -18,7 +18,12 @@ _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
 
 
-def set_message_fields(msg: Message, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False) -> list[Any]:
+def set_message_fields(
+    msg: Message,
+    values: dict[str, Any],
+    expand_header_auto: bool = False,
+    expand_time_now: bool = False,
+) -> list[Any]:
     """Set fields of a message.
 
     Args:
@@ -28,7 +33,8 @@ def set_message_fields(msg: Message, values: dict[str, Any], expand_header_auto:
         expand_time_now: Let ``"now"`` stand for the time of publishing.
 
     Returns:
-        The ``builtin_interfaces/msg/Time`` objects in the message that await the time of publishing.
+        The ``builtin_interfaces/msg/Time`` objects in the message that await the time of
+        publishing.
 
     Raises:
         AttributeError: A name is not a field.
@@ -50,7 +56,9 @@ class _Filler:
 
     def fill(self, msg: Any, values: Any) -> None:
         if not hasattr(values, "items"):
-            raise TypeError(f"Value '{values}' is expected to be a dictionary but is a {type(values).__name__}")
+            raise TypeError(
+                f"Value '{values}' is expected to be a dictionary but is a {type(values).__name__}"
+            )
         types = get_message_slot_types(msg) if isinstance(msg, Message) else {}
         for name, value in values.items():
             current = getattr(msg, name)
@@ -87,7 +95,9 @@ class _Filler:
 
     def _values(self, type_: AbstractNestedType, current: Any, value: Any) -> Any:
         if not hasattr(value, "__iter__"):
-            raise TypeError(f"Value '{value}' is expected to be a list but is a {type(value).__name__}")
+            raise TypeError(
+                f"Value '{value}' is expected to be a list but is a {type(value).__name__}"
+            )
         if isinstance(type_.value_type, NamespacedType):
             return [self._message(type_.value_type, item) for item in value]
         if type_.value_type == BasicType("octet"):

@@ -28,7 +28,9 @@ def get_namespaced_type(identifier: str) -> NamespacedType:
     """
     parts = identifier.split("/")
     if len(parts) != 3 or not all(part.isidentifier() for part in parts):
-        raise ValueError(f"Expected the full name of an interface (package/msg/Name), got '{identifier}'")
+        raise ValueError(
+            f"Expected the full name of an interface (package/msg/Name), got '{identifier}'"
+        )
     return NamespacedType.parse(identifier)
 
 

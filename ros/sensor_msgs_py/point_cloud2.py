@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 
     from std_msgs.msg import Header
 
-__all__ = ["create_cloud", "create_cloud_xyz32", "dtype_from_fields", "read_points", "read_points_list", "read_points_numpy"]
+__all__ = [
+    "create_cloud",
+    "create_cloud_xyz32",
+    "dtype_from_fields",
+    "read_points",
+    "read_points_list",
+    "read_points_numpy",
+]
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
 """Name of fields without a name, before the field's number."""
@@ -47,11 +54,13 @@ def read_points(
         cloud: The cloud.
         field_names: The fields to read, in this order; None for all.
         skip_nans: Leave out points with a NaN, unless the cloud says that it is dense.
-        uvs: Indices of the points to read; None for all. They count the points that are left after NaNs were skipped.
+        uvs: Indices of the points to read; None for all. They count the points that are left after
+            NaNs were skipped.
         reshape_organized_cloud: Give the points of a cloud with rows the shape (width, height).
 
     Returns:
-        The points, shape (N,). Without ``skip_nans``, ``uvs``, foreign byte order and padded rows they share the memory of the message.
+        The points, shape (N,). Without ``skip_nans``, ``uvs``, foreign byte order and padded rows
+        they share the memory of the message.
 
     Raises:
         AssertionError: A name is not a field of the cloud.
@@ -65,7 +74,9 @@ def read_points(
     if cloud.is_bigendian != (sys.byteorder == "big"):
         points = points.byteswap()
     if skip_nans and not cloud.is_dense:
-        points = points[~np.any([np.isnan(points[name]) for name in points.dtype.names or ()], axis=0)]
+        points = points[
+            ~np.any([np.isnan(points[name]) for name in points.dtype.names or ()], axis=0)
+        ]
     if uvs is not None:
         points = points[uvs if isinstance(uvs, np.ndarray) else np.fromiter(uvs, int)]
     if reshape_organized_cloud and cloud.height > 1:
@@ -78,7 +89,9 @@ def _points(cloud: PointCloud2, dtype: np.dtype[np.void]) -> np.ndarray[Any, np.
     points: np.ndarray[Any, np.dtype[np.void]]
     if cloud.height > 1 and cloud.row_step > cloud.width * cloud.point_step:
         strides = (cloud.row_step, cloud.point_step)
-        points = np.ndarray((cloud.height, cloud.width), dtype, cloud.data, strides=strides).reshape(-1)
+        points = np.ndarray(
+            (cloud.height, cloud.width), dtype, cloud.data, strides=strides
+        ).reshape(-1)
     else:  # many writers leave row_step unset
         points = np.ndarray((cloud.height * cloud.width,), dtype, cloud.data)
     return points
@@ -98,7 +111,9 @@ def read_points_numpy(
     """
     wanted = [field for field in cloud.fields if field_names is None or field.name in field_names]
     if len({field.datatype for field in wanted}) > 1:
-        raise AssertionError("All fields need to have the same datatype. Use `read_points()` otherwise.")
+        raise AssertionError(
+            "All fields need to have the same datatype. Use `read_points()` otherwise."
+        )
     plain: np.ndarray[Any, np.dtype[Any]] = structured_to_unstructured(
         read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
     )
@@ -106,15 +121,22 @@ def read_points_numpy(
 
 
 def read_points_list(
-    cloud: PointCloud2, field_names: Sequence[str] | None = None, skip_nans: bool = False, uvs: Iterable[int] | None = None
+    cloud: PointCloud2,
+    field_names: Sequence[str] | None = None,
+    skip_nans: bool = False,
+    uvs: Iterable[int] | None = None,
 ) -> list[Any]:
     """Points of a cloud as a list of named tuples; the arguments are those of `read_points`. Slow for large clouds."""
     names = [field.name for field in cloud.fields] if field_names is None else list(field_names)
     point = namedtuple("Point", names)  # type: ignore[misc] # noqa: PYI024 - the fields are known at run time only
-    return [point._make(values) for values in read_points(cloud, field_names, skip_nans, uvs).tolist()]
+    return [
+        point._make(values) for values in read_points(cloud, field_names, skip_nans, uvs).tolist()
+    ]
 
 
-def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = None) -> np.dtype[np.void]:
+def dtype_from_fields(
+    fields: Iterable[PointField], point_step: int | None = None
+) -> np.dtype[np.void]:
     """Structured dtype of a point.
 
     Args:
@@ -145,13 +167,16 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     return dtype
 
 
-def create_cloud(header: Header, fields: Sequence[PointField], points: Any, step: int | None = None) -> PointCloud2:
+def create_cloud(
+    header: Header, fields: Sequence[PointField], points: Any, step: int | None = None
+) -> PointCloud2:
     """Make a cloud.
 
     Args:
         header: Its header.
         fields: The fields of a point.
-        points: A structured array of their dtype, a plain array with a last axis of that length, or an iterable of tuples.
+        points: A structured array of their dtype, a plain array with a last axis of that length, or
+            an iterable of tuples.
         step: Bytes from point to point; None to end after the last field.
 
     Raises:
@@ -159,7 +184,9 @@ def create_cloud(header: Header, fields: Sequence[PointField], points: Any, step
     """
     structured = np.ascontiguousarray(_structured(fields, points, step))
     if structured.ndim > 2:
-        raise AssertionError("Too many dimensions for organized cloud! Points can only be organized in max. two dimensional space")
+        raise AssertionError(
+            "Too many dimensions for organized cloud! Points can only be organized in max. two dimensional space"
+        )
     width, height = structured.shape[0], structured.shape[1] if structured.ndim == 2 else 1
     data = array("B")
     data.frombytes(structured.tobytes())
@@ -178,7 +205,10 @@ def create_cloud(header: Header, fields: Sequence[PointField], points: Any, step
 
 def create_cloud_xyz32(header: Header, points: Any, step: int | None = None) -> PointCloud2:
     """Make a cloud of float32 x, y, z; the arguments are those of `create_cloud`."""
-    fields = [PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1) for index, name in enumerate("xyz")]
+    fields = [
+        PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
+        for index, name in enumerate("xyz")
+    ]
     return create_cloud(header, fields, points, step)
 
 
@@ -188,7 +218,9 @@ def _structured(fields: Sequence[PointField], points: Any, step: int | None) -> 
         return np.array([tuple(point) for point in points], dtype=dtype)
     if points.dtype.names is None:
         if len({field.datatype for field in fields}) > 1:
-            raise AssertionError("All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise.")
+            raise AssertionError(
+                "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
+            )
         return unstructured_to_structured(points, dtype=dtype)
     if points.dtype != dtype:
         raise AssertionError(

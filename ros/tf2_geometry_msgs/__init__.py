@@ -1,9 +1,11 @@
 """Messages of geometry_msgs in another frame, as ROS 2's package of this name, and what only its C++ side had.
 
-Importing it makes ``tf2_ros.Buffer.transform`` take these stamped types: points, vectors, quaternions, poses, arrays of poses, paths,
-poses with covariance, odometry, twists (with covariance), velocities, wrenches, polygons and transforms.
+Importing it makes ``tf2_ros.Buffer.transform`` take these stamped types: points, vectors,
+quaternions, poses, arrays of poses, paths, poses with covariance, odometry, twists (with
+covariance), velocities, wrenches, polygons and transforms.
 
-The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they, and NumPy, are loaded when they are first used.
+The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they, and NumPy, are
+loaded when they are first used.
 """
 
 from __future__ import annotations

@@ -58,15 +58,19 @@ class Motion:
         """An orientation (anything with x, y, z, w), as a unit quaternion with w >= 0."""
         x, y, z, w = self.quaternion
         i, j, k, r = unit_quaternion(q)
-        qx, qy, qz = w * i + x * r + y * k - z * j, w * j - x * k + y * r + z * i, w * k + x * j - y * i + z * r
+        qx, qy, qz = (
+            w * i + x * r + y * k - z * j,
+            w * j - x * k + y * r + z * i,
+            w * k + x * j - y * i + z * r,
+        )
         qw = w * r - x * i - y * j - z * k
         return (qx, qy, qz, qw) if qw >= 0.0 else (-qx, -qy, -qz, -qw)
 
     def moment(self, about_origin: Any, free: Any) -> Numbers3:
         """What depends on the point of reference: ``R m + t x (R f)``.
 
-        A torque with its force, or a velocity with its angular velocity: both are stated for the origin of their frame, and the origin
-        of the target is another point of the same body.
+        A torque with its force, or a velocity with its angular velocity: both are stated for the
+        origin of their frame, and the origin of the target is another point of the same body.
         """
         mx, my, mz = self.vector(about_origin)
         fx, fy, fz = self.vector(free)

@@ -1,11 +1,13 @@
 """Messages of geometry_msgs as NumPy arrays, and back: ``X_from_Y`` makes an X of a Y.
 
-An *array* has the numbers in the order of the fields: a point ``x, y, z``, a quaternion ``x, y, z, w``, a pose ``x, y, z, qx, qy, qz, qw``.
-A *matrix* is ``(4, 4)`` and acts on column vectors from the left: ``matrix_from_transform(t) @ (x, y, z, 1)`` does what
-``do_transform_point`` does. *Euler* angles are radians; ``axes`` names the convention, see :mod:`turtlewire.tf.conversions`, which has all
-of this for plain arrays of any shape.
+An *array* has the numbers in the order of the fields: a point ``x, y, z``, a quaternion ``x, y, z,
+w``, a pose ``x, y, z, qx, qy, qz, qw``. A *matrix* is ``(4, 4)`` and acts on column vectors from
+the left: ``matrix_from_transform(t) @ (x, y, z, 1)`` does what ``do_transform_point`` does. *Euler*
+angles are radians; ``axes`` names the convention, see :mod:`turtlewire.tf.conversions`, which has
+all of this for plain arrays of any shape.
 
-Arrays are of double precision, and never share memory with a message. Wrong shapes raise ValueError.
+Arrays are of double precision, and never share memory with a message. Wrong shapes raise
+ValueError.
 """
 
 from __future__ import annotations
@@ -134,13 +136,17 @@ def pose_from_matrix(matrix: ArrayLike) -> Pose:
 def array_from_transform(transform: Transform | Any) -> Array:
     """Shape ``(7,)``, of a Transform or TransformStamped."""
     transform = getattr(transform, "transform", transform)
-    return np.concatenate((array_from_vector3(transform.translation), array_from_quaternion(transform.rotation)))
+    return np.concatenate(
+        (array_from_vector3(transform.translation), array_from_quaternion(transform.rotation))
+    )
 
 
 def transform_from_array(array: ArrayLike) -> Transform:
     """A Transform of seven numbers."""
     x, y, z, qx, qy, qz, qw = _numbers(array, 7, "a transform")
-    return Transform(translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+    return Transform(
+        translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw)
+    )
 
 
 def matrix_from_transform(transform: Transform | Any) -> Array:

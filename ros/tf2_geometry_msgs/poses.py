@@ -43,7 +43,12 @@ __all__ = [
 def do_transform_pose(pose: Pose, transform: TransformStamped | Any) -> Pose:
     """A pose in the frame of a transform; its quaternion gets unit length and w >= 0."""
     if hasattr(pose, "pose"):
-        raise _wrong_pose("do_transform_pose", "Pose", pose, "do_transform_pose_stamped" if isinstance(pose, PoseStamped) else "its .pose")
+        raise _wrong_pose(
+            "do_transform_pose",
+            "Pose",
+            pose,
+            "do_transform_pose_stamped" if isinstance(pose, PoseStamped) else "its .pose",
+        )
     return _moved(pose, Motion(transform))
 
 
@@ -62,8 +67,8 @@ def do_transform_pose_array(poses: PoseArray, transform: TransformStamped) -> Po
 def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     """A path in the frame of a transform.
 
-    One transform takes the whole path, whose header gets stamp and frame of it. The poses get the frame and keep their stamps: these say
-    when each is, or shall be, reached.
+    One transform takes the whole path, whose header gets stamp and frame of it. The poses get the
+    frame and keep their stamps: these say when each is, or shall be, reached.
 
     Raises:
         ValueError: A pose names another frame than the path; it needs a transform of its own.
@@ -78,19 +83,30 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     header = header_of(transform)
     moved = _all_moved([pose.pose for pose in path.poses], transform)
     stamps = [pose.header.stamp for pose in path.poses]
-    poses = [PoseStamped(header=copy_of(stamp, header.frame_id), pose=pose) for stamp, pose in zip(stamps, moved, strict=True)]
+    poses = [
+        PoseStamped(header=copy_of(stamp, header.frame_id), pose=pose)
+        for stamp, pose in zip(stamps, moved, strict=True)
+    ]
     return Path(header=header, poses=poses)
 
 
-def do_transform_pose_with_covariance(pose: PoseWithCovariance, transform: TransformStamped | Any) -> PoseWithCovariance:
+def do_transform_pose_with_covariance(
+    pose: PoseWithCovariance, transform: TransformStamped | Any
+) -> PoseWithCovariance:
     """An uncertain pose in the frame of a transform that is certain."""
     moved = _moved(pose.pose, Motion(transform))
-    return PoseWithCovariance(pose=moved, covariance=transform_covariance(pose.covariance, transform))
+    return PoseWithCovariance(
+        pose=moved, covariance=transform_covariance(pose.covariance, transform)
+    )
 
 
-def do_transform_pose_with_covariance_stamped(pose: PoseWithCovarianceStamped, transform: TransformStamped) -> PoseWithCovarianceStamped:
+def do_transform_pose_with_covariance_stamped(
+    pose: PoseWithCovarianceStamped, transform: TransformStamped
+) -> PoseWithCovarianceStamped:
     """An uncertain pose in the frame of a transform that is certain, with stamp and frame of the transform."""
-    return PoseWithCovarianceStamped(header=header_of(transform), pose=do_transform_pose_with_covariance(pose.pose, transform))
+    return PoseWithCovarianceStamped(
+        header=header_of(transform), pose=do_transform_pose_with_covariance(pose.pose, transform)
+    )
 
 
 def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Odometry:
@@ -99,7 +115,12 @@ def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Od
     Its twist is one in the axes of ``child_frame_id``, the body, and stays as it is.
     """
     pose = do_transform_pose_with_covariance(odometry.pose, transform)
-    return Odometry(header=header_of(transform), child_frame_id=odometry.child_frame_id, pose=pose, twist=copy.deepcopy(odometry.twist))
+    return Odometry(
+        header=header_of(transform),
+        child_frame_id=odometry.child_frame_id,
+        pose=pose,
+        twist=copy.deepcopy(odometry.twist),
+    )
 
 
 def do_transform_transform(inner: Transform, transform: TransformStamped | Any) -> Transform:
@@ -107,25 +128,32 @@ def do_transform_transform(inner: Transform, transform: TransformStamped | Any) 
     motion = Motion(transform)
     x, y, z = motion.point(inner.translation)
     qx, qy, qz, qw = motion.orientation(inner.rotation)
-    return Transform(translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+    return Transform(
+        translation=Vector3(x=x, y=y, z=z), rotation=Quaternion(x=qx, y=qy, z=qz, w=qw)
+    )
 
 
-def do_transform_transform_stamped(inner: TransformStamped, transform: TransformStamped) -> TransformStamped:
+def do_transform_transform_stamped(
+    inner: TransformStamped, transform: TransformStamped
+) -> TransformStamped:
     """A transform after another, with stamp and frame of the outer one; the child frame stays."""
     moved = do_transform_transform(inner.transform, transform)
-    return TransformStamped(header=header_of(transform), child_frame_id=inner.child_frame_id, transform=moved)
+    return TransformStamped(
+        header=header_of(transform), child_frame_id=inner.child_frame_id, transform=moved
+    )
 
 
 def transform_covariance(cov_in: ArrayLike, transform: TransformStamped | Any) -> NDArray[Any]:
     """The covariance of a pose in the frame of a transform that is certain.
 
     Args:
-        cov_in: 36 numbers, row by row: x, y, z [m], then the rotations about the fixed axes x, y, z [rad].
+        cov_in: 36 numbers, row by row: x, y, z [m], then the rotations about the fixed axes x, y, z
+            [rad].
         transform: ``TransformStamped`` or ``Transform``.
 
     Returns:
-        Shape ``(36,)``. Errors of position and of orientation are vectors at the pose itself, so both are turned and nothing else: how far
-        the frames are apart does not matter.
+        Shape ``(36,)``. Errors of position and of orientation are vectors at the pose itself, so
+        both are turned and nothing else: how far the frames are apart does not matter.
     """
     import numpy as np
 
@@ -147,4 +175,6 @@ def _all_moved(poses: Sequence[Any], transform: Any) -> list[Pose]:
 
 
 def _wrong_pose(function: str, expected: str, got: Any, remedy: str) -> TypeError:
-    return TypeError(f"{function} takes a geometry_msgs.msg.{expected}, got {type(got).__name__}: use {remedy}")
+    return TypeError(
+        f"{function} takes a geometry_msgs.msg.{expected}, got {type(got).__name__}: use {remedy}"
+    )

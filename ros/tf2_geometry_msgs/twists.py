@@ -1,12 +1,14 @@
 """Velocities, and forces with torques, in another frame. Nothing changes its arguments.
 
-A twist says how the origin of its frame moves, as a point of the body, and how the body turns; a wrench says which force acts at the origin
-of its frame, and which torque about it. In another frame the point of reference is another one, so the distance of the frames counts::
+A twist says how the origin of its frame moves, as a point of the body, and how the body turns; a
+wrench says which force acts at the origin of its frame, and which torque about it. In another frame
+the point of reference is another one, so the distance of the frames counts::
 
     v' = R v + t x (R w)    w' = R w          velocity
     f' = R f                m' = R m + t x (R f)          force and torque
 
-Power, ``f . v + m . w``, is the same in both. To turn the axes only, give the parts to ``do_transform_vector3``.
+Power, ``f . v + m . w``, is the same in both. To turn the axes only, give the parts to
+``do_transform_vector3``.
 """
 
 from __future__ import annotations
@@ -46,15 +48,22 @@ __all__ = [
 def do_transform_twist(twist: Twist, transform: TransformStamped | Any) -> Twist:
     """The same motion, stated for the origin of the target frame and in its axes."""
     motion = Motion(transform)
-    return Twist(linear=_vector3(motion.moment(twist.linear, twist.angular)), angular=_vector3(motion.vector(twist.angular)))
+    return Twist(
+        linear=_vector3(motion.moment(twist.linear, twist.angular)),
+        angular=_vector3(motion.vector(twist.angular)),
+    )
 
 
 def do_transform_twist_stamped(twist: TwistStamped, transform: TransformStamped) -> TwistStamped:
     """:func:`do_transform_twist` with stamp and frame of the transform."""
-    return TwistStamped(header=header_of(transform), twist=do_transform_twist(twist.twist, transform))
+    return TwistStamped(
+        header=header_of(transform), twist=do_transform_twist(twist.twist, transform)
+    )
 
 
-def do_transform_velocity_stamped(velocity: VelocityStamped, transform: TransformStamped) -> VelocityStamped:
+def do_transform_velocity_stamped(
+    velocity: VelocityStamped, transform: TransformStamped
+) -> VelocityStamped:
     """:func:`do_transform_twist` with stamp and frame of the transform; whose velocity it is, and relative to what, stays."""
     return VelocityStamped(
         header=header_of(transform),
@@ -64,31 +73,47 @@ def do_transform_velocity_stamped(velocity: VelocityStamped, transform: Transfor
     )
 
 
-def do_transform_twist_with_covariance(twist: TwistWithCovariance, transform: TransformStamped | Any) -> TwistWithCovariance:
+def do_transform_twist_with_covariance(
+    twist: TwistWithCovariance, transform: TransformStamped | Any
+) -> TwistWithCovariance:
     """An uncertain motion, stated for the origin of the target frame and in its axes, by a transform that is certain."""
     moved = do_transform_twist(twist.twist, transform)
-    return TwistWithCovariance(twist=moved, covariance=transform_twist_covariance(twist.covariance, transform))
+    return TwistWithCovariance(
+        twist=moved, covariance=transform_twist_covariance(twist.covariance, transform)
+    )
 
 
 def do_transform_twist_with_covariance_stamped(
     twist: TwistWithCovarianceStamped, transform: TransformStamped
 ) -> TwistWithCovarianceStamped:
     """:func:`do_transform_twist_with_covariance` with stamp and frame of the transform."""
-    return TwistWithCovarianceStamped(header=header_of(transform), twist=do_transform_twist_with_covariance(twist.twist, transform))
+    return TwistWithCovarianceStamped(
+        header=header_of(transform),
+        twist=do_transform_twist_with_covariance(twist.twist, transform),
+    )
 
 
 def do_transform_wrench(wrench: Wrench, transform: TransformStamped | Any) -> Wrench:
     """The same load, stated for the origin of the target frame and in its axes."""
     motion = Motion(transform)
-    return Wrench(force=_vector3(motion.vector(wrench.force)), torque=_vector3(motion.moment(wrench.torque, wrench.force)))
+    return Wrench(
+        force=_vector3(motion.vector(wrench.force)),
+        torque=_vector3(motion.moment(wrench.torque, wrench.force)),
+    )
 
 
-def do_transform_wrench_stamped(wrench: WrenchStamped, transform: TransformStamped) -> WrenchStamped:
+def do_transform_wrench_stamped(
+    wrench: WrenchStamped, transform: TransformStamped
+) -> WrenchStamped:
     """:func:`do_transform_wrench` with stamp and frame of the transform."""
-    return WrenchStamped(header=header_of(transform), wrench=do_transform_wrench(wrench.wrench, transform))
+    return WrenchStamped(
+        header=header_of(transform), wrench=do_transform_wrench(wrench.wrench, transform)
+    )
 
 
-def transform_twist_covariance(cov_in: ArrayLike, transform: TransformStamped | Any) -> NDArray[Any]:
+def transform_twist_covariance(
+    cov_in: ArrayLike, transform: TransformStamped | Any
+) -> NDArray[Any]:
     """The covariance of a twist in the frame of a transform that is certain.
 
     Args:
@@ -96,7 +121,8 @@ def transform_twist_covariance(cov_in: ArrayLike, transform: TransformStamped | 
         transform: ``TransformStamped`` or ``Transform``.
 
     Returns:
-        Shape ``(36,)``. An uncertain angular velocity makes the velocity of a distant point uncertain too.
+        Shape ``(36,)``. An uncertain angular velocity makes the velocity of a distant point
+        uncertain too.
     """
     import numpy as np
 

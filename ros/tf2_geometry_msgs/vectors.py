@@ -79,15 +79,22 @@ def do_transform_point32(point32: Point32, transform: TransformStamped | Any) ->
     return Point32(x=x, y=y, z=z)
 
 
-def do_transform_quaternion(quaternion: Quaternion, transform: TransformStamped | Any) -> Quaternion:
+def do_transform_quaternion(
+    quaternion: Quaternion, transform: TransformStamped | Any
+) -> Quaternion:
     """An orientation in the frame of a transform, of unit length and with w >= 0."""
     x, y, z, w = Motion(transform).orientation(quaternion)
     return Quaternion(x=x, y=y, z=z, w=w)
 
 
-def do_transform_quaternion_stamped(quaternion: QuaternionStamped, transform: TransformStamped) -> QuaternionStamped:
+def do_transform_quaternion_stamped(
+    quaternion: QuaternionStamped, transform: TransformStamped
+) -> QuaternionStamped:
     """:func:`do_transform_quaternion` with stamp and frame of the transform."""
-    return QuaternionStamped(header=header_of(transform), quaternion=do_transform_quaternion(quaternion.quaternion, transform))
+    return QuaternionStamped(
+        header=header_of(transform),
+        quaternion=do_transform_quaternion(quaternion.quaternion, transform),
+    )
 
 
 def do_transform_polygon(polygon: Polygon, transform: TransformStamped | Any) -> Polygon:
@@ -96,16 +103,27 @@ def do_transform_polygon(polygon: Polygon, transform: TransformStamped | Any) ->
     return Polygon(points=[Point32(x=x, y=y, z=z) for x, y, z in map(corner, polygon.points)])
 
 
-def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformStamped) -> PolygonStamped:
+def do_transform_polygon_stamped(
+    polygon: PolygonStamped, transform: TransformStamped
+) -> PolygonStamped:
     """:func:`do_transform_polygon` with stamp and frame of the transform."""
-    return PolygonStamped(header=header_of(transform), polygon=do_transform_polygon(polygon.polygon, transform))
+    return PolygonStamped(
+        header=header_of(transform), polygon=do_transform_polygon(polygon.polygon, transform)
+    )
 
 
-def do_transform_polygon_instance(polygon: PolygonInstance, transform: TransformStamped | Any) -> PolygonInstance:
+def do_transform_polygon_instance(
+    polygon: PolygonInstance, transform: TransformStamped | Any
+) -> PolygonInstance:
     """:func:`do_transform_polygon` of a polygon with an id, which stays."""
     return PolygonInstance(polygon=do_transform_polygon(polygon.polygon, transform), id=polygon.id)
 
 
-def do_transform_polygon_instance_stamped(polygon: PolygonInstanceStamped, transform: TransformStamped) -> PolygonInstanceStamped:
+def do_transform_polygon_instance_stamped(
+    polygon: PolygonInstanceStamped, transform: TransformStamped
+) -> PolygonInstanceStamped:
     """:func:`do_transform_polygon_instance` with stamp and frame of the transform."""
-    return PolygonInstanceStamped(header=header_of(transform), polygon=do_transform_polygon_instance(polygon.polygon, transform))
+    return PolygonInstanceStamped(
+        header=header_of(transform),
+        polygon=do_transform_polygon_instance(polygon.polygon, transform),
+    )

@@ -25,7 +25,8 @@ class BufferCore:
     """A tree of frames over time. Safe for use from many threads.
 
     Args:
-        cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message); 10 s without it.
+        cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message);
+            10 s without it.
 
     Attributes:
         engine: The ``turtlewire.Buffer`` that does the work: integer nanoseconds, bytes, batches.
@@ -34,7 +35,9 @@ class BufferCore:
     engine: turtlewire.Buffer
 
     def __init__(self, cache_time: Duration | Any | None = None) -> None:
-        self.engine = turtlewire.Buffer(_DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration"))
+        self.engine = turtlewire.Buffer(
+            _DEFAULT_CACHE_NS if cache_time is None else to_nanoseconds(cache_time, "duration")
+        )
         self._messages = message_lookup(self.engine)
 
     # -- data in
@@ -52,7 +55,13 @@ class BufferCore:
         t, q = pose.translation, pose.rotation
         stamp = to_nanoseconds(header.stamp)
         refusal = self.engine.set_transform(
-            header.frame_id, transform.child_frame_id, stamp, (t.x, t.y, t.z), (q.x, q.y, q.z, q.w), static, authority
+            header.frame_id,
+            transform.child_frame_id,
+            stamp,
+            (t.x, t.y, t.z),
+            (q.x, q.y, q.z, q.w),
+            static,
+            authority,
         )
         if refusal:
             _log_refusal(refusal)
@@ -63,31 +72,50 @@ class BufferCore:
 
     # -- questions
 
-    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time | Any) -> TransformStamped:
+    def lookup_transform_core(
+        self, target_frame: str, source_frame: str, time: Time | Any
+    ) -> TransformStamped:
         """The transform that takes data of ``source_frame`` into ``target_frame``, at once or not at all.
 
         Raises:
-            TransformException: One of its kinds: Lookup, Connectivity, Extrapolation, InvalidArgument.
+            TransformException: One of its kinds: Lookup, Connectivity, Extrapolation,
+                InvalidArgument.
         """
         return self._messages.lookup(target_frame, source_frame, time)
 
     def lookup_transform_full_core(
-        self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str
+        self,
+        target_frame: str,
+        target_time: Time | Any,
+        source_frame: str,
+        source_time: Time | Any,
+        fixed_frame: str,
     ) -> TransformStamped:
         """From ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of a frame that did not move."""
-        return self._messages.lookup_full(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._messages.lookup_full(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
 
-    def can_transform_core(self, target_frame: str, source_frame: str, time: Time | Any) -> tuple[int, str]:
+    def can_transform_core(
+        self, target_frame: str, source_frame: str, time: Time | Any
+    ) -> tuple[int, str]:
         """1 and an empty string if a lookup would succeed, else 0 and the reason."""
         reason = self.engine.can_transform_reason(target_frame, source_frame, to_nanoseconds(time))
         return (int(not reason), reason)
 
     def can_transform_full_core(
-        self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str
+        self,
+        target_frame: str,
+        target_time: Time | Any,
+        source_frame: str,
+        source_time: Time | Any,
+        fixed_frame: str,
     ) -> tuple[int, str]:
         """As can_transform_core, for lookup_transform_full_core."""
         times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        reason = self.engine.can_transform_full_reason(target_frame, times[0], source_frame, times[1], fixed_frame)
+        reason = self.engine.can_transform_full_reason(
+            target_frame, times[0], source_frame, times[1], fixed_frame
+        )
         return (int(not reason), reason)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
@@ -99,14 +127,24 @@ class BufferCore:
     # -- velocities
 
     def lookupVelocityCore(  # noqa: N802 -- ROS 2's name
-        self, tracking_frame: str, observation_frame: str, time: Time | Any, averaging_interval: Duration | Any
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        time: Time | Any,
+        averaging_interval: Duration | Any,
     ) -> tuple[Triple, Triple]:
         """The velocity of the origin of ``tracking_frame`` (m/s) and its angular velocity (rad/s), seen from ``observation_frame``.
 
         The mean over the interval around ``time``, in the axes of the observation frame.
         """
         return self.lookupVelocityFullCore(
-            tracking_frame, observation_frame, observation_frame, (0.0, 0.0, 0.0), tracking_frame, time, averaging_interval
+            tracking_frame,
+            observation_frame,
+            observation_frame,
+            (0.0, 0.0, 0.0),
+            tracking_frame,
+            time,
+            averaging_interval,
         )
 
     def lookupVelocityFullCore(  # noqa: N802 -- ROS 2's name
@@ -134,15 +172,26 @@ class BufferCore:
 
     # -- descriptions
 
-    def _chain(self, target_frame: str, target_time: Time | Any, source_frame: str, source_time: Time | Any, fixed_frame: str) -> list[str]:
+    def _chain(
+        self,
+        target_frame: str,
+        target_time: Time | Any,
+        source_frame: str,
+        source_time: Time | Any,
+        fixed_frame: str,
+    ) -> list[str]:
         """The frames on the way from the source over the fixed frame to the target.
 
         Raises:
             TransformException: There is no way at these times.
         """
-        self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+        self.lookup_transform_full_core(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
         parents = {link.child_frame: link.parent_frame for link in links(self.engine)}
-        return _way(parents, source_frame, fixed_frame) + _way(parents, fixed_frame, target_frame)[1:]
+        return (
+            _way(parents, source_frame, fixed_frame) + _way(parents, fixed_frame, target_frame)[1:]
+        )
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """Frames, parents, senders, rates and ages as YAML. Arguments are ignored, as in ROS 2."""

@@ -17,12 +17,20 @@ __all__ = ["MessageLookup", "message_lookup"]
 class MessageLookup(Protocol):
     """Lookups of a buffer with ROS times in and messages out."""
 
-    def lookup(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> TransformStamped:
+    def lookup(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = None
+    ) -> TransformStamped:
         """As ``turtlewire.Buffer.lookup_transform``; without a timeout it does not wait."""
         ...
 
     def lookup_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = None
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = None,
     ) -> TransformStamped:
         """As ``turtlewire.Buffer.lookup_transform_full``; without a timeout it does not wait."""
         ...
@@ -32,14 +40,28 @@ class _PlainMessageLookup:
     def __init__(self, buffer: turtlewire.Buffer) -> None:
         self._buffer = buffer
 
-    def lookup(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> TransformStamped:
-        return to_message(self._buffer.lookup_transform(target_frame, source_frame, to_nanoseconds(time), _timeout(timeout)))
+    def lookup(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = None
+    ) -> TransformStamped:
+        return to_message(
+            self._buffer.lookup_transform(
+                target_frame, source_frame, to_nanoseconds(time), _timeout(timeout)
+            )
+        )
 
     def lookup_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = None
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = None,
     ) -> TransformStamped:
         times = to_nanoseconds(target_time), to_nanoseconds(source_time)
-        found = self._buffer.lookup_transform_full(target_frame, times[0], source_frame, times[1], fixed_frame, _timeout(timeout))
+        found = self._buffer.lookup_transform_full(
+            target_frame, times[0], source_frame, times[1], fixed_frame, _timeout(timeout)
+        )
         return to_message(found)
 
 
@@ -52,7 +74,9 @@ def to_message(transform: turtlewire.Transform) -> TransformStamped:
     from geometry_msgs.msg import TransformStamped
 
     message = TransformStamped()
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(transform.stamp_ns, 1_000_000_000)
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(
+        transform.stamp_ns, 1_000_000_000
+    )
     message.header.frame_id = transform.frame_id
     message.child_frame_id = transform.child_frame_id
     translation, rotation = message.transform.translation, message.transform.rotation

@@ -27,7 +27,12 @@ from .buffer_interface import (
 )
 from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
-from .transform_listener import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, StaticTransformListener, TransformListener
+from .transform_listener import (
+    DEFAULT_STATIC_TF_TOPIC,
+    DEFAULT_TF_TOPIC,
+    StaticTransformListener,
+    TransformListener,
+)
 
 if TYPE_CHECKING:
     from .buffer_client import BufferClient

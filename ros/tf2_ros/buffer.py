@@ -9,7 +9,11 @@ from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
 from tf2_py.times import to_nanoseconds
-from turtlewire.errors import BackwardExtrapolationException, InvalidArgumentException, NoDataForExtrapolationException
+from turtlewire.errors import (
+    BackwardExtrapolationException,
+    InvalidArgumentException,
+    NoDataForExtrapolationException,
+)
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .transform_futures import TransformFutures
@@ -33,16 +37,18 @@ JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), o
 class Buffer(BufferCore, BufferInterface):
     """Stores transforms and answers questions about them. Safe for use from many threads.
 
-    A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a timeout works wherever a lookup is called: the call
-    sleeps until the data is there, polls nothing, and needs nobody to spin.
+    A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a timeout works
+    wherever a lookup is called: the call sleeps until the data is there, polls nothing, and needs
+    nobody to spin.
 
-    When the clock jumps back, as at the end of a bag that is played in a loop, what was stored is of another time, and is forgotten; static
-    transforms stay. The clock is the one of ``node``, and without a node that of the listener's node; a simulated clock moves while that
-    node is spun.
+    When the clock jumps back, as at the end of a bag that is played in a loop, what was stored is
+    of another time, and is forgotten; static transforms stay. The clock is the one of ``node``, and
+    without a node that of the listener's node; a simulated clock moves while that node is spun.
 
     Args:
         cache_time: How long samples are kept; 10 s unless given.
-        node: Offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``) on this node, and has the clock.
+        node: Offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``) on this node, and has
+            the clock.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -53,7 +59,9 @@ class Buffer(BufferCore, BufferInterface):
         self.clock = Clock() if node is None else node.get_clock()
         if node is not None:
             self._offer_frames(node)
-            self.jump_handle = self.clock.create_jump_callback(JUMP_BACK, post_callback=self.time_jump_callback)
+            self.jump_handle = self.clock.create_jump_callback(
+                JUMP_BACK, post_callback=self.time_jump_callback
+            )
 
     def _offer_frames(self, node: Node) -> None:
         from tf2_msgs.srv import FrameGraph
@@ -71,13 +79,16 @@ class Buffer(BufferCore, BufferInterface):
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
-    def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Duration | Any = NO_TIMEOUT) -> TransformStamped:
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Duration | Any = NO_TIMEOUT
+    ) -> TransformStamped:
         """The transform that takes data of ``source_frame`` into ``target_frame``: the pose of the source, seen from the target.
 
         Args:
             target_frame: The frame in which the answer is expressed.
             source_frame: The frame whose pose is asked for.
-            time: ``rclpy.time.Time`` or a time message; ``Time()`` asks for the latest time known to all links in between.
+            time: ``rclpy.time.Time`` or a time message; ``Time()`` asks for the latest time known
+                to all links in between.
             timeout: How long to wait for the data (``rclpy.duration.Duration``).
 
         Raises:
@@ -112,7 +123,9 @@ class Buffer(BufferCore, BufferInterface):
         Raises:
             TransformException: As :meth:`lookup_transform`.
         """
-        return self._messages.lookup_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+        return self._messages.lookup_full(
+            target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+        )
 
     def can_transform(
         self,
@@ -123,7 +136,9 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
         """1 if :meth:`lookup_transform` would succeed, within ``timeout``, else 0; with ``return_debug_tuple`` the reason besides."""
-        reason = self.engine.can_transform_reason(target_frame, source_frame, to_nanoseconds(time), to_nanoseconds(timeout, "duration"))
+        reason = self.engine.can_transform_reason(
+            target_frame, source_frame, to_nanoseconds(time), to_nanoseconds(timeout, "duration")
+        )
         return (int(not reason), reason) if return_debug_tuple else int(not reason)
 
     def can_transform_full(
@@ -139,7 +154,9 @@ class Buffer(BufferCore, BufferInterface):
         """1 if :meth:`lookup_transform_full` would succeed, within ``timeout``, else 0; with ``return_debug_tuple`` the reason besides."""
         times = to_nanoseconds(target_time), to_nanoseconds(source_time)
         timeout_ns = to_nanoseconds(timeout, "duration")
-        reason = self.engine.can_transform_full_reason(target_frame, times[0], source_frame, times[1], fixed_frame, timeout_ns)
+        reason = self.engine.can_transform_full_reason(
+            target_frame, times[0], source_frame, times[1], fixed_frame, timeout_ns
+        )
         return (int(not reason), reason) if return_debug_tuple else int(not reason)
 
     async def lookup_transform_async(
@@ -154,9 +171,12 @@ class Buffer(BufferCore, BufferInterface):
             timeout: How long to wait; without limit unless given.
 
         Raises:
-            TransformException: As :meth:`lookup_transform`, when the time is over, or when the answer cannot come any more.
+            TransformException: As :meth:`lookup_transform`, when the time is over, or when the
+                answer cannot come any more.
         """
-        return await _outcome(self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout))
+        return await _outcome(
+            self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
+        )
 
     async def lookup_transform_full_async(
         self,
@@ -172,11 +192,13 @@ class Buffer(BufferCore, BufferInterface):
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
         return await _outcome(self.wait_for_transform_full_async(*asked, timeout=timeout))
 
-    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None) -> Future:
+    def wait_for_transform_async(
+        self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None
+    ) -> Future:
         """A future whose result will be the transform, once it is known. Cancel it when it is not wanted any more.
 
-        Done-callbacks run on the thread that brings the data, and should be short. Arguments and errors as
-        :meth:`lookup_transform_async`.
+        Done-callbacks run on the thread that brings the data, and should be short. Arguments and
+        errors as :meth:`lookup_transform_async`.
         """
         leg = _Leg(target_frame, source_frame, to_nanoseconds(time))
         answer = functools.partial(self.lookup_transform_core, target_frame, source_frame, time)
@@ -197,7 +219,14 @@ class Buffer(BufferCore, BufferInterface):
             _Leg(target_frame, fixed_frame, to_nanoseconds(target_time)),
             _Leg(fixed_frame, source_frame, to_nanoseconds(source_time)),
         )
-        answer = functools.partial(self.lookup_transform_full_core, target_frame, target_time, source_frame, source_time, fixed_frame)
+        answer = functools.partial(
+            self.lookup_transform_full_core,
+            target_frame,
+            target_time,
+            source_frame,
+            source_time,
+            fixed_frame,
+        )
         return self._futures.add(_Question(self.engine, legs, answer), _limit(timeout))
 
 
@@ -221,9 +250,15 @@ class _Question(NamedTuple):
         if isinstance(error, InvalidArgumentException):
             return True
         keep_ns = self.engine.cache_time_ns
-        if keep_ns is None or not isinstance(error, (BackwardExtrapolationException, NoDataForExtrapolationException)):
+        if keep_ns is None or not isinstance(
+            error, (BackwardExtrapolationException, NoDataForExtrapolationException)
+        ):
             return False
-        latest = any(leg.stamp_ns == 0 for leg in self.legs if (leg.target, leg.source) == (error.target_frame, error.source_frame))
+        latest = any(
+            leg.stamp_ns == 0
+            for leg in self.legs
+            if (leg.target, leg.source) == (error.target_frame, error.source_frame)
+        )
         return not latest and error.requested_ns < error.newest_ns - keep_ns
 
 

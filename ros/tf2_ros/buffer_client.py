@@ -28,12 +28,8 @@ __all__ = ["BufferClient"]
 
 _SUCCEEDED = 4
 _NOT_READY = "The BufferServer is not ready."
-_NOT_BACK = (
-    "The LookupTransform goal sent to the BufferServer did not come back in the specified time. Something is likely wrong with the server."
-)
-_NOT_ACCEPTED = (
-    "The LookupTransform goal sent to the BufferServer did not come back with accepted status. Something is likely wrong with the server."
-)
+_NOT_BACK = "The LookupTransform goal sent to the BufferServer did not come back in the specified time. Something is likely wrong with the server."
+_NOT_ACCEPTED = "The LookupTransform goal sent to the BufferServer did not come back with accepted status. Something is likely wrong with the server."
 _GONE = "The BufferServer went away before it had answered."
 _NO_RESULT = "The BufferServer returned None for result or result.error!  Something is likely wrong with the server."
 
@@ -41,12 +37,14 @@ _NO_RESULT = "The BufferServer returned None for result or result.error!  Someth
 class BufferClient(BufferInterface):
     """Has the interface of a buffer, and asks a :class:`~tf2_ros.BufferServer`. Thread-safe.
 
-    It has a node and a thread of its own, so that a lookup works in any callback, whether the user's node is being spun or not.
+    It has a node and a thread of its own, so that a lookup works in any callback, whether the
+    user's node is being spun or not.
 
     Args:
         node: Whose context and namespace it takes.
         ns: Name of the server's action.
-        check_frequency: Of no effect: it waits for answers, it does not look for them again and again.
+        check_frequency: Of no effect: it waits for answers, it does not look for them again and
+            again.
         timeout_padding: How much longer than the lookup's own timeout to wait for the server.
     """
 
@@ -58,7 +56,11 @@ class BufferClient(BufferInterface):
         timeout_padding: Duration | float = Duration(seconds=2.0),  # noqa: B008 -- never changed
     ) -> None:
         super().__init__()
-        padding = timeout_padding if isinstance(timeout_padding, Duration) else Duration(seconds=timeout_padding)
+        padding = (
+            timeout_padding
+            if isinstance(timeout_padding, Duration)
+            else Duration(seconds=timeout_padding)
+        )
         self.timeout_padding = padding
         self.node = node
         self._node = Node(
@@ -76,7 +78,8 @@ class BufferClient(BufferInterface):
     def destroy(self) -> bool:
         """End the thread and leave the graph.
 
-        When the server was killed, the middleware waits up to a second for it to confirm the last request.
+        When the server was killed, the middleware waits up to a second for it to confirm the last
+        request.
         """
         self._executor.shutdown()
         self._thread.join()
@@ -84,7 +87,9 @@ class BufferClient(BufferInterface):
         self._node.destroy_node()
         return True
 
-    def lookup_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT) -> TransformStamped:
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT
+    ) -> TransformStamped:
         """The transform that takes data of ``source_frame`` into ``target_frame``, as the server knows it.
 
         Args:
@@ -99,7 +104,11 @@ class BufferClient(BufferInterface):
             TypeError: ``time`` is no time.
         """
         goal = LookupTransform.Goal(
-            target_frame=target_frame, source_frame=source_frame, source_time=_message(time), timeout=_duration(timeout), advanced=False
+            target_frame=target_frame,
+            source_frame=source_frame,
+            source_time=_message(time),
+            timeout=_duration(timeout),
+            advanced=False,
         )
         return self._ask(goal, timeout)
 
@@ -128,7 +137,9 @@ class BufferClient(BufferInterface):
         )
         return self._ask(goal, timeout)
 
-    def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT) -> bool:
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT
+    ) -> bool:
         """Whether :meth:`lookup_transform` succeeds."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
@@ -147,7 +158,9 @@ class BufferClient(BufferInterface):
     ) -> bool:
         """Whether :meth:`lookup_transform_full` succeeds."""
         try:
-            self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+            self.lookup_transform_full(
+                target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+            )
         except TransformException:
             return False
         return True
@@ -168,7 +181,10 @@ class BufferClient(BufferInterface):
         return _transform(response)
 
     def _servers(self) -> set[bytes]:
-        return {bytes(each.endpoint_gid) for each in self._node.get_publishers_info_by_topic(f"{self._action}/_action/status")}
+        return {
+            bytes(each.endpoint_gid)
+            for each in self._node.get_publishers_info_by_topic(f"{self._action}/_action/status")
+        }
 
     def _wait(self, future: Future, seconds: float, servers: set[bytes]) -> Any:
         """What a future gives; it is not waited for when one of the servers that were asked has left the graph."""
@@ -198,7 +214,9 @@ def _transform(response: Any) -> TransformStamped:
         raise TransformException(_NO_RESULT)
     if result.error.error != TF2Error.NO_ERROR:
         raise exception_for(result.error)
-    if response.status != _SUCCEEDED:  # a server of ROS 2 in C++ says nothing else when the time is over
+    if (
+        response.status != _SUCCEEDED
+    ):  # a server of ROS 2 in C++ says nothing else when the time is over
         raise TimeoutException("The BufferServer gave up: the transform was not available in time.")
     transform: TransformStamped = result.transform
     return transform
@@ -213,7 +231,11 @@ def _message(time: Time | Any) -> Any:
     if isinstance(time, Time):
         return time.to_msg()
     if hasattr(time, "sec") and hasattr(time, "nanosec"):
-        warnings.warn("Passing a builtin_interfaces.msg.Time is deprecated, pass a rclpy.time.Time object.", UserWarning, stacklevel=3)
+        warnings.warn(
+            "Passing a builtin_interfaces.msg.Time is deprecated, pass a rclpy.time.Time object.",
+            UserWarning,
+            stacklevel=3,
+        )
         return time
     raise TypeError("Must pass a rclpy.time.Time object.")
 

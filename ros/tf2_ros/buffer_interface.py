@@ -24,7 +24,8 @@ __all__ = [
 ]
 
 
-#: Which import makes a type known that can be transformed; of a type without a header nobody knows the frame.
+#: Which import makes a type known that can be transformed; of a type without a header nobody knows
+#: the frame.
 _REGISTERED_BY = {
     "tf2_geometry_msgs": {
         "geometry_msgs/PointStamped",
@@ -97,17 +98,25 @@ class BufferInterface:
     """Base of the buffers: lookups by another name, and :meth:`transform`, which applies them.
 
     Attributes:
-        registration: Where the functions that transform a type are found; one for the whole process.
+        registration: Where the functions that transform a type are found; one for the whole
+            process.
     """
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
-    def transform(self, object_stamped: Any, target_frame: str, timeout: Any = NO_TIMEOUT, new_type: type | None = None) -> Any:
+    def transform(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        timeout: Any = NO_TIMEOUT,
+        new_type: type | None = None,
+    ) -> Any:
         """Express an object in another frame, at the time of its stamp.
 
         Args:
-            object_stamped: Has a ``header``, and a type that is registered (``import tf2_geometry_msgs`` registers many).
+            object_stamped: Has a ``header``, and a type that is registered (``import
+                tf2_geometry_msgs`` registers many).
             target_frame: The frame to express it in.
             timeout: How long to wait until the transform is known (``rclpy.duration.Duration``).
             new_type: Convert the result to this type.
@@ -118,7 +127,10 @@ class BufferInterface:
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
-        transformed = do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
+        transformed = do_transform(
+            object_stamped,
+            self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout),
+        )
         return transformed if new_type is None else convert(transformed, new_type)
 
     def transform_full(
@@ -146,26 +158,44 @@ class BufferInterface:
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
-        transform = self.lookup_transform_full(target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout)
+        transform = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
+        )
         transformed = do_transform(object_stamped, transform)
         return transformed if new_type is None else convert(transformed, new_type)
 
-    def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT) -> TransformStamped:
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT
+    ) -> TransformStamped:
         """The transform that takes data from ``source_frame`` to ``target_frame`` at ``time``."""
         raise NotImplementedException
 
     def lookup_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = NO_TIMEOUT
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_TIMEOUT,
     ) -> TransformStamped:
         """The transform from ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of ``fixed_frame``."""
         raise NotImplementedException
 
-    def can_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT) -> Any:
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_TIMEOUT
+    ) -> Any:
         """Whether :meth:`lookup_transform` would succeed."""
         raise NotImplementedException
 
     def can_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str, timeout: Any = NO_TIMEOUT
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_TIMEOUT,
     ) -> Any:
         """Whether :meth:`lookup_transform_full` would succeed."""
         raise NotImplementedException
@@ -257,6 +287,8 @@ def convert(a: Any, b_type: type) -> Any:
             return deepcopy(a)
         converted = registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
         if not isinstance(converted, b_type):  # each message type takes any message for its own
-            raise TypeException(f"Nobody has registered how to convert {type(a)} to {b_type}") from None
+            raise TypeException(
+                f"Nobody has registered how to convert {type(a)} to {b_type}"
+            ) from None
         return converted
     return direct(a)

@@ -50,8 +50,8 @@ def exception_for(error: TF2Error) -> TransformException:
 class BufferServer:
     """Offers lookups in a buffer as the action ``tf2_msgs/action/LookupTransform``.
 
-    A goal that waits holds up nobody; it can be cancelled. One that cannot be answered in time is aborted with the error of the lookup,
-    never with an empty transform.
+    A goal that waits holds up nobody; it can be cancelled. One that cannot be answered in time is
+    aborted with the error of the lookup, never with an empty transform.
 
     Args:
         buffer: What is asked.
@@ -89,7 +89,9 @@ class BufferServer:
         finally:
             del self._waiting[key]
         if future.cancelled():
-            result.error = TF2Error(error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was given up.")
+            result.error = TF2Error(
+                error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was given up."
+            )
             (goal_handle.canceled if goal_handle.is_cancel_requested else goal_handle.abort)()
         elif result.error.error == TF2Error.NO_ERROR:
             goal_handle.succeed()
@@ -100,9 +102,16 @@ class BufferServer:
     def _ask(self, goal: Any) -> Future:
         if goal.advanced:
             return self._buffer.wait_for_transform_full_async(
-                goal.target_frame, goal.target_time, goal.source_frame, goal.source_time, goal.fixed_frame, timeout=goal.timeout
+                goal.target_frame,
+                goal.target_time,
+                goal.source_frame,
+                goal.source_time,
+                goal.fixed_frame,
+                timeout=goal.timeout,
             )
-        return self._buffer.wait_for_transform_async(goal.target_frame, goal.source_frame, goal.source_time, timeout=goal.timeout)
+        return self._buffer.wait_for_transform_async(
+            goal.target_frame, goal.source_frame, goal.source_time, timeout=goal.timeout
+        )
 
     def _cancel(self, goal_handle: ServerGoalHandle) -> CancelResponse:
         future = self._waiting.get(bytes(goal_handle.goal_id.uuid))

@@ -24,7 +24,9 @@ def frame_id(text: str) -> str:
     if not text:
         raise argparse.ArgumentTypeError("in tf2 frame_ids cannot be empty")
     if text.startswith("/"):
-        raise argparse.ArgumentTypeError(f"in tf2 frame_ids cannot start with a '/': say {text.lstrip('/')!r} instead of {text!r}")
+        raise argparse.ArgumentTypeError(
+            f"in tf2 frame_ids cannot start with a '/': say {text.lstrip('/')!r} instead of {text!r}"
+        )
     return text
 
 

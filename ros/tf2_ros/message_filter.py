@@ -55,10 +55,12 @@ class _Waiting:
 class MessageFilter(SimpleFilter):
     """Passes a message on when it can be transformed into the target frames, and drops one that never can.
 
-    Callbacks run on the node's executor, or inside :meth:`add` when the transform is there already. It waits for data, it does not poll.
+    Callbacks run on the node's executor, or inside :meth:`add` when the transform is there already.
+    It waits for data, it does not poll.
 
     Args:
-        f: The filter to listen to, a ``message_filters.Subscriber`` for example; None to :meth:`add` messages by hand.
+        f: The filter to listen to, a ``message_filters.Subscriber`` for example; None to
+            :meth:`add` messages by hand.
         buffer: Where the transforms come.
         target_frame: The frame, or the frames, that a message will be transformed into.
         queue_size: How many messages wait; the oldest is dropped beyond. 0 sets no limit.
@@ -89,8 +91,14 @@ class MessageFilter(SimpleFilter):
         self._timeout_ns = None if timeout is None else timeout.nanoseconds
         self._ready = node.create_guard_condition(self._deliver)
         self.setTargetFrames([target_frame] if isinstance(target_frame, str) else target_frame)
-        self._timer = None if timeout is None else node.create_timer(timeout.nanoseconds / 1e9, self._expire, autostart=False)
-        self._stop_listening: Callable[[], None] | None = self._engine.add_change_listener(self._on_data)
+        self._timer = (
+            None
+            if timeout is None
+            else node.create_timer(timeout.nanoseconds / 1e9, self._expire, autostart=False)
+        )
+        self._stop_listening: Callable[[], None] | None = self._engine.add_change_listener(
+            self._on_data
+        )
         self._jumps = node.get_clock().create_jump_callback(JUMP_BACK, post_callback=self._on_jump)
         self._on_destroy: Callable[[MessageFilter], None] | None = None
         node._rclpy_endpoints.keep(self)
@@ -141,14 +149,20 @@ class MessageFilter(SimpleFilter):
         if not source:
             self._fail(message, FilterFailureReason.EmptyFrameID)
             return
-        deadline = None if self._timeout_ns is None else self._node.get_clock().now().nanoseconds + self._timeout_ns
+        deadline = (
+            None
+            if self._timeout_ns is None
+            else self._node.get_clock().now().nanoseconds + self._timeout_ns
+        )
         waiting = _Waiting(message, source, deadline)
         dropped = None
         with self._lock:
             self._waiting.append(waiting)
             if self._queue_size and len(self._waiting) > self._queue_size:
                 dropped = self._waiting.popleft()
-            elif len(self._waiting) == 1 and self._timer is not None and self._timeout_ns is not None:
+            elif (
+                len(self._waiting) == 1 and self._timer is not None and self._timeout_ns is not None
+            ):
                 self._timer.timer_period_ns = self._timeout_ns
                 self._timer.reset()
         if dropped is not None:
@@ -188,7 +202,9 @@ class MessageFilter(SimpleFilter):
         """Pass on what is ready, in the order in which it came, and drop what is too old."""
         with self._lock:
             ready = [each for each in self._waiting if self._is_ready(each)]
-            too_old = [each for each in self._waiting if each not in ready and self._is_too_old(each)]
+            too_old = [
+                each for each in self._waiting if each not in ready and self._is_too_old(each)
+            ]
             for each in (*ready, *too_old):
                 self._waiting.remove(each)
         for each in ready:
@@ -198,14 +214,21 @@ class MessageFilter(SimpleFilter):
 
     def _is_ready(self, waiting: _Waiting) -> bool:
         stamps = {waiting.stamp_ns, waiting.stamp_ns + self._tolerance_ns}
-        return all(self._engine.can_transform(target, waiting.source, stamp) for target in self._targets for stamp in stamps)
+        return all(
+            self._engine.can_transform(target, waiting.source, stamp)
+            for target in self._targets
+            for stamp in stamps
+        )
 
     def _is_too_old(self, waiting: _Waiting) -> bool:
         if self._engine.cache_time_ns is None:
             return False
         oldest = waiting.stamp_ns + self._engine.cache_time_ns
         try:
-            return any(oldest < self._engine.latest_common_time(target, waiting.source) for target in self._targets)
+            return any(
+                oldest < self._engine.latest_common_time(target, waiting.source)
+                for target in self._targets
+            )
         except TransformException:
             return False  # some frame is not known yet
 
@@ -214,7 +237,11 @@ class MessageFilter(SimpleFilter):
         now = self._node.get_clock().now().nanoseconds
         with self._lock:
             expired = []
-            while self._waiting and self._waiting[0].deadline_ns is not None and self._waiting[0].deadline_ns <= now:
+            while (
+                self._waiting
+                and self._waiting[0].deadline_ns is not None
+                and self._waiting[0].deadline_ns <= now
+            ):
                 expired.append(self._waiting.popleft())
             assert self._timer is not None
             if self._waiting and self._waiting[0].deadline_ns is not None:

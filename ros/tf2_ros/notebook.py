@@ -25,7 +25,15 @@ def transform_html(message: TransformStamped) -> str | None:
     if not any((q.x, q.y, q.z, q.w)):
         return None
     stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
-    return notebook.transform_html(_Pose(message.header.frame_id, message.child_frame_id, stamp_ns, (t.x, t.y, t.z), (q.x, q.y, q.z, q.w)))
+    return notebook.transform_html(
+        _Pose(
+            message.header.frame_id,
+            message.child_frame_id,
+            stamp_ns,
+            (t.x, t.y, t.z),
+            (q.x, q.y, q.z, q.w),
+        )
+    )
 
 
 TransformStamped._repr_html_ = transform_html  # type: ignore[attr-defined]

@@ -24,5 +24,7 @@ def spin_in_thread(node: Node, name: str) -> tuple[SingleThreadedExecutor, Threa
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException):  # the context was shut down, and the thread ends with it
+    with suppress(
+        ExternalShutdownException
+    ):  # the context was shut down, and the thread ends with it
         executor.spin()

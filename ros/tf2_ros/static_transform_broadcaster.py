@@ -29,7 +29,9 @@ class _Kept:
     """What one publisher keeps for late joiners."""
 
     def __init__(self, publisher: Publisher) -> None:
-        self._publisher = ref(publisher)  # its node owns it; whoever comes to replace a transform must not keep it alive
+        self._publisher = ref(
+            publisher
+        )  # its node owns it; whoever comes to replace a transform must not keep it alive
         self.transforms: dict[str, TransformStamped] = {}
 
     def publish(self) -> None:
@@ -41,19 +43,22 @@ class _Kept:
 
 
 _lock = threading.Lock()
-#: By context and topic, then by child frame: the publisher that keeps the transform, which is the one that sent it last.
+#: By context and topic, then by child frame: the publisher that keeps the transform, which is the
+#: one that sent it last.
 _keepers: WeakKeyDictionary[Context, dict[str, dict[str, _Kept]]] = WeakKeyDictionary()
 
 
 class StaticTransformBroadcaster:
     """Tells everybody who listens, now or later, where frames stand that do not move.
 
-    All transforms that were sent are published together, so that the one message that is kept for late joiners holds them all. A transform
-    that is sent again replaces the former one, also when another broadcaster of this process sent that. Thread-safe.
+    All transforms that were sent are published together, so that the one message that is kept for
+    late joiners holds them all. A transform that is sent again replaces the former one, also when
+    another broadcaster of this process sent that. Thread-safe.
 
     Args:
         node: Who publishes.
-        qos: Quality of service of ``/tf_static``, or a depth; one message is kept for late joiners unless given.
+        qos: Quality of service of ``/tf_static``, or a depth; one message is kept for late joiners
+            unless given.
 
     Attributes:
         pub_tf: The publisher.
@@ -61,16 +66,23 @@ class StaticTransformBroadcaster:
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
         if qos is None:
-            qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
+            qos = QoSProfile(
+                depth=1,
+                durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                history=HistoryPolicy.KEEP_LAST,
+            )
         self.pub_tf = node.create_publisher(TFMessage, "/tf_static", qos)
         self._kept = _Kept(self.pub_tf)
         with _lock:
-            self._keepers = _keepers.setdefault(node.context, {}).setdefault(self.pub_tf.topic_name, {})
+            self._keepers = _keepers.setdefault(node.context, {}).setdefault(
+                self.pub_tf.topic_name, {}
+            )
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
         """Publish one or several transforms, each the pose of ``child_frame_id`` in ``header.frame_id``.
 
-        They are copied: what the caller does to the messages later does not count until they are sent again.
+        They are copied: what the caller does to the messages later does not count until they are
+        sent again.
         """
         with _lock:
             replaced = []

@@ -91,18 +91,33 @@ def _new_style(flags: dict[str, str]) -> Placement:
     if any(flag in flags for flag in _QUATERNION) and any(flag in flags for flag in _EULER):
         raise ArgumentsError("Cannot specify both quaternion and Euler rotations")
     if any(flag in flags for flag in _QUATERNION):
-        rotation = (number["--qx"], number["--qy"], number["--qz"], number["--qw"] if "--qw" in flags else 1.0)
+        rotation = (
+            number["--qx"],
+            number["--qy"],
+            number["--qz"],
+            number["--qw"] if "--qw" in flags else 1.0,
+        )
     else:
         roll, pitch, yaw = (number[flag] for flag in _EULER)
         rotation = quaternion_from_euler(roll, pitch, yaw)
     translation = (number["--x"], number["--y"], number["--z"])
-    return Placement(translation, rotation, flags.get("--frame-id", ""), flags.get("--child-frame-id", ""))
+    return Placement(
+        translation, rotation, flags.get("--frame-id", ""), flags.get("--child-frame-id", "")
+    )
 
 
 def _old_style(words: list[str]) -> Placement:
-    names = ("x", "y", "z", "qx", "qy", "qz", "qw") if len(words) == 9 else ("x", "y", "z", "yaw", "pitch", "roll")
+    names = (
+        ("x", "y", "z", "qx", "qy", "qz", "qw")
+        if len(words) == 9
+        else ("x", "y", "z", "yaw", "pitch", "roll")
+    )
     x, y, z, *turn = (_float(word, name) for word, name in zip(words, names, strict=False))
-    rotation = (turn[0], turn[1], turn[2], turn[3]) if len(turn) == 4 else quaternion_from_euler(turn[2], turn[1], turn[0])
+    rotation = (
+        (turn[0], turn[1], turn[2], turn[3])
+        if len(turn) == 4
+        else quaternion_from_euler(turn[2], turn[1], turn[0])
+    )
     return Placement((x, y, z), rotation, words[-2], words[-1], old_style=True)
 
 
@@ -112,7 +127,9 @@ def _float(word: str, name: str) -> float:
     except ValueError:
         raise ArgumentsError(f"Failed to parse {name} argument as float") from None
     if not math.isfinite(number):
-        raise ArgumentsError(f"{name} is {word}: no listener takes a transform whose numbers are not finite")
+        raise ArgumentsError(
+            f"{name} is {word}: no listener takes a transform whose numbers are not finite"
+        )
     return number
 
 
@@ -145,8 +162,12 @@ class StaticTransformPublisher(Node):
             for name, number in zip(names, getattr(placement, part), strict=True):
                 value = self.declare_parameter(f"{part}.{name}", number, read_only).value
                 setattr(getattr(transform.transform, part), name, value)
-        transform.header.frame_id = self.declare_parameter("frame_id", placement.frame_id, read_only).value
-        transform.child_frame_id = self.declare_parameter("child_frame_id", placement.child_frame_id, read_only).value
+        transform.header.frame_id = self.declare_parameter(
+            "frame_id", placement.frame_id, read_only
+        ).value
+        transform.child_frame_id = self.declare_parameter(
+            "child_frame_id", placement.child_frame_id, read_only
+        ).value
         if transform.header.frame_id == transform.child_frame_id:
             raise RuntimeError("child_frame_id cannot equal frame_id")
         transform.header.stamp = self.get_clock().now().to_msg()
@@ -181,7 +202,9 @@ def main(args: list[str] | None = None) -> int:
     try:
         node = StaticTransformPublisher(placement)
         if placement.old_style:
-            node.get_logger().warning("Old-style arguments are deprecated; see --help for new-style arguments")
+            node.get_logger().warning(
+                "Old-style arguments are deprecated; see --help for new-style arguments"
+            )
         node.get_logger().info(node.describe())
         rclpy.spin(node)
     except RuntimeError as error:

@@ -57,15 +57,28 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser(prog="tf2_echo", description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.")
+    parser = Parser(
+        prog="tf2_echo",
+        description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.",
+    )
     parser.add_argument("source_frame", type=frame_id, help="the frame that looks")
     parser.add_argument("target_frame", type=frame_id, help="the frame that is looked at")
-    parser.add_argument("rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)")
-    parser.add_argument("-p", "--precision", type=digits, default=3, help="digits after the point (default: %(default)s)")
+    parser.add_argument(
+        "rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)"
+    )
+    parser.add_argument(
+        "-p",
+        "--precision",
+        type=digits,
+        default=3,
+        help="digits after the point (default: %(default)s)",
+    )
     parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many transforms")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees only")
     parser.add_argument("--distance", action="store_true", help="the distance too")
-    parser.add_argument("--json", action="store_true", help="one JSON object in a line for each transform")
+    parser.add_argument(
+        "--json", action="store_true", help="one JSON object in a line for each transform"
+    )
     return parser
 
 
@@ -76,17 +89,24 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     source, target = options.source_frame, options.target_frame
     printed = 0
     while not stopped.is_set():
-        answer: Any = buffer.can_transform(source, target, Time(), Duration(seconds=1), return_debug_tuple=True)
+        answer: Any = buffer.can_transform(
+            source, target, Time(), Duration(seconds=1), return_debug_tuple=True
+        )
         known, reason = answer
         if known:
             break
-        node.get_logger().info(f"Waiting for transform {source} ->  {target}: {reason}{_hint(buffer, source, target)}")
+        node.get_logger().info(
+            f"Waiting for transform {source} ->  {target}: {reason}{_hint(buffer, source, target)}"
+        )
     while not stopped.is_set():
         try:
             transform = buffer.lookup_transform(source, target, Time())
         except TransformException as error:
             print(f"Failure at {node.get_clock().now().nanoseconds / 1e9:f}")  # noqa: T201
-            print(f"Exception thrown:{error}\nThe current list of frames is:\n{buffer.all_frames_as_string()}", flush=True)  # noqa: T201
+            print(  # noqa: T201
+                f"Exception thrown:{error}\nThe current list of frames is:\n{buffer.all_frames_as_string()}",
+                flush=True,
+            )
         else:
             print(as_json(transform) if options.json else describe(transform, options), flush=True)  # noqa: T201
             printed += 1
@@ -121,7 +141,10 @@ def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
         lines.append(f"- Rotation: in RPY (radian) [{row(angles)}]")
     lines.append(f"- Rotation: in RPY (degree) [{row(math.degrees(angle) for angle in angles)}]")
     lines.append("- Matrix:")
-    lines += [" ".join(f"{number:{digits + 3}.{digits}f}" for number in numbers) for numbers in _matrix(t, q)]
+    lines += [
+        " ".join(f"{number:{digits + 3}.{digits}f}" for number in numbers)
+        for numbers in _matrix(t, q)
+    ]
     if options.distance:
         lines.append(f"- Distance: {math.hypot(t.x, t.y, t.z):.{digits}f}")
     return "\n".join([*lines, f"- In words: {in_words(transform, digits)}"])
@@ -141,7 +164,11 @@ def in_words(transform: TransformStamped, digits: int = 2) -> str:
     t = transform.transform.translation
     parts = [
         f"{abs(number):.{digits}f} m {positive if number >= 0 else negative}"
-        for number, positive, negative in ((t.x, "ahead", "behind"), (t.y, "to the left", "to the right"), (t.z, "above", "below"))
+        for number, positive, negative in (
+            (t.x, "ahead", "behind"),
+            (t.y, "to the left", "to the right"),
+            (t.z, "above", "below"),
+        )
         if round(abs(number), digits) > 0
     ]
     place = ", ".join(parts) if parts else "at the same place"

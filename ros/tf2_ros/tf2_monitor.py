@@ -50,7 +50,9 @@ class Delays:
 
     def merge(self, other: Delays) -> None:
         """Take all of another."""
-        self.maximum = max((delays.maximum for delays in (self, other) if delays.count), default=0.0)
+        self.maximum = max(
+            (delays.maximum for delays in (self, other) if delays.count), default=0.0
+        )
         self.count += other.count
         self.total += other.total
 
@@ -107,11 +109,21 @@ class Statistics:
                 all_span[:] = min(all_span[0], span[0]), max(all_span[1], span[1])
             return {
                 "frames": [
-                    {"frame": frame, "published_by": self._name(gid), "average_delay": delays.mean, "max_delay": delays.maximum}
+                    {
+                        "frame": frame,
+                        "published_by": self._name(gid),
+                        "average_delay": delays.mean,
+                        "max_delay": delays.maximum,
+                    }
                     for frame, (gid, delays) in self._frames.items()
                 ],
                 "broadcasters": [
-                    {"node": name, "rate": _rate(delays, span), "average_delay": delays.mean, "max_delay": delays.maximum}
+                    {
+                        "node": name,
+                        "rate": _rate(delays, span),
+                        "average_delay": delays.mean,
+                        "max_delay": delays.maximum,
+                    }
                     for name, (delays, span) in of_node.items()
                 ],
             }
@@ -131,7 +143,9 @@ def main(args: list[str] | None = None) -> int:
     rclpy.init(args=argv)
     try:
         with Node("tf2_monitor") as node:
-            executor, thread = spin_in_thread(node, "tf2-monitor")  # for the sake of a simulated clock
+            executor, thread = spin_in_thread(
+                node, "tf2-monitor"
+            )  # for the sake of a simulated clock
             try:
                 _monitor(node, options)
             finally:
@@ -147,11 +161,27 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser(prog="tf2_monitor", description="Tell how late and how often transforms come, and from whom.")
-    parser.add_argument("frames", nargs="*", type=frame_id, metavar="FRAME", help="the two frames whose chain to watch; none for all")
-    parser.add_argument("--period", type=seconds, default=10.0, help="seconds between reports (default: %(default)s)")
+    parser = Parser(
+        prog="tf2_monitor",
+        description="Tell how late and how often transforms come, and from whom.",
+    )
+    parser.add_argument(
+        "frames",
+        nargs="*",
+        type=frame_id,
+        metavar="FRAME",
+        help="the two frames whose chain to watch; none for all",
+    )
+    parser.add_argument(
+        "--period",
+        type=seconds,
+        default=10.0,
+        help="seconds between reports (default: %(default)s)",
+    )
     parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many reports")
-    parser.add_argument("--json", action="store_true", help="one JSON object in a line for each report")
+    parser.add_argument(
+        "--json", action="store_true", help="one JSON object in a line for each report"
+    )
     return parser
 
 
@@ -159,11 +189,16 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
     buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
     clock = node.get_clock()
-    statistics = Statistics(lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9)
+    statistics = Statistics(
+        lambda gid: _publisher_name(node, gid), lambda: clock.now().nanoseconds / 1e9
+    )
     net = Delays()
     _subscribe(node, buffer, statistics, lambda: _note_chain(options.frames, buffer, net, clock))
     if not options.json:
-        print(f"Gathering data on {'all frames' if not options.frames else 'the chain'} for {options.period:g} seconds...", flush=True)  # noqa: T201
+        print(  # noqa: T201
+            f"Gathering data on {'all frames' if not options.frames else 'the chain'} for {options.period:g} seconds...",
+            flush=True,
+        )
     reports = 0
     while not stopped.wait(options.period):
         print(_report(options, buffer, statistics, net), flush=True)  # noqa: T201 -- the report
@@ -172,7 +207,9 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
             return
 
 
-def _subscribe(node: Node, buffer: Buffer, statistics: Statistics, on_data: Callable[[], None]) -> None:
+def _subscribe(
+    node: Node, buffer: Buffer, statistics: Statistics, on_data: Callable[[], None]
+) -> None:
     message_class = msg.get_message(TYPE_NAME)
     type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
     for topic, qos in ((TOPIC, QOS), (STATIC_TOPIC, STATIC_QOS)):
@@ -222,7 +259,9 @@ def _to_root(frame: str, links: dict[str, Link]) -> list[str]:
     return found
 
 
-def _report(options: argparse.Namespace, buffer: Buffer, statistics: Statistics, net: Delays) -> str:
+def _report(
+    options: argparse.Namespace, buffer: Buffer, statistics: Statistics, net: Delays
+) -> str:
     data = statistics.as_dict()
     way: list[str] = []
     if options.frames:
@@ -240,8 +279,14 @@ def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
     lines = ["", ""]
     if frames:
         lines += [f"RESULTS: for {frames[0]} to {frames[1]}"]
-        lines += [*filter(None, (data["error"], data["hint"]))] if "error" in data else [f"Chain is: {' -> '.join(data['chain'])}"]
-        lines += [f"Net delay     avg = {data['net_delay']['average']:g}: max = {data['net_delay']['max']:g}"]
+        lines += (
+            [*filter(None, (data["error"], data["hint"]))]
+            if "error" in data
+            else [f"Chain is: {' -> '.join(data['chain'])}"]
+        )
+        lines += [
+            f"Net delay     avg = {data['net_delay']['average']:g}: max = {data['net_delay']['max']:g}"
+        ]
     else:
         lines += ["RESULTS: for all Frames"]
     lines += ["", "Frames:"]

@@ -59,8 +59,8 @@ class TransformFutures:
     def add(self, question: Question, timeout_ns: int | None = None) -> Future:
         """A future for the answer.
 
-        It ends with the exception of the lookup when the time is over, and at once when there can be no answer: a frame id is not valid, or
-        the time asked for has fallen out of the cache.
+        It ends with the exception of the lookup when the time is over, and at once when there can
+        be no answer: a frame id is not valid, or the time asked for has fallen out of the cache.
 
         Args:
             question: What is asked.
@@ -79,7 +79,9 @@ class TransformFutures:
         else:
             self._finish(waiting, result)
         if timeout_ns is not None and not waiting.future.done():
-            waiting.cancel_deadline = _deadlines.call_after(timeout_ns / 1e9, lambda: self._give_up(waiting))
+            waiting.cancel_deadline = _deadlines.call_after(
+                timeout_ns / 1e9, lambda: self._give_up(waiting)
+            )
         waiting.future.add_done_callback(lambda _future: self._claim(waiting))
         return waiting.future
 

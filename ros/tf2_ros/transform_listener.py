@@ -20,7 +20,12 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from tf2_msgs.msg import TFMessage
 
-__all__ = ["DEFAULT_STATIC_TF_TOPIC", "DEFAULT_TF_TOPIC", "StaticTransformListener", "TransformListener"]
+__all__ = [
+    "DEFAULT_STATIC_TF_TOPIC",
+    "DEFAULT_TF_TOPIC",
+    "StaticTransformListener",
+    "TransformListener",
+]
 
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
@@ -29,15 +34,18 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 class TransformListener:
     """Keeps a buffer filled, from a thread of the middleware: nothing has to spin for it.
 
-    So a lookup may wait for a transform wherever it is called, in a callback of a single-threaded executor too. It listens until it is
-    unregistered or its node is destroyed, also when nobody refers to it any more.
+    So a lookup may wait for a transform wherever it is called, in a callback of a single-threaded
+    executor too. It listens until it is unregistered or its node is destroyed, also when nobody
+    refers to it any more.
 
     Args:
         buffer: What to fill.
-        node: Whose subscriptions they are in the graph; None makes a node of its own in the default context.
+        node: Whose subscriptions they are in the graph; None makes a node of its own in the default
+            context.
         spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
         qos: Quality of service of the first subscription, or a depth; depth 100 unless given.
-        static_qos: Quality of service of the second one; depth 100 and transient local unless given.
+        static_qos: Quality of service of the second one; depth 100 and transient local unless
+            given.
         tf_topic: Where transforms that change come from.
         tf_static_topic: Where transforms that stay come from.
         static_only: Listen to the second topic only.
@@ -71,17 +79,26 @@ class TransformListener:
             static_topic=self.node.resolve_topic_name(tf_static_topic),
             qos=_profile(qos, QoSProfile(depth=100)).to_wire(),
             static_qos=_profile(
-                static_qos, QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
+                static_qos,
+                QoSProfile(
+                    depth=100,
+                    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                    history=HistoryPolicy.KEEP_LAST,
+                ),
             ).to_wire(),
         )
         self._follow_clock: JumpHandle | None = None
         if isinstance(buffer, Buffer) and buffer.node is None:
-            self._follow_clock = self.node.get_clock().create_jump_callback(JUMP_BACK, post_callback=buffer.time_jump_callback)
+            self._follow_clock = self.node.get_clock().create_jump_callback(
+                JUMP_BACK, post_callback=buffer.time_jump_callback
+            )
         self.node._rclpy_endpoints.keep(self)
         self.executor: SingleThreadedExecutor | None = None
         self.dedicated_listener_thread: Thread | None = None
         if spin_thread:
-            self.executor, self.dedicated_listener_thread = spin_in_thread(self.node, "transform-listener")
+            self.executor, self.dedicated_listener_thread = spin_in_thread(
+                self.node, "transform-listener"
+            )
 
     def unregister(self) -> None:
         """Stop listening; what is in the buffer stays. Idempotent."""
@@ -120,7 +137,8 @@ class StaticTransformListener(TransformListener):
 
     Args:
         buffer: What to fill.
-        node: Whose subscription it is in the graph; None makes a node of its own in the default context.
+        node: Whose subscription it is in the graph; None makes a node of its own in the default
+            context.
         spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
         static_qos: Quality of service, or a depth; depth 100 and transient local unless given.
         tf_static_topic: Where the transforms come from.
@@ -135,7 +153,14 @@ class StaticTransformListener(TransformListener):
         static_qos: QoSProfile | int | None = None,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
-        super().__init__(buffer, node, spin_thread=spin_thread, static_qos=static_qos, tf_static_topic=tf_static_topic, static_only=True)
+        super().__init__(
+            buffer,
+            node,
+            spin_thread=spin_thread,
+            static_qos=static_qos,
+            tf_static_topic=tf_static_topic,
+            static_only=True,
+        )
 
 
 def _make_node() -> Any:

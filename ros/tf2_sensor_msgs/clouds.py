@@ -28,11 +28,13 @@ _NORMAL = ("normal_x", "normal_y", "normal_z")
 _BLOCK = 8192
 
 
-def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped | Transform | Any) -> PointCloud2:
+def do_transform_cloud(
+    cloud: PointCloud2, transform: TransformStamped | Transform | Any
+) -> PointCloud2:
     """A cloud in the frame of a transform; nothing changes the arguments.
 
-    The fields x, y, z are transformed, normal_x, normal_y, normal_z are turned, all other bytes stay as they are. Everything is computed
-    in double precision.
+    The fields x, y, z are transformed, normal_x, normal_y, normal_z are turned, all other bytes
+    stay as they are. Everything is computed in double precision.
 
     Args:
         cloud: Its coordinates are float32 or float64 fields, at any offset of any ``point_step``.
@@ -60,7 +62,10 @@ def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped | Transfo
         header=copy_of(cloud.header.stamp, frame),
         height=cloud.height,
         width=cloud.width,
-        fields=[PointField(name=f.name, offset=f.offset, datatype=f.datatype, count=f.count) for f in cloud.fields],
+        fields=[
+            PointField(name=f.name, offset=f.offset, datatype=f.datatype, count=f.count)
+            for f in cloud.fields
+        ],
         is_bigendian=cloud.is_bigendian,
         point_step=cloud.point_step,
         row_step=cloud.row_step,
@@ -69,7 +74,9 @@ def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped | Transfo
     )
 
 
-def transform_points(point_cloud: ArrayLike, transform: TransformStamped | Transform | Any) -> NDArray[np.float64]:
+def transform_points(
+    point_cloud: ArrayLike, transform: TransformStamped | Transform | Any
+) -> NDArray[np.float64]:
     """Points in the frame of a transform.
 
     Args:
@@ -95,11 +102,15 @@ def _matrix(transform: Any) -> NDArray[np.float64]:
     return np.column_stack((np.reshape(motion.rows, (3, 3)), motion.translation))
 
 
-def _apply(matrix: NDArray[np.float64], source: Sequence[NDArray[Any]], target: Sequence[NDArray[Any]]) -> None:
+def _apply(
+    matrix: NDArray[np.float64], source: Sequence[NDArray[Any]], target: Sequence[NDArray[Any]]
+) -> None:
     """Multiply the three columns of points by a matrix of shape (3, 4), or of vectors by one of shape (3, 3)."""
     count = len(source[0])
     block = np.ones((matrix.shape[1], min(count, _BLOCK)))
-    with np.errstate(invalid="ignore", over="ignore"):  # sensors mark what they did not see by NaN and infinity
+    with np.errstate(
+        invalid="ignore", over="ignore"
+    ):  # sensors mark what they did not see by NaN and infinity
         for start in range(0, count, _BLOCK):
             part = slice(start, min(start + _BLOCK, count))
             values = block[:, : part.stop - start]
@@ -109,11 +120,17 @@ def _apply(matrix: NDArray[np.float64], source: Sequence[NDArray[Any]], target: 
                 column[part] = moved
 
 
-def _rows(cloud: PointCloud2, data: array[int], fields: Sequence[PointField]) -> Iterator[list[NDArray[Any]]]:
+def _rows(
+    cloud: PointCloud2, data: array[int], fields: Sequence[PointField]
+) -> Iterator[list[NDArray[Any]]]:
     """For each stretch of evenly spaced points: one view into the data for each field."""
     width = cloud.width * cloud.point_step
     row_step = cloud.row_step or width  # many writers leave it unset
-    rows, count = (1, cloud.width * cloud.height) if cloud.height <= 1 or row_step == width else (cloud.height, cloud.width)
+    rows, count = (
+        (1, cloud.width * cloud.height)
+        if cloud.height <= 1 or row_step == width
+        else (cloud.height, cloud.width)
+    )
     if count == 0:
         return
     needed = (rows - 1) * row_step + count * cloud.point_step
@@ -132,10 +149,14 @@ def _rows(cloud: PointCloud2, data: array[int], fields: Sequence[PointField]) ->
 
 def _dtype(cloud: PointCloud2, field: PointField) -> np.dtype[Any]:
     if field.datatype not in _FLOATS:
-        raise ValueError(f"field {field.name!r} has datatype {field.datatype}; only FLOAT32 (7) and FLOAT64 (8) can be transformed")
+        raise ValueError(
+            f"field {field.name!r} has datatype {field.datatype}; only FLOAT32 (7) and FLOAT64 (8) can be transformed"
+        )
     dtype = np.dtype((">" if cloud.is_bigendian else "<") + _FLOATS[field.datatype])
     if field.offset + dtype.itemsize > cloud.point_step:
-        raise ValueError(f"field {field.name!r} ends at byte {field.offset + dtype.itemsize} of a point of {cloud.point_step} bytes")
+        raise ValueError(
+            f"field {field.name!r} ends at byte {field.offset + dtype.itemsize} of a point of {cloud.point_step} bytes"
+        )
     return dtype
 
 

@@ -23,7 +23,12 @@ def pdf_from_drawing(drawing: Drawing) -> bytes:
     """
     scale = min(1.0, _LONGEST_SIDE / max(drawing.width, drawing.height))
     width, height = drawing.width * scale, drawing.height * scale
-    page = "\n".join([f"{scale:.6f} 0 0 {scale:.6f} 0 0 cm", *(_operators(shape, drawing.height) for shape in drawing.shapes)])
+    page = "\n".join(
+        [
+            f"{scale:.6f} 0 0 {scale:.6f} 0 0 cm",
+            *(_operators(shape, drawing.height) for shape in drawing.shapes),
+        ]
+    )
     content = zlib.compress(page.encode("ascii"))
     font = b"<< /Type /Font /Subtype /Type1 /BaseFont /%s /Encoding /WinAnsiEncoding >>"
     return _file(
@@ -32,7 +37,8 @@ def pdf_from_drawing(drawing: Drawing) -> bytes:
             b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
             b"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 %.2f %.2f] /Contents 4 0 R "
             b"/Resources << /Font << /F1 5 0 R /F2 6 0 R >> >> >>" % (width, height),
-            b"<< /Length %d /Filter /FlateDecode >>\nstream\n%s\nendstream" % (len(content), content),
+            b"<< /Length %d /Filter /FlateDecode >>\nstream\n%s\nendstream"
+            % (len(content), content),
             font % b"Helvetica",
             font % b"Helvetica-Bold",
         ]

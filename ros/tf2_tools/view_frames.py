@@ -40,10 +40,14 @@ class ViewFrames(Node):
         tf_static_topic: Where transforms that stay come from.
     """
 
-    def __init__(self, tf_topic: str = DEFAULT_TF_TOPIC, tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC) -> None:
+    def __init__(
+        self, tf_topic: str = DEFAULT_TF_TOPIC, tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC
+    ) -> None:
         super().__init__("view_frames")
         self._buffer = Buffer(node=self)
-        self._listener = TransformListener(self._buffer, self, tf_topic=tf_topic, tf_static_topic=tf_static_topic)
+        self._listener = TransformListener(
+            self._buffer, self, tf_topic=tf_topic, tf_static_topic=tf_static_topic
+        )
         self._topics = self.resolve_topic_name(tf_topic), self.resolve_topic_name(tf_static_topic)
 
     def listen(self, wait_time_s: float) -> FrameTree:
@@ -58,13 +62,17 @@ class ViewFrames(Node):
             raise ExternalShutdownException
         tree = read_frame_tree(self._buffer.engine)
         if tree.links:
-            self.get_logger().info(f"Received {len(tree.children)} frames, {len(tree.links)} of them with a parent")
+            self.get_logger().info(
+                f"Received {len(tree.children)} frames, {len(tree.links)} of them with a parent"
+            )
         else:
             self.get_logger().warning(
                 f"No tf data received on {self._topics[0]} and {self._topics[1]}. Is a broadcaster running, in this ROS_DOMAIN_ID?"
             )
         for loop in tree.loops:
-            self.get_logger().warning(f"These frames form a loop, no lookup across it works: {' -> '.join([*loop, loop[0]])}")
+            self.get_logger().warning(
+                f"These frames form a loop, no lookup across it works: {' -> '.join([*loop, loop[0]])}"
+            )
         return tree
 
     def write(self, tree: FrameTree, output: str) -> None:
@@ -93,12 +101,34 @@ def _seconds(text: str) -> float:
 
 
 def _parse(args: Sequence[str]) -> Any:
-    parser = argparse.ArgumentParser(prog="view_frames", description="Draw the tree of frames that is published on tf.")
-    parser.add_argument("-t", "--wait-time", type=_seconds, default=WAIT_TIME_S, help="seconds to listen (default: %(default)s)")
-    parser.add_argument("-o", "--output", help="name of the files, without an ending (default: frames_<date>_<time>)")
-    parser.add_argument("--tf_topic", default=DEFAULT_TF_TOPIC, help="topic of transforms that change (default: %(default)s)")
-    parser.add_argument("--tf_static_topic", default=DEFAULT_STATIC_TF_TOPIC, help="topic of static transforms (default: %(default)s)")
-    parser.add_argument("--json", action="store_true", help="print the links as JSON, and write no files")
+    parser = argparse.ArgumentParser(
+        prog="view_frames", description="Draw the tree of frames that is published on tf."
+    )
+    parser.add_argument(
+        "-t",
+        "--wait-time",
+        type=_seconds,
+        default=WAIT_TIME_S,
+        help="seconds to listen (default: %(default)s)",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        help="name of the files, without an ending (default: frames_<date>_<time>)",
+    )
+    parser.add_argument(
+        "--tf_topic",
+        default=DEFAULT_TF_TOPIC,
+        help="topic of transforms that change (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--tf_static_topic",
+        default=DEFAULT_STATIC_TF_TOPIC,
+        help="topic of static transforms (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print the links as JSON, and write no files"
+    )
     return parser.parse_args(args)
 
 
@@ -110,7 +140,11 @@ def main(args: list[str] | None = None) -> int:
         with ViewFrames(wanted.tf_topic, wanted.tf_static_topic) as node:
             tree = node.listen(wanted.wait_time)
             if wanted.json:
-                print(json.dumps([link._asdict() for link in tree.links.values()], indent=2), flush=True)  # noqa: T201 -- what was asked for
+                # What was asked for.
+                print(  # noqa: T201
+                    json.dumps([link._asdict() for link in tree.links.values()], indent=2),
+                    flush=True,
+                )
                 return 0
             try:
                 node.write(tree, wanted.output or time.strftime("frames_%Y-%m-%d_%H.%M.%S"))

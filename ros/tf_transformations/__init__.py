@@ -1,10 +1,11 @@
 """Quaternions, Euler angles and 4x4 matrices: the functions of ROS 2's ``tf_transformations`` 1.1.1.
 
-Quaternions are ``(x, y, z, w)``, angles radians, matrices ``(4, 4)`` arrays that act on column vectors from the left. Euler angles name
-their axes: ``"sxyz"`` is roll, pitch, yaw about the static x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
+Quaternions are ``(x, y, z, w)``, angles radians, matrices ``(4, 4)`` arrays that act on column
+vectors from the left. Euler angles name their axes: ``"sxyz"`` is roll, pitch, yaw about the static
+x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
 
-What deals with one quaternion works on plain floats, so that a node that only needs :func:`quaternion_from_euler` starts without NumPy;
-everything else loads it at its first use.
+What deals with one quaternion works on plain floats, so that a node that only needs
+:func:`quaternion_from_euler` starts without NumPy; everything else loads it at its first use.
 """
 
 from __future__ import annotations
@@ -21,7 +22,12 @@ from ._quaternions import (
 )
 
 if TYPE_CHECKING:
-    from ._arcball import Arcball, arcball_constrain_to_axis, arcball_map_to_sphere, arcball_nearest_axis
+    from ._arcball import (
+        Arcball,
+        arcball_constrain_to_axis,
+        arcball_map_to_sphere,
+        arcball_nearest_axis,
+    )
     from ._arrays import (
         quaternion_slerp,
         random_quaternion,

@@ -45,21 +45,26 @@ def arcball_constrain_to_axis(point: ArrayLike, axis: ArrayLike) -> Vector:
 def arcball_nearest_axis(point: ArrayLike, axes: Sequence[ArrayLike]) -> ArrayLike | None:
     """The one of ``axes`` whose plane is nearest to the point; None when there are none."""
     vector = np.asarray(point, dtype=np.float64)
-    return max(axes, key=lambda axis: float(arcball_constrain_to_axis(vector, axis) @ vector), default=None)
+    return max(
+        axes, key=lambda axis: float(arcball_constrain_to_axis(vector, axis) @ vector), default=None
+    )
 
 
 class Arcball:
     """Keeps the orientation of a thing that is turned with the mouse.
 
     Args:
-        initial: Orientation at the start: a quaternion ``(x, y, z, w)``, a 4x4 matrix, or None for no rotation.
+        initial: Orientation at the start: a quaternion ``(x, y, z, w)``, a 4x4 matrix, or None for
+            no rotation.
 
     Raises:
         ValueError: ``initial`` is neither.
     """
 
     def __init__(self, initial: ArrayLike | None = None) -> None:
-        orientation = np.array([0.0, 0.0, 0.0, 1.0] if initial is None else initial, dtype=np.float64)
+        orientation = np.array(
+            [0.0, 0.0, 0.0, 1.0] if initial is None else initial, dtype=np.float64
+        )
         if orientation.shape == (4, 4):
             orientation = np.array(quaternion_from_matrix(orientation))
         elif orientation.shape != (4,):

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
-def vector_norm(data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None) -> Any:
+def vector_norm(
+    data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
+) -> Any:
     """Euclidean length along ``axis``, of all numbers together when that is None; written into ``out`` (and None returned) if given."""
     squares = np.square(np.asarray(data, dtype=np.float64)).sum(axis=axis)
     if out is None:
@@ -25,7 +27,9 @@ def vector_norm(data: ArrayLike, axis: int | None = None, out: NDArray[np.float6
     return None
 
 
-def unit_vector(data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None) -> Any:
+def unit_vector(
+    data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
+) -> Any:
     """The array divided by its length along ``axis``; written into ``out`` (and None returned) if given."""
     array = np.asarray(data, dtype=np.float64)
     unit = array / np.sqrt(np.square(array).sum(axis=axis, keepdims=axis is not None))
@@ -45,7 +49,14 @@ def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64
     share, first, second = random_vector(3) if rand is None else rand
     inner, outer = math.sqrt(1.0 - share), math.sqrt(share)
     turn, twist = 2.0 * math.pi * first, 2.0 * math.pi * second
-    return np.array([math.sin(turn) * inner, math.cos(turn) * inner, math.sin(twist) * outer, math.cos(twist) * outer])
+    return np.array(
+        [
+            math.sin(turn) * inner,
+            math.cos(turn) * inner,
+            math.sin(twist) * outer,
+            math.cos(twist) * outer,
+        ]
+    )
 
 
 def random_rotation_matrix(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
@@ -54,7 +65,11 @@ def random_rotation_matrix(rand: Sequence[float] | None = None) -> NDArray[np.fl
 
 
 def quaternion_slerp(
-    quat0: Sequence[float], quat1: Sequence[float], fraction: float, spin: int = 0, shortestpath: bool = True
+    quat0: Sequence[float],
+    quat1: Sequence[float],
+    fraction: float,
+    spin: int = 0,
+    shortestpath: bool = True,
 ) -> NDArray[np.float64]:
     """Interpolate between two rotations at constant angular speed.
 
@@ -77,17 +92,22 @@ def quaternion_slerp(
     angle = math.acos(cosine) + spin * math.pi
     if abs(angle) < EPSILON:
         return start
-    return (start * math.sin((1.0 - fraction) * angle) + end * math.sin(fraction * angle)) / math.sin(angle)
+    return (
+        start * math.sin((1.0 - fraction) * angle) + end * math.sin(fraction * angle)
+    ) / math.sin(angle)
 
 
-def superimposition_matrix(v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True) -> NDArray[np.float64]:
+def superimposition_matrix(
+    v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True
+) -> NDArray[np.float64]:
     """The matrix that lays points over points with the least squared distance.
 
     Args:
         v0: Points as columns, shape (3, n) or (4, n).
         v1: The points to come to, same shape.
         scaling: Allow a change of size.
-        usesvd: Kabsch's way by singular values; else Horn's by the quaternion of the largest eigenvalue. Both find the same.
+        usesvd: Kabsch's way by singular values; else Horn's by the quaternion of the largest
+            eigenvalue. Both find the same.
     """
     points, goals = np.asarray(v0, dtype=np.float64)[:3], np.asarray(v1, dtype=np.float64)[:3]
     if points.shape != goals.shape or points.shape[1] < 3:
@@ -103,14 +123,18 @@ def superimposition_matrix(v0: ArrayLike, v1: ArrayLike, scaling: bool = False, 
     return matrix
 
 
-def _rotation_by_svd(points: NDArray[np.float64], goals: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rotation_by_svd(
+    points: NDArray[np.float64], goals: NDArray[np.float64]
+) -> NDArray[np.float64]:
     left, _, right = np.linalg.svd(goals @ points.T)
     handedness = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     rotation: NDArray[np.float64] = left @ handedness @ right
     return rotation
 
 
-def _rotation_by_quaternion(points: NDArray[np.float64], goals: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rotation_by_quaternion(
+    points: NDArray[np.float64], goals: NDArray[np.float64]
+) -> NDArray[np.float64]:
     s = points @ goals.T
     vector = np.array([s[1, 2] - s[2, 1], s[2, 0] - s[0, 2], s[0, 1] - s[1, 0]])
     quadratic = np.empty((4, 4))

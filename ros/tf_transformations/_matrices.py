@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._quaternions import EPSILON, euler_from_rotation, quaternion_from_euler, rotation_from_quaternion
+from ._quaternions import (
+    EPSILON,
+    euler_from_rotation,
+    quaternion_from_euler,
+    rotation_from_quaternion,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,7 +47,10 @@ def _affine(linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
 def _eigenvectors(matrix: ArrayLike, eigenvalue: float) -> list[Matrix]:
     """The real eigenvectors of one eigenvalue."""
     values, vectors = np.linalg.eig(np.asarray(matrix, dtype=np.float64))
-    return [np.real(vectors[:, i]) for i in np.nonzero(abs(np.real(values) - eigenvalue) < _TOLERANCE)[0]]
+    return [
+        np.real(vectors[:, i])
+        for i in np.nonzero(abs(np.real(values) - eigenvalue) < _TOLERANCE)[0]
+    ]
 
 
 def _fixed_point(matrix: ArrayLike) -> Matrix:
@@ -72,7 +80,10 @@ def translation_from_matrix(matrix: ArrayLike) -> Matrix:
 def reflection_matrix(point: Sequence[float], normal: Sequence[float]) -> Matrix:
     """Matrix that mirrors at the plane through ``point`` with ``normal``."""
     unit = _unit(normal)
-    return _affine(np.identity(3) - 2.0 * np.outer(unit, unit), 2.0 * (np.asarray(point, dtype=np.float64)[:3] @ unit) * unit)
+    return _affine(
+        np.identity(3) - 2.0 * np.outer(unit, unit),
+        2.0 * (np.asarray(point, dtype=np.float64)[:3] @ unit) * unit,
+    )
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
@@ -90,11 +101,17 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
     return _fixed_point(array)[:3], normals[0]
 
 
-def rotation_matrix(angle: float, direction: Sequence[float], point: Sequence[float] | None = None) -> Matrix:
+def rotation_matrix(
+    angle: float, direction: Sequence[float], point: Sequence[float] | None = None
+) -> Matrix:
     """Matrix that rotates by ``angle`` [rad] about the axis ``direction``, through ``point`` (the origin, by default)."""
     x, y, z = axis = _unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    rotation = math.cos(angle) * np.identity(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * np.outer(axis, axis)
+    rotation = (
+        math.cos(angle) * np.identity(3)
+        + math.sin(angle) * cross
+        + (1.0 - math.cos(angle)) * np.outer(axis, axis)
+    )
     if point is None:
         return _affine(rotation)
     centre = np.asarray(point, dtype=np.float64)[:3]
@@ -113,17 +130,32 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
     if not axes:
         raise ValueError("no unit eigenvector corresponding to eigenvalue 1")
     axis = axes[-1]
-    skew = np.array([rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]])
-    return math.atan2(skew @ axis / 2.0, (np.trace(rotation) - 1.0) / 2.0), axis, _fixed_point(array)
+    skew = np.array(
+        [
+            rotation[2, 1] - rotation[1, 2],
+            rotation[0, 2] - rotation[2, 0],
+            rotation[1, 0] - rotation[0, 1],
+        ]
+    )
+    return (
+        math.atan2(skew @ axis / 2.0, (np.trace(rotation) - 1.0) / 2.0),
+        axis,
+        _fixed_point(array),
+    )
 
 
-def scale_matrix(factor: float, origin: Sequence[float] | None = None, direction: Sequence[float] | None = None) -> Matrix:
+def scale_matrix(
+    factor: float, origin: Sequence[float] | None = None, direction: Sequence[float] | None = None
+) -> Matrix:
     """Matrix that scales by ``factor``, away from ``origin``, in all directions or in one; a factor of -1 is a point symmetry."""
     centre = np.zeros(3) if origin is None else np.asarray(origin, dtype=np.float64)[:3]
     if direction is None:
         return _affine(factor * np.identity(3), (1.0 - factor) * centre)
     unit = _unit(direction)
-    return _affine(np.identity(3) - (1.0 - factor) * np.outer(unit, unit), (1.0 - factor) * (centre @ unit) * unit)
+    return _affine(
+        np.identity(3) - (1.0 - factor) * np.outer(unit, unit),
+        (1.0 - factor) * (centre @ unit) * unit,
+    )
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
@@ -151,7 +183,8 @@ def projection_matrix(
     Args:
         point: A point of the plane.
         normal: Normal of the plane.
-        direction: Projects along this direction; along the normal when neither this nor ``perspective`` is given.
+        direction: Projects along this direction; along the normal when neither this nor
+            ``perspective`` is given.
         perspective: Projects towards this eye point.
         pseudo: Keep the order of depths in a perspective projection.
     """
@@ -159,7 +192,9 @@ def projection_matrix(
     origin, unit = np.asarray(point, dtype=np.float64)[:3], _unit(normal)
     if perspective is not None:
         eye = np.asarray(perspective, dtype=np.float64)[:3]
-        matrix[:3, :3] = ((eye - origin) @ unit) * np.identity(3) - np.outer(eye + unit if pseudo else eye, unit)
+        matrix[:3, :3] = ((eye - origin) @ unit) * np.identity(3) - np.outer(
+            eye + unit if pseudo else eye, unit
+        )
         matrix[:3, 3] = (origin @ unit) * (eye + unit if pseudo else eye)
         matrix[3, :3] = -unit
         matrix[3, 3] = eye @ unit
@@ -169,7 +204,9 @@ def projection_matrix(
     return _affine(np.identity(3) - np.outer(along, unit), (origin @ unit) * along)
 
 
-def projection_from_matrix(matrix: ArrayLike, pseudo: bool = False) -> tuple[Matrix, Matrix, Matrix | None, Matrix | None, bool]:
+def projection_from_matrix(
+    matrix: ArrayLike, pseudo: bool = False
+) -> tuple[Matrix, Matrix, Matrix | None, Matrix | None, bool]:
     """Point, normal, direction, perspective and ``pseudo``, as :func:`projection_matrix` takes them.
 
     Raises:
@@ -182,7 +219,13 @@ def projection_from_matrix(matrix: ArrayLike, pseudo: bool = False) -> tuple[Mat
         directions, normals = _eigenvectors(array[:3, :3], 0.0), _eigenvectors(array[:3, :3].T, 0.0)
         if not directions:
             raise ValueError("no eigenvector corresponding to eigenvalue 0")
-        return point, _unit(normals[0]) if normals else _unit(directions[0]), _unit(directions[0]), None, False
+        return (
+            point,
+            _unit(normals[0]) if normals else _unit(directions[0]),
+            _unit(directions[0]),
+            None,
+            False,
+        )
     values, vectors = np.linalg.eig(array)
     moved = np.nonzero(abs(np.real(values)) > _TOLERANCE)[0]
     if not len(moved):
@@ -194,7 +237,15 @@ def projection_from_matrix(matrix: ArrayLike, pseudo: bool = False) -> tuple[Mat
     return point, normal, None, perspective - normal if pseudo else perspective, pseudo
 
 
-def clip_matrix(left: float, right: float, bottom: float, top: float, near: float, far: float, perspective: bool = False) -> Matrix:
+def clip_matrix(
+    left: float,
+    right: float,
+    bottom: float,
+    top: float,
+    near: float,
+    far: float,
+    perspective: bool = False,
+) -> Matrix:
     """Matrix that takes a viewing volume to the cube from -1 to 1: a box, or with ``perspective`` a frustum.
 
     Raises:
@@ -216,7 +267,9 @@ def clip_matrix(left: float, right: float, bottom: float, top: float, near: floa
     return matrix
 
 
-def shear_matrix(angle: float, direction: Sequence[float], point: Sequence[float], normal: Sequence[float]) -> Matrix:
+def shear_matrix(
+    angle: float, direction: Sequence[float], point: Sequence[float], normal: Sequence[float]
+) -> Matrix:
     """Matrix that shears by ``angle`` [rad] along ``direction``; the plane through ``point`` with ``normal`` stays where it is.
 
     Raises:
@@ -251,7 +304,9 @@ def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
     return rotation * signs, triangle * signs[:, np.newaxis]
 
 
-def decompose_matrix(matrix: ArrayLike) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
+def decompose_matrix(
+    matrix: ArrayLike,
+) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
     """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective, as :func:`compose_matrix` takes them.
 
     Raises:
@@ -302,7 +357,9 @@ def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) 
     """Matrix from crystallographic to Cartesian coordinates, of a cell with three ``lengths`` and three ``angles`` in degrees."""
     a, b, c = lengths
     alpha, beta, gamma = (math.radians(angle) for angle in angles)
-    along = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (math.sin(alpha) * math.sin(beta))
+    along = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (
+        math.sin(alpha) * math.sin(beta)
+    )
     return _affine(
         [
             [a * math.sin(beta) * math.sqrt(1.0 - along * along), 0.0, 0.0],
@@ -346,7 +403,11 @@ def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion
     trace = rotation[0][0] + rotation[1][1] + rotation[2][2]
     if trace > 0.0:
         s = 2.0 * math.sqrt(1.0 + trace)
-        x, y, z = (rotation[2][1] - rotation[1][2]) / s, (rotation[0][2] - rotation[2][0]) / s, (rotation[1][0] - rotation[0][1]) / s
+        x, y, z = (
+            (rotation[2][1] - rotation[1][2]) / s,
+            (rotation[0][2] - rotation[2][0]) / s,
+            (rotation[1][0] - rotation[0][1]) / s,
+        )
         return x + 0.0, y + 0.0, z + 0.0, s / 4.0  # no negative zeros
     i = max(range(3), key=lambda axis: rotation[axis][axis])
     j, k = (i + 1) % 3, (i + 2) % 3

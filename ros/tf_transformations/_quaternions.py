@@ -20,8 +20,9 @@ def axis_order(axes: Axes) -> tuple[int, int, int, bool]:
     """Read the name of an Euler convention.
 
     Args:
-        axes: ``s`` (static axes) or ``r`` (rotating axes) and three letters of which no two neighbours are equal; or the same as
-            numbers ``(first axis, parity, repetition, frame)``.
+        axes: ``s`` (static axes) or ``r`` (rotating axes) and three letters of which no two
+            neighbours are equal; or the same as numbers ``(first axis, parity, repetition,
+            frame)``.
 
     Returns:
         The three axes as 0, 1, 2 in the order of the angles, and whether they turn along.
@@ -33,16 +34,25 @@ def axis_order(axes: Axes) -> tuple[int, int, int, bool]:
         frame, letters = axes[:1].lower(), axes[1:].lower()
         known = frame in {"s", "r"} and len(letters) == 3 and set(letters) <= set("xyz")
         if known and letters[0] != letters[1] != letters[2]:
-            return "xyz".index(letters[0]), "xyz".index(letters[1]), "xyz".index(letters[2]), frame == "r"
+            return (
+                "xyz".index(letters[0]),
+                "xyz".index(letters[1]),
+                "xyz".index(letters[2]),
+                frame == "r",
+            )
     elif len(axes) == 4 and axes[0] in {0, 1, 2} and set(axes[1:]) <= {0, 1}:
         first, parity, repetition, rotating = axes
         second = (first + 1 + parity) % 3
         third = first if repetition else 3 - first - second
         return (third, second, first, True) if rotating else (first, second, third, False)
-    raise KeyError(f"unknown axes {axes!r}: expected 's' or 'r' and three of x, y, z without equal neighbours, as in 'sxyz'")
+    raise KeyError(
+        f"unknown axes {axes!r}: expected 's' or 'r' and three of x, y, z without equal neighbours, as in 'sxyz'"
+    )
 
 
-def euler_from_rotation(rotation: Sequence[Sequence[float]], axes: Axes = "sxyz") -> tuple[float, float, float]:
+def euler_from_rotation(
+    rotation: Sequence[Sequence[float]], axes: Axes = "sxyz"
+) -> tuple[float, float, float]:
     """Angles of a 3x3 rotation given as three rows; the last angle is 0 where only the sum of two is determined."""
     i, j, k, rotating = axis_order(axes)
     if rotating:
@@ -139,11 +149,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
         if product is None:
             product = (turn[0], turn[1], turn[2], turn[3])
         else:
-            product = quaternion_multiply(product, turn) if rotating else quaternion_multiply(turn, product)
+            product = (
+                quaternion_multiply(product, turn)
+                if rotating
+                else quaternion_multiply(turn, product)
+            )
     assert product is not None
     return product
 
 
-def euler_from_quaternion(quaternion: Sequence[float], axes: Axes = "sxyz") -> tuple[float, float, float]:
+def euler_from_quaternion(
+    quaternion: Sequence[float], axes: Axes = "sxyz"
+) -> tuple[float, float, float]:
     """Angles [rad] about the three axes of ``axes``; roll, pitch and yaw by default. The quaternion need not be normalised."""
     return euler_from_rotation(rotation_from_quaternion(quaternion), axes)

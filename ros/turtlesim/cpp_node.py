@@ -14,7 +14,12 @@ if TYPE_CHECKING:
 
 __all__ = ["CppNode"]
 
-_QOS_OVERRIDES = {"depth": 1000, "durability": "volatile", "history": "keep_last", "reliability": "reliable"}
+_QOS_OVERRIDES = {
+    "depth": 1000,
+    "durability": "volatile",
+    "history": "keep_last",
+    "reliability": "reliable",
+}
 _TYPE_NAMES = {
     Parameter.Type.BOOL: "boolean",
     Parameter.Type.INTEGER: "integer",
@@ -33,9 +38,15 @@ class CppNode(Node):
 
     def __init__(self, node_name: str, **options: Any) -> None:
         super().__init__(node_name, **options)
-        self.create_subscription(ParameterEvent, "/parameter_events", lambda _: None, qos_profile_parameter_events)
+        self.create_subscription(
+            ParameterEvent, "/parameter_events", lambda _: None, qos_profile_parameter_events
+        )
         for name, value in _QOS_OVERRIDES.items():
-            self.declare_parameter(f"qos_overrides./parameter_events.publisher.{name}", value, ParameterDescriptor(read_only=True))
+            self.declare_parameter(
+                f"qos_overrides./parameter_events.publisher.{name}",
+                value,
+                ParameterDescriptor(read_only=True),
+            )
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> SetParametersResult:
         """Set all, or none when one of them is refused."""
@@ -57,8 +68,13 @@ class CppNode(Node):
             return "cannot undeclare a statically typed parameter"
         declared = self.get_parameter(name).type_
         if parameter.type_ is not declared and not descriptor.dynamic_typing:
-            kinds = [_TYPE_NAMES.get(kind, kind.name.lower()) for kind in (declared, parameter.type_)]
+            kinds = [
+                _TYPE_NAMES.get(kind, kind.name.lower()) for kind in (declared, parameter.type_)
+            ]
             return f"Wrong parameter type, parameter {{{name}}} is of type {{{kinds[0]}}}, setting it to {{{kinds[1]}}} is not allowed."
-        if any(not limits.from_value <= parameter.value <= limits.to_value for limits in descriptor.integer_range):
+        if any(
+            not limits.from_value <= parameter.value <= limits.to_value
+            for limits in descriptor.integer_range
+        ):
             return f"Parameter {{{name}}} doesn't comply with integer range."
         return ""

@@ -24,7 +24,8 @@ class CrowdTick(NamedTuple):
 
     Attributes:
         turtles: Who, in the order of their names.
-        poses: Shape (n, 5): x, y [m, y up], heading [rad], speed [m/s], turning rate [rad/s], as they are published.
+        poses: Shape (n, 5): x, y [m, y up], heading [rad], speed [m/s], turning rate [rad/s], as
+            they are published.
         places: Shape (n, 2): x and y_down [m], not rounded.
         movers: Indices of those that drew a line, ascending, shape (m,).
         lines: Shape (m, 4): x0, y0, x1, y1 in pixels of the 500 x 500 image.
@@ -67,18 +68,33 @@ class Crowd:
         theta = theta + turning * TICK_S
         theta = theta - _TWO_PI * np.floor((theta + _PI) / _TWO_PI)
         headings = theta.tolist()
-        cos = np.array([*map(math.cos, headings)])  # not NumPy's: its last bits differ from those of the C library
+        cos = np.array(
+            [*map(math.cos, headings)]
+        )  # not NumPy's: its last bits differ from those of the C library
         sin = np.array([*map(math.sin, headings)])
         x = old_x + (cos * forward * TICK_S - sin * lateral * TICK_S)
         y = old_y - (cos * lateral * TICK_S + sin * forward * TICK_S)
         clamped_from = _clamp(x, y)
         for turtle, *turtle_state in zip(turtles, x.tolist(), y.tolist(), headings, strict=True):
             turtle.x, turtle.y_down, turtle.theta = turtle_state
-        poses = np.stack((x, FIELD_SIZE - y, theta, np.sqrt(forward * forward + lateral * lateral), turning), axis=1).astype(np.float32)
-        drew = ((x != old_x) | (y != old_y)) & np.fromiter((turtle.pen_on for turtle in turtles), bool, len(turtles))
+        poses = np.stack(
+            (x, FIELD_SIZE - y, theta, np.sqrt(forward * forward + lateral * lateral), turning),
+            axis=1,
+        ).astype(np.float32)
+        drew = ((x != old_x) | (y != old_y)) & np.fromiter(
+            (turtle.pen_on for turtle in turtles), bool, len(turtles)
+        )
         lines = np.stack((old_x, old_y, x, y), axis=1)[drew] * PIXELS_PER_METRE
         pens = self._rows_of([turtle.pen for turtle in turtles])[drew]
-        return CrowdTick(turtles, poses, np.stack((x, y), axis=1), np.flatnonzero(drew), lines, pens, clamped_from)
+        return CrowdTick(
+            turtles,
+            poses,
+            np.stack((x, y), axis=1),
+            np.flatnonzero(drew),
+            lines,
+            pens,
+            clamped_from,
+        )
 
     def _rows_of(self, pens: list[Pen]) -> NDArray[np.uint8]:
         if pens != self._pens:
@@ -99,7 +115,10 @@ def _take_commands(turtles: Sequence[Turtle], now_ns: int) -> None:
 def _state(turtles: Sequence[Turtle]) -> Sequence[NDArray[np.float64]]:
     """Heading, three commanded velocities and place, an array each."""
     rows: Sequence[NDArray[np.float64]]
-    rows = np.array([(t.theta, t.forward, t.lateral, t.turning, t.x, t.y_down) for t in turtles], dtype=np.float64).T.copy()
+    rows = np.array(
+        [(t.theta, t.forward, t.lateral, t.turning, t.x, t.y_down) for t in turtles],
+        dtype=np.float64,
+    ).T.copy()
     return rows
 
 

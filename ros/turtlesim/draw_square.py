@@ -72,9 +72,15 @@ class SquarePlan:
                 self._set_goal(_Phase.FORWARD, _ahead_of(pose))
         return 0.0, 0.0
 
-    def _move(self, pose: Any, forward: float, turning: float, afterwards: _Phase) -> tuple[float, float]:
+    def _move(
+        self, pose: Any, forward: float, turning: float, afterwards: _Phase
+    ) -> tuple[float, float]:
         x, y, theta = self._goal
-        if abs(pose.x - x) < POSITION_TOLERANCE and abs(pose.y - y) < POSITION_TOLERANCE and abs(pose.theta - theta) < HEADING_TOLERANCE:
+        if (
+            abs(pose.x - x) < POSITION_TOLERANCE
+            and abs(pose.y - y) < POSITION_TOLERANCE
+            and abs(pose.theta - theta) < HEADING_TOLERANCE
+        ):
             self._phase = afterwards
             return 0.0, 0.0
         return forward, turning
@@ -85,7 +91,9 @@ class SquarePlan:
 
 
 def _ahead_of(pose: Any) -> Goal:
-    return Goal(math.cos(pose.theta) * SIDE + pose.x, math.sin(pose.theta) * SIDE + pose.y, pose.theta)
+    return Goal(
+        math.cos(pose.theta) * SIDE + pose.x, math.sin(pose.theta) * SIDE + pose.y, pose.theta
+    )
 
 
 def _left_of(pose: Any) -> Goal:

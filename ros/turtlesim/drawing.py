@@ -12,12 +12,14 @@ if TYPE_CHECKING:
 
 __all__ = ["RECORD_SIZE", "Drawing"]
 
-#: One line on its way to the browser: colour and width as 0xRRGGBBWW, then x0, y0, x1, y1 in pixels of the 500 x 500 image.
+#: One line on its way to the browser: colour and width as 0xRRGGBBWW, then x0, y0, x1, y1 in pixels
+#: of the 500 x 500 image.
 _RECORD = struct.Struct("<I4f")
 RECORD_SIZE = _RECORD.size
 #: Strokes kept one by one, for browsers that watch; one that falls back further starts again.
 _RECENT = 20_000
-#: Lines kept of what is older, and strokes of a crowd. Beyond them the oldest are forgotten: a browser that opens then does not see them.
+#: Lines kept of what is older, and strokes of a crowd. Beyond them the oldest are forgotten: a
+#: browser that opens then does not see them.
 _OLDER = 200_000
 #: How far a joined line may pass beside a point that the turtle visited [pixels].
 _TOLERANCE = 0.05
@@ -30,7 +32,8 @@ class _Entry(NamedTuple):
         end: How many strokes there have been up to the last of these.
         size: How many these are.
         records: Their records.
-        origin: The one stroke and its turtle's name; None for those of a crowd, which are never joined.
+        origin: The one stroke and its turtle's name; None for those of a crowd, which are never
+            joined.
     """
 
     end: int
@@ -78,7 +81,8 @@ class Drawing:
             position: From the reader's last call, -1 for a new reader.
 
         Returns:
-            Whether the reader must begin with an empty picture, the records (each of :data:`RECORD_SIZE` bytes), and the new position.
+            Whether the reader must begin with an empty picture, the records (each of
+            :data:`RECORD_SIZE` bytes), and the new position.
         """
         restart = position < max(self._next - self._held, self._cleared_at)
         records = []
@@ -121,7 +125,8 @@ class _Line:
     def extend(self, stroke: Stroke) -> bool:
         """Lead on to the end of ``stroke``, if no point visited so far is then further away than the tolerance.
 
-        Each point, seen from the beginning, leaves a wedge of directions that pass it closely enough; the end must be in all of them.
+        Each point, seen from the beginning, leaves a wedge of directions that pass it closely
+        enough; the end must be in all of them.
         """
         line = self._stroke
         if (stroke.x0, stroke.y0, stroke.pen) != (line.x1, line.y1, line.pen):
@@ -148,4 +153,10 @@ def _half_angle(distance: float) -> float:
 
 def _record(stroke: Stroke) -> bytes:
     pen = stroke.pen
-    return _RECORD.pack(pen.r << 24 | pen.g << 16 | pen.b << 8 | pen.width, stroke.x0, stroke.y0, stroke.x1, stroke.y1)
+    return _RECORD.pack(
+        pen.r << 24 | pen.g << 16 | pen.b << 8 | pen.width,
+        stroke.x0,
+        stroke.y0,
+        stroke.x1,
+        stroke.y1,
+    )

@@ -16,9 +16,11 @@ if TYPE_CHECKING:
 
 __all__ = ["MissingTurtles", "find_missing"]
 
-#: How long a turtle must be missing before anybody is told: most programs spawn theirs right after they start [s].
+#: How long a turtle must be missing before anybody is told: most programs spawn theirs right after
+#: they start [s].
 _PATIENCE_S = 2.0
-#: Among more turtles than this nobody misses one; and to look at the endpoints of so many would hold the simulator up.
+#: Among more turtles than this nobody misses one; and to look at the endpoints of so many would
+#: hold the simulator up.
 _MOST_TURTLES = 200
 #: Only the simulator serves these, so that who subscribes to one waits for a turtle.
 _TURTLE_TOPICS = {"pose": type_name(Pose), "color_sensor": type_name(Color)}
@@ -31,7 +33,9 @@ class MissingTurtles:
         names: The turtles that are missing at the moment, as far as is known.
     """
 
-    def __init__(self, node: Node, turtles: Callable[[], Collection[str]], on_change: Callable[[], None]) -> None:
+    def __init__(
+        self, node: Node, turtles: Callable[[], Collection[str]], on_change: Callable[[], None]
+    ) -> None:
         """Start watching.
 
         Args:
@@ -64,13 +68,19 @@ class MissingTurtles:
         self._patience.cancel()
         turtles = self._turtles()
         is_crowd = len(turtles) > _MOST_TURTLES
-        names = () if is_crowd else find_missing(self._graph.endpoints(), self._node.get_namespace(), turtles)
+        names = (
+            ()
+            if is_crowd
+            else find_missing(self._graph.endpoints(), self._node.get_namespace(), turtles)
+        )
         if names != self.names:
             self.names = names
             self._on_change()
 
 
-def find_missing(endpoints: Iterable[EndpointInfo], namespace: str, turtles: Iterable[str]) -> tuple[str, ...]:
+def find_missing(
+    endpoints: Iterable[EndpointInfo], namespace: str, turtles: Iterable[str]
+) -> tuple[str, ...]:
     """Names of turtles in ``namespace`` that an endpoint reckons with, that no simulator serves, and that are not in ``turtles``."""
     pattern = re.compile(re.escape(namespace.rstrip("/")) + r"/([^/]+)/(pose|color_sensor|cmd_vel)")
     wanted: set[str] = set()
@@ -83,6 +93,8 @@ def find_missing(endpoints: Iterable[EndpointInfo], namespace: str, turtles: Ite
         is_turtle_topic = endpoint.type_name == _TURTLE_TOPICS.get(topic)
         if is_turtle_topic:
             (served if endpoint.kind == "publisher" else wanted).add(name)
-        elif topic == "cmd_vel" and re.fullmatch(r"turtle\d+", name):  # cmd_vel alone may be any robot's
+        elif topic == "cmd_vel" and re.fullmatch(
+            r"turtle\d+", name
+        ):  # cmd_vel alone may be any robot's
             (wanted if endpoint.kind == "publisher" else served).add(name)
     return tuple(sorted(wanted - served))

@@ -1,11 +1,14 @@
 """The turtles and their world: pure arithmetic, stepped from outside, bit for bit the turtlesim of ROS 2 Jazzy.
 
-The model draws nothing, speaks to nobody and owns no clock. :meth:`World.step` moves every turtle by one tick and returns what happened:
-a pose, the pixel under the colour sensor, pen strokes. Who calls it decides how fast time passes.
+The model draws nothing, speaks to nobody and owns no clock. :meth:`World.step` moves every turtle
+by one tick and returns what happened: a pose, the pixel under the colour sensor, pen strokes. Who
+calls it decides how fast time passes.
 
-Positions are metres in a field of 11.088889 m by 11.088889 m, origin in the lower left corner, headings radians counter-clockwise from the
-x axis. As in the original the vertical axis points *down* inside (``Turtle.y_down``) and the integration runs in double precision on it;
-both are needed for equal bits. Strokes are in pixels of the original 500 x 500 image (45 pixels to the metre, rows counted from the top).
+Positions are metres in a field of 11.088889 m by 11.088889 m, origin in the lower left corner,
+headings radians counter-clockwise from the x axis. As in the original the vertical axis points
+*down* inside (``Turtle.y_down``) and the integration runs in double precision on it; both are
+needed for equal bits. Strokes are in pixels of the original 500 x 500 image (45 pixels to the
+metre, rows counted from the top).
 """
 
 from __future__ import annotations
@@ -31,7 +34,8 @@ __all__ = [
     "World",
 ]
 
-#: One tick, in nanoseconds and in seconds. Every tick integrates exactly this time, however long it really took.
+#: One tick, in nanoseconds and in seconds. Every tick integrates exactly this time, however long it
+#: really took.
 TICK_NS = 16_000_000
 TICK_S = 0.001 * 16
 #: A velocity command is forgotten after this time.
@@ -39,7 +43,8 @@ COMMAND_LIFETIME_NS = 1_000_000_000
 #: Width and height of the picture, in pixels, and its scale.
 IMAGE_SIZE = 500
 PIXELS_PER_METRE = 45.0
-#: A rotation has arrived when the heading is this close to its goal [rad]; it turns at this speed [rad/s].
+#: A rotation has arrived when the heading is this close to its goal [rad]; it turns at this speed
+#: [rad/s].
 ROTATION_TOLERANCE = 0.02
 ROTATION_SPEED = 1.0
 #: The constant of the original, not math.pi: headings depend on it in their last bits.
@@ -103,7 +108,8 @@ class TurtleTick(NamedTuple):
         pose: The new pose.
         teleport_strokes: Drawn before the colour sensor looked.
         sensor_pixel: Column and row that the colour sensor looks at.
-        move_stroke: Drawn after the colour sensor looked; None when the pen is up or the turtle stands still.
+        move_stroke: Drawn after the colour sensor looked; None when the pen is up or the turtle
+            stands still.
         clamped_from: Where a wall stopped it, as ``(x, y_down)`` [m]; None when no wall did.
         rotation: The rotation that was worked on, finished or not; None when there is none.
     """
@@ -243,7 +249,11 @@ class Turtle:
         if self._command_is_fresh:
             self._command_ns = now_ns
             self._command_is_fresh = False
-        teleport_strokes = [stroke for teleport in self._teleports if (stroke := self._teleport(*teleport))] if self._teleports else []
+        teleport_strokes = (
+            [stroke for teleport in self._teleports if (stroke := self._teleport(*teleport))]
+            if self._teleports
+            else []
+        )
         self._teleports.clear()
         rotation = self.rotation
         if rotation is not None:
@@ -254,7 +264,9 @@ class Turtle:
         self._integrate()
         clamped_from = self._clamp()
         x, y = self.x, self.y_down
-        stroke = self._stroke_from(old_x, old_y) if self.pen_on and (x != old_x or y != old_y) else None
+        stroke = (
+            self._stroke_from(old_x, old_y) if self.pen_on and (x != old_x or y != old_y) else None
+        )
         pixel = (math.floor(x * PIXELS_PER_METRE + 0.5), math.floor(y * PIXELS_PER_METRE + 0.5))
         return TurtleTick(self, self.pose, teleport_strokes, pixel, stroke, clamped_from, rotation)
 
@@ -379,7 +391,8 @@ class World:
         """Move every turtle by one tick, in the order of their names.
 
         Args:
-            now_ns: The time of this tick, on any clock that only moves forward; commands grow old by it.
+            now_ns: The time of this tick, on any clock that only moves forward; commands grow old
+                by it.
         """
         return [turtle.step(now_ns) for turtle in self.in_order()]
 

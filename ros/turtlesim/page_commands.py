@@ -98,7 +98,18 @@ class Unwatch(NamedTuple):
 
 Command = Drive | Rotate | Cancel | Spawn | Teleport | Kill | Clear | Reset | Watch | Unwatch
 
-_KINDS: tuple[type[Any], ...] = (Drive, Rotate, Cancel, Spawn, Teleport, Kill, Clear, Reset, Watch, Unwatch)
+_KINDS: tuple[type[Any], ...] = (
+    Drive,
+    Rotate,
+    Cancel,
+    Spawn,
+    Teleport,
+    Kill,
+    Clear,
+    Reset,
+    Watch,
+    Unwatch,
+)
 _COMMANDS = {kind.__name__.lower(): kind for kind in _KINDS}
 
 
@@ -106,13 +117,18 @@ def parse_command(text: str | bytes) -> Command:
     """The command in a message such as ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
 
     Raises:
-        CommandError: No JSON, an unknown type, or a field that is missing, unknown or of the wrong kind.
+        CommandError: No JSON, an unknown type, or a field that is missing, unknown or of the wrong
+            kind.
     """
     try:
         message = json.loads(text)
     except ValueError as error:
         raise CommandError(f"not JSON: {error}") from error
-    if not isinstance(message, dict) or not isinstance(message.get("type"), str) or message["type"] not in _COMMANDS:
+    if (
+        not isinstance(message, dict)
+        or not isinstance(message.get("type"), str)
+        or message["type"] not in _COMMANDS
+    ):
         raise CommandError(f"expected an object whose type is one of {', '.join(_COMMANDS)}")
     kind = _COMMANDS[message.pop("type")]
     if message.keys() != set(kind._fields):
@@ -127,6 +143,11 @@ def _checked(name: str, value: object) -> str | float:
         if not isinstance(value, str) or len(value) > _MAX_NAME:
             raise CommandError(f"{name} is a text of at most {_MAX_NAME} characters")
         return value
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or abs(value) > 1e6:
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, (int, float))
+        or not math.isfinite(value)
+        or abs(value) > 1e6
+    ):
         raise CommandError(f"{name} is a number between -1000000 and 1000000")
     return float(value)

@@ -30,7 +30,9 @@ class PageRotations:
         """Send a goal; False when the client has not found the turtle's action yet, and it must be tried again."""
         client = self._clients.get(turtle)
         if client is None:
-            client = self._clients[turtle] = ActionClient(self._node, RotateAbsolute, f"{turtle}/rotate_absolute")
+            client = self._clients[turtle] = ActionClient(
+                self._node, RotateAbsolute, f"{turtle}/rotate_absolute"
+            )
         if not client.server_is_ready():
             return False
         self._goals[turtle] = client.send_goal_async(RotateAbsolute.Goal(theta=theta))

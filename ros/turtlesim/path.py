@@ -1,7 +1,8 @@
 """The picture that the pens draw, pixel for pixel that of the original: what the colour sensor sees.
 
-A pen line is the rectangle around it, half the pen's width longer at both ends (Qt's square cap), its corners rounded down to 1/64 pixel; a
-pixel is painted when its centre is inside or on the edge. Compared with pictures of the real turtlesim this differs in 3 of 5,579 pixels.
+A pen line is the rectangle around it, half the pen's width longer at both ends (Qt's square cap),
+its corners rounded down to 1/64 pixel; a pixel is painted when its centre is inside or on the edge.
+Compared with pictures of the real turtlesim this differs in 3 of 5,579 pixels.
 """
 
 from __future__ import annotations
@@ -97,9 +98,13 @@ class PathImage:
 def _corners(stroke: Stroke) -> list[tuple[float, float]]:
     """The four corners of a pen line, in order around it. A line of no length gives the square dot of its pen."""
     x0, y0, x1, y1, pen = stroke
-    length = math.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))  # not hypot, whose last bits differ from NumPy's
+    length = math.sqrt(
+        (x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)
+    )  # not hypot, whose last bits differ from NumPy's
     half = pen.width / 2
-    along_x, along_y = ((x1 - x0) / length * half, (y1 - y0) / length * half) if length else (half, 0.0)
+    along_x, along_y = (
+        ((x1 - x0) / length * half, (y1 - y0) / length * half) if length else (half, 0.0)
+    )
     exact = (
         (x0 - along_x - along_y, y0 - along_y + along_x),
         (x0 - along_x + along_y, y0 - along_y - along_x),
@@ -111,14 +116,20 @@ def _corners(stroke: Stroke) -> list[tuple[float, float]]:
 
 def _spans(corners: list[tuple[float, float]]) -> list[tuple[int, int, int]]:
     """The pixels of a convex shape as ``(row, first column, last column)``, clipped to the picture."""
-    edges = [(*a, *b) if a[1] < b[1] else (*b, *a) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True) if a[1] != b[1]]
+    edges = [
+        (*a, *b) if a[1] < b[1] else (*b, *a)
+        for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
+        if a[1] != b[1]
+    ]
     ys = [y for _, y in corners]
     top = max(0, math.ceil(min(ys) - 0.5))
     bottom = min(IMAGE_SIZE - 1, math.floor(max(ys) - 0.5))
     spans = []
     for row in range(top, bottom + 1):
         y = row + 0.5
-        crossings = [x0 + (y - y0) * (x1 - x0) / (y1 - y0) for x0, y0, x1, y1 in edges if y0 <= y <= y1]
+        crossings = [
+            x0 + (y - y0) * (x1 - x0) / (y1 - y0) for x0, y0, x1, y1 in edges if y0 <= y <= y1
+        ]
         if not crossings:
             continue
         first = max(0, math.ceil(min(crossings) - 0.5))

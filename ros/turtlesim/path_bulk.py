@@ -22,7 +22,9 @@ MAX_EXTENT = 10
 
 def as_arrays(strokes: list[Stroke]) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
     """Places and pens of strokes, shape (n, 4) each, as :func:`draw_short_lines` takes them."""
-    return np.array([stroke[:4] for stroke in strokes], dtype=np.float64), np.array([stroke.pen for stroke in strokes], dtype=np.uint8)
+    return np.array([stroke[:4] for stroke in strokes], dtype=np.float64), np.array(
+        [stroke.pen for stroke in strokes], dtype=np.uint8
+    )
 
 
 def draw_short_lines(rgba: bytearray, lines: NDArray[np.float64], pens: NDArray[np.uint8]) -> bool:
@@ -46,16 +48,25 @@ def draw_short_lines(rgba: bytearray, lines: NDArray[np.float64], pens: NDArray[
     rows = top[:, None] + np.arange(extent)
     first, last = _spans(corners_x, corners_y, rows + 0.5)
     columns = first[:, :, None] + np.arange(extent)
-    inside = (columns <= last[:, :, None]) & (columns >= 0) & (columns < IMAGE_SIZE) & ((rows >= 0) & (rows < IMAGE_SIZE))[:, :, None]
+    inside = (
+        (columns <= last[:, :, None])
+        & (columns >= 0)
+        & (columns < IMAGE_SIZE)
+        & ((rows >= 0) & (rows < IMAGE_SIZE))[:, :, None]
+    )
     pixels = (rows[:, :, None] * IMAGE_SIZE + columns)[inside].astype(np.intp)
     opaque = pens.copy()
     opaque[:, 3] = 255
     colours = np.repeat(opaque.view(np.uint32)[:, 0], inside.sum(axis=(1, 2)))
-    np.frombuffer(rgba, dtype=np.uint32)[pixels] = colours  # of equal pixels the last one counts, as when drawn in order
+    np.frombuffer(rgba, dtype=np.uint32)[pixels] = (
+        colours  # of equal pixels the last one counts, as when drawn in order
+    )
     return True
 
 
-def _corners(lines: NDArray[np.float64], widths: NDArray[np.uint8]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _corners(
+    lines: NDArray[np.float64], widths: NDArray[np.uint8]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Columns and rows of the four corners of each line, shape (n, 4) each."""
     x0, y0, x1, y1 = lines.T
     length = np.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
@@ -64,20 +75,40 @@ def _corners(lines: NDArray[np.float64], widths: NDArray[np.uint8]) -> tuple[NDA
     length[is_dot] = 1.0
     along_x = np.where(is_dot, half, (x1 - x0) / length * half)
     along_y = np.where(is_dot, 0.0, (y1 - y0) / length * half)
-    xs = (x0 - along_x - along_y, x0 - along_x + along_y, x1 + along_x + along_y, x1 + along_x - along_y)
-    ys = (y0 - along_y + along_x, y0 - along_y - along_x, y1 + along_y - along_x, y1 + along_y + along_x)
-    return np.floor(np.stack(xs, axis=1) * _GRID) / _GRID, np.floor(np.stack(ys, axis=1) * _GRID) / _GRID
+    xs = (
+        x0 - along_x - along_y,
+        x0 - along_x + along_y,
+        x1 + along_x + along_y,
+        x1 + along_x - along_y,
+    )
+    ys = (
+        y0 - along_y + along_x,
+        y0 - along_y - along_x,
+        y1 + along_y - along_x,
+        y1 + along_y + along_x,
+    )
+    return np.floor(np.stack(xs, axis=1) * _GRID) / _GRID, np.floor(
+        np.stack(ys, axis=1) * _GRID
+    ) / _GRID
 
 
-def _spans(xs: NDArray[np.float64], ys: NDArray[np.float64], rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _spans(
+    xs: NDArray[np.float64], ys: NDArray[np.float64], rows: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """First and last column on each row, shape (n, rows); an empty row has its first after its last."""
     lowest = np.full(rows.shape, np.inf)
     highest = np.full(rows.shape, -np.inf)
     for a in range(4):
         b = (a + 1) % 4
         swap = ys[:, a] >= ys[:, b]
-        x0, y0 = np.where(swap, xs[:, b], xs[:, a])[:, None], np.where(swap, ys[:, b], ys[:, a])[:, None]
-        x1, y1 = np.where(swap, xs[:, a], xs[:, b])[:, None], np.where(swap, ys[:, a], ys[:, b])[:, None]
+        x0, y0 = (
+            np.where(swap, xs[:, b], xs[:, a])[:, None],
+            np.where(swap, ys[:, b], ys[:, a])[:, None],
+        )
+        x1, y1 = (
+            np.where(swap, xs[:, a], xs[:, b])[:, None],
+            np.where(swap, ys[:, a], ys[:, b])[:, None],
+        )
         flat = y0 == y1
         crossing = x0 + (rows - y0) * (x1 - x0) / np.where(flat, 1.0, y1 - y0)
         met = ~flat & (y0 <= rows) & (rows <= y1)

@@ -72,7 +72,9 @@ class RotateAction:
     def _on_goal(self, goal: Any) -> GoalResponse:
         if math.isfinite(goal.theta):
             return GoalResponse.ACCEPT
-        self._node.get_logger().error(f"Cannot rotate [{self._turtle.name}] to a heading that is not finite: {goal.theta}")
+        self._node.get_logger().error(
+            f"Cannot rotate [{self._turtle.name}] to a heading that is not finite: {goal.theta}"
+        )
         return GoalResponse.REJECT
 
     def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
@@ -83,7 +85,9 @@ class RotateAction:
     async def _execute(self, handle: ServerGoalHandle) -> Any:
         rotation, aborted = self._turtle.rotate_to(handle.request.theta)
         if aborted is not None:
-            self._node.get_logger().warning("Rotation goal received before a previous goal finished. Aborting previous goal")
+            self._node.get_logger().warning(
+                "Rotation goal received before a previous goal finished. Aborting previous goal"
+            )
             self.abort()
         rotation.cancel_requested = handle.is_cancel_requested
         goal = self._goal = _Goal(handle, rotation)

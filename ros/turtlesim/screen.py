@@ -1,11 +1,12 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
-What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a few times a second while it
-watches the frames, and one binary frame for each tick (of a crowd: each second tick) that it keeps up with. A frame is little-endian:
-five 32-bit unsigned integers (tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if the picture
-starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta, linear and angular velocity), and the strokes as
-:mod:`turtlesim.drawing` packs them.
-What comes back: :mod:`turtlesim.page_commands`.
+What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, ``tf``
+texts a few times a second while it watches the frames, and one binary frame for each tick (of a
+crowd: each second tick) that it keeps up with. A frame is little-endian: five 32-bit unsigned
+integers (tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if
+the picture starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta,
+linear and angular velocity), and the strokes as :mod:`turtlesim.drawing` packs them. What comes
+back: :mod:`turtlesim.page_commands`.
 """
 
 from __future__ import annotations
@@ -35,9 +36,11 @@ __all__ = ["Scene", "Screen", "desktop_is_there", "open_browser", "wanted_port"]
 
 _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
-#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in use.
+#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
+#: use.
 DEFAULT_PORT = 7070
-#: A page moves turtles between two frames; with a crowd it gets every second tick, and its time goes into drawing.
+#: A page moves turtles between two frames; with a crowd it gets every second tick, and its time
+#: goes into drawing.
 _CROWD_TICKS = 2
 #: Time between two looks at the frames [s].
 _FRAMES_PERIOD_S = 0.2
@@ -66,12 +69,15 @@ class Screen:
         url: The page's address.
     """
 
-    def __init__(self, scene: Scene, on_command: Callable[[Command], None], transforms: TransformView) -> None:
+    def __init__(
+        self, scene: Scene, on_command: Callable[[Command], None], transforms: TransformView
+    ) -> None:
         """Start serving.
 
         Args:
             scene: What to show first.
-            on_command: Called on the server's thread for each command of a page; it must only pass the command on.
+            on_command: Called on the server's thread for each command of a page; it must only pass
+                the command on.
             transforms: What TF knows; closed with the screen.
         """
         self.transforms = transforms
@@ -90,7 +96,9 @@ class Screen:
         with self._lock:
             self._tick += 1
             self._shown = tuple(tick.turtle.name for tick in ticks)
-            self._poses = struct.pack(f"<{5 * len(ticks)}f", *(value for tick in ticks for value in tick.pose))
+            self._poses = struct.pack(
+                f"<{5 * len(ticks)}f", *(value for tick in ticks for value in tick.pose)
+            )
             for tick in ticks:
                 for stroke in tick.teleport_strokes:
                     self._drawing.add(tick.turtle.name, stroke)
@@ -130,7 +138,9 @@ class Screen:
         with self._lock:
             if version == self._version:
                 return version, None
-            return self._version, json.dumps({"type": "scene", "version": self._version, **self._scene._asdict()})
+            return self._version, json.dumps(
+                {"type": "scene", "version": self._version, **self._scene._asdict()}
+            )
 
     def _frame_since(self, position: int) -> tuple[int, bytes]:
         """The newest poses and the strokes after ``position``."""
@@ -138,7 +148,13 @@ class Screen:
             restart, strokes, position = self._drawing.since(position)
             current = self._shown == self._scene.turtles
             poses = self._poses if current else b""
-            header = _HEADER.pack(self._tick & 0xFFFFFFFF, self._version, len(poses) // 20, len(strokes) // RECORD_SIZE, restart)
+            header = _HEADER.pack(
+                self._tick & 0xFFFFFFFF,
+                self._version,
+                len(poses) // 20,
+                len(strokes) // RECORD_SIZE,
+                restart,
+            )
         return position, header + poses + strokes
 
 
@@ -155,7 +171,9 @@ class _Session:
         self._next_look = 0.0
 
     def outgoing(self) -> list[str | bytes]:
-        messages: list[str | bytes] = [json.dumps({"type": "error", "text": text}) for text in self._errors]
+        messages: list[str | bytes] = [
+            json.dumps({"type": "error", "text": text}) for text in self._errors
+        ]
         self._errors.clear()
         self._version, scene = self._screen._scene_since(self._version)
         if scene is not None:
@@ -190,8 +208,14 @@ class _Session:
 
     def _look(self, watch: Watch) -> str:
         transforms = self._screen.transforms
-        relation = transforms.relation(watch.target, watch.source) if watch.target and watch.source else None
-        return json.dumps({"type": "tf", "frames": transforms.frames(), **watch._asdict(), "relation": relation})
+        relation = (
+            transforms.relation(watch.target, watch.source)
+            if watch.target and watch.source
+            else None
+        )
+        return json.dumps(
+            {"type": "tf", "frames": transforms.frames(), **watch._asdict(), "relation": relation}
+        )
 
 
 def desktop_is_there() -> bool:
@@ -217,5 +241,7 @@ def wanted_port() -> int:
     """
     text = os.environ.get("TURTLEWIRE_PORT", "")
     if text and not (text.isdecimal() and int(text) < 65536):
-        raise ValueError(f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}")
+        raise ValueError(
+            f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}"
+        )
     return int(text or DEFAULT_PORT)

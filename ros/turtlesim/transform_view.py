@@ -88,7 +88,10 @@ class TransformView:
     def frames(self) -> list[Frame]:
         """All frames that have a parent, sorted by name."""
         now_s = self._now_ns() / 1e9
-        return sorted(_read_frame(match, now_s) for match in _FRAME.finditer(self._buffer.all_frames_as_yaml()))
+        return sorted(
+            _read_frame(match, now_s)
+            for match in _FRAME.finditer(self._buffer.all_frames_as_yaml())
+        )
 
     def relation(self, target: str, source: str) -> dict[str, Any]:
         """Where ``source`` is, seen from ``target``: translation [m] and rotation (xyzw), or tf2's error and our hint.
@@ -99,8 +102,14 @@ class TransformView:
             target_from_source = self._buffer.lookup_transform(target, source)
         except TransformException as error:
             return {"error": str(error), "hint": error.hint}
-        parts = {"translation": target_from_source.translation, "rotation": target_from_source.rotation}
-        return {name: [value if math.isfinite(value) else None for value in values] for name, values in parts.items()}
+        parts = {
+            "translation": target_from_source.translation,
+            "rotation": target_from_source.rotation,
+        }
+        return {
+            name: [value if math.isfinite(value) else None for value in values]
+            for name, values in parts.items()
+        }
 
     def _stop(self) -> None:
         if self._listener is not None and self._node is not None:

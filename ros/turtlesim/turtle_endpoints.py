@@ -30,7 +30,8 @@ class TurtleEndpoints:
     """Everything that ROS sees of a turtle; :meth:`destroy` takes it off the graph again.
 
     Attributes:
-        pose_listeners: How many listen to its pose. The middleware tells of changes: a thousand turtles are not asked at each tick.
+        pose_listeners: How many listen to its pose. The middleware tells of changes: a thousand
+            turtles are not asked at each tick.
         color_listeners: How many listen to its colour sensor.
 
     Raises (on construction):
@@ -41,19 +42,33 @@ class TurtleEndpoints:
         self._node = node
         self._turtle = turtle
         name = turtle.name
-        node.resolve_topic_name(f"{name}/cmd_vel")  # a wrong name fails here, before anything is made
-        self._cmd_vel = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH)
+        node.resolve_topic_name(
+            f"{name}/cmd_vel"
+        )  # a wrong name fails here, before anything is made
+        self._cmd_vel = node.create_subscription(
+            Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH
+        )
         self.pose_listeners = self.color_listeners = 0
         self._pose = node.create_publisher(
-            Pose, f"{name}/pose", QUEUE_DEPTH, event_callbacks=PublisherEventCallbacks(matched=self._on_pose_matched)
+            Pose,
+            f"{name}/pose",
+            QUEUE_DEPTH,
+            event_callbacks=PublisherEventCallbacks(matched=self._on_pose_matched),
         )
         self._color = node.create_publisher(
-            Color, f"{name}/color_sensor", QUEUE_DEPTH, event_callbacks=PublisherEventCallbacks(matched=self._on_color_matched)
+            Color,
+            f"{name}/color_sensor",
+            QUEUE_DEPTH,
+            event_callbacks=PublisherEventCallbacks(matched=self._on_color_matched),
         )
         self._services = [
             node.create_service(SetPen, f"{name}/set_pen", self._on_set_pen),
-            node.create_service(TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative),
-            node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute),
+            node.create_service(
+                TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative
+            ),
+            node.create_service(
+                TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute
+            ),
         ]
 
         self._rotate = RotateAction(node, turtle)
@@ -64,7 +79,15 @@ class TurtleEndpoints:
             self._rotate.report(tick.rotation)
         if self.pose_listeners:
             x, y, theta, linear_velocity, angular_velocity = tick.pose
-            self._pose.publish(Pose(x=x, y=y, theta=theta, linear_velocity=linear_velocity, angular_velocity=angular_velocity))
+            self._pose.publish(
+                Pose(
+                    x=x,
+                    y=y,
+                    theta=theta,
+                    linear_velocity=linear_velocity,
+                    angular_velocity=angular_velocity,
+                )
+            )
         if self.color_listeners:
             self.publish_color(*path.colour_at(*tick.sensor_pixel))
 
@@ -100,11 +123,15 @@ class TurtleEndpoints:
             return
         holonomic = self._node.get_parameter("holonomic").value
         if self._turtle.drive(forward, lateral if holonomic else 0.0, turning):
-            self._node.get_logger().warning("Velocity command received during rotation goal. Aborting goal")
+            self._node.get_logger().warning(
+                "Velocity command received during rotation goal. Aborting goal"
+            )
             self._rotate.abort()
 
     def _on_set_pen(self, request: Any, response: Any) -> Any:
-        self._turtle.set_pen(Pen(request.r, request.g, request.b, request.width), off=bool(request.off))
+        self._turtle.set_pen(
+            Pen(request.r, request.g, request.b, request.width), off=bool(request.off)
+        )
         return response
 
     def _on_teleport_relative(self, request: Any, response: Any) -> Any:
@@ -120,7 +147,9 @@ class TurtleEndpoints:
     def _accepts_teleport(self, *numbers: float) -> bool:
         if are_finite(*numbers):
             return True
-        self._node.get_logger().error(f"Cannot teleport [{self._turtle.name}] to what is not finite: {', '.join(map(str, numbers))}")
+        self._node.get_logger().error(
+            f"Cannot teleport [{self._turtle.name}] to what is not finite: {', '.join(map(str, numbers))}"
+        )
         return False
 
 

@@ -45,8 +45,14 @@ class _Drive(NamedTuple):
     angular: float
 
 
-#: An arrow key arrives as ESC, [ and one of these letters; as in the original only the letter counts.
-_DRIVES = {b"A": _Drive(1.0, 0.0), b"B": _Drive(-1.0, 0.0), b"C": _Drive(0.0, -1.0), b"D": _Drive(0.0, 1.0)}
+#: An arrow key arrives as ESC, [ and one of these letters; as in the original only the letter
+#: counts.
+_DRIVES = {
+    b"A": _Drive(1.0, 0.0),
+    b"B": _Drive(-1.0, 0.0),
+    b"C": _Drive(0.0, -1.0),
+    b"D": _Drive(0.0, 1.0),
+}
 #: The keys around F, each for the heading [rad] in whose direction it lies from there.
 _HEADINGS = {
     b"g": 0.0,
@@ -120,7 +126,12 @@ class _Keyboard:
         termios.tcsetattr(self._fd, termios.TCSANOW, raw)
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
         import termios
 
         with contextlib.suppress(termios.error):  # the terminal is gone: nothing to put back
@@ -148,7 +159,9 @@ def main(args: list[str] | None = None) -> int:
         The exit status: 1 when there is no terminal to read.
     """
     if sys.platform == "win32":
-        _complain("turtle_teleop_key cannot read a Windows console yet: the arrow keys work in turtlesim's page.")
+        _complain(
+            "turtle_teleop_key cannot read a Windows console yet: the arrow keys work in turtlesim's page."
+        )
         return 1
     try:
         keyboard = _Keyboard()
@@ -157,7 +170,10 @@ def main(args: list[str] | None = None) -> int:
         return 1
     rclpy.init(args=args)
     rclpy.get_default_context().on_shutdown(keyboard.stop)
-    for signum in (signal.SIGHUP, signal.SIGQUIT):  # rclpy knows the others; these would leave the terminal as it is
+    for signum in (
+        signal.SIGHUP,
+        signal.SIGQUIT,
+    ):  # rclpy knows the others; these would leave the terminal as it is
         signal.signal(signum, lambda *_: keyboard.stop())
     node = TeleopTurtle()
     spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")

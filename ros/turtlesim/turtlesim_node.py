@@ -49,15 +49,18 @@ class TurtlesimNode(CppNode):
 
     Args:
         headless: Whether to do without the page.
-        speed: How many times faster than real time to run; the simulator then publishes ``/clock`` itself, one tick after the other.
-            None runs in real time, and leaves ``/clock`` to others.
+        speed: How many times faster than real time to run; the simulator then publishes ``/clock``
+            itself, one tick after the other. None runs in real time, and leaves ``/clock`` to
+            others.
         options: Given on to :class:`rclpy.node.Node`.
 
     Attributes:
         world: The model.
     """
 
-    def __init__(self, *, headless: bool = False, speed: float | None = None, **options: Any) -> None:
+    def __init__(
+        self, *, headless: bool = False, speed: float | None = None, **options: Any
+    ) -> None:
         super().__init__("turtlesim", **options)
         self._declare_parameters()
         self.world = World()
@@ -73,7 +76,9 @@ class TurtlesimNode(CppNode):
         self.create_service(Empty, "reset", self._on_reset)
         self.create_service(Spawn, "spawn", self._on_spawn)
         self.create_service(Kill, "kill", self._on_kill)
-        self.get_logger().info(f"Starting turtlesim with node name {self.get_fully_qualified_name()}")
+        self.get_logger().info(
+            f"Starting turtlesim with node name {self.get_fully_qualified_name()}"
+        )
         self._missing = MissingTurtles(self, lambda: self.world.turtles, self._on_missing)
         self._add(self.world.spawn_centred())
         self.add_post_set_parameters_callback(lambda _: self._show_scene())
@@ -95,7 +100,9 @@ class TurtlesimNode(CppNode):
     def _on_shutdown(self) -> None:
         turtles = len(self.world.turtles)
         if turtles >= _CROWD:
-            self.get_logger().info(f"Taking {turtles} turtles off the graph, which takes the middleware a few seconds")
+            self.get_logger().info(
+                f"Taking {turtles} turtles off the graph, which takes the middleware a few seconds"
+            )
 
     def _declare_parameters(self) -> None:
         for channel, (name, default) in _BACKGROUND.items():
@@ -104,7 +111,11 @@ class TurtlesimNode(CppNode):
                 integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
             )
             self.declare_parameter(f"background_{channel}", default, descriptor)
-        self.declare_parameter("holonomic", False, ParameterDescriptor(description="If true, then turtles will be holonomic"))
+        self.declare_parameter(
+            "holonomic",
+            False,
+            ParameterDescriptor(description="If true, then turtles will be holonomic"),
+        )
 
     # Time
 
@@ -120,7 +131,9 @@ class TurtlesimNode(CppNode):
             publisher.publish(message)
             self._tick(now_ns)
 
-        self.create_timer(TICK_NS / 1e9 / speed, tick, clock=rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME))
+        self.create_timer(
+            TICK_NS / 1e9 / speed, tick, clock=rclpy.clock.Clock(clock_type=ClockType.STEADY_TIME)
+        )
 
     def _tick(self, now_ns: int) -> None:
         for _ in range(len(self._page_commands)):
@@ -187,7 +200,9 @@ class TurtlesimNode(CppNode):
             self.world.kill(turtle.name)
             raise
         x, y = turtle.x, FIELD_SIZE - turtle.y_down
-        self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{turtle.theta:f}]")
+        self.get_logger().info(
+            f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{turtle.theta:f}]"
+        )
         self._missing.forget(turtle.name)
         self._show_scene()
 
@@ -201,7 +216,9 @@ class TurtlesimNode(CppNode):
     def spawn(self, x: float, y: float, theta: float, name: str) -> str:
         """Add a turtle; its name, or an empty text after an error was logged."""
         if not are_finite(x, y, theta):
-            self.get_logger().error(f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}")
+            self.get_logger().error(
+                f"Cannot spawn a turtle where it is not finite: x={x}, y={y}, theta={theta}"
+            )
             return ""
         turtle = self.world.spawn(x, y, theta, name)
         if turtle is None:
@@ -262,7 +279,9 @@ class TurtlesimNode(CppNode):
         from turtlesim.screen import Screen, open_browser
         from turtlesim.transform_view import TransformView
 
-        transforms = TransformView(self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds)
+        transforms = TransformView(
+            self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds
+        )
         self._screen = Screen(self._scene(), self._page_commands.append, transforms)
         self.get_logger().info(f"The field is shown at {self._screen.url}")
         open_browser(self._screen.url)
@@ -270,8 +289,15 @@ class TurtlesimNode(CppNode):
     def _scene(self) -> Any:
         from turtlesim.screen import Scene
 
-        red, green, blue = (self.get_parameter(f"background_{channel}").value for channel in _BACKGROUND)
-        return Scene(self.get_fully_qualified_name(), tuple(sorted(self.world.turtles)), (red, green, blue), self._missing.names)
+        red, green, blue = (
+            self.get_parameter(f"background_{channel}").value for channel in _BACKGROUND
+        )
+        return Scene(
+            self.get_fully_qualified_name(),
+            tuple(sorted(self.world.turtles)),
+            (red, green, blue),
+            self._missing.names,
+        )
 
     def _show_scene(self) -> None:
         if self._screen is not None:
@@ -299,7 +325,9 @@ class TurtlesimNode(CppNode):
             return
         publisher = self._page_publishers.get(name)
         if publisher is None:
-            publisher = self._page_publishers[name] = self.create_publisher(Twist, f"{name}/cmd_vel", QUEUE_DEPTH)
+            publisher = self._page_publishers[name] = self.create_publisher(
+                Twist, f"{name}/cmd_vel", QUEUE_DEPTH
+            )
         if not publisher.get_subscription_count():  # it has not found our own subscription yet
             self._page_commands.append(command)
             return
@@ -309,7 +337,9 @@ class TurtlesimNode(CppNode):
         publisher.publish(message)
 
     def _rotate_from_page(self, command: page_commands.Rotate) -> None:
-        if command.turtle in self.world.turtles and not self._page_rotations.rotate(command.turtle, command.theta):
+        if command.turtle in self.world.turtles and not self._page_rotations.rotate(
+            command.turtle, command.theta
+        ):
             self._page_commands.append(command)
 
     def _teleport_from_page(self, command: page_commands.Teleport) -> None:
@@ -336,7 +366,9 @@ def main(args: list[str] | None = None) -> None:
         _check_port()
     rclpy.init(args=args)
     node = None
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):  # Ctrl-C may also come while it shuts down
+    with contextlib.suppress(
+        KeyboardInterrupt, ExternalShutdownException
+    ):  # Ctrl-C may also come while it shuts down
         try:
             node = TurtlesimNode(headless=options.headless, speed=options.speed)
             rclpy.spin(node)
@@ -348,10 +380,15 @@ def main(args: list[str] | None = None) -> None:
 
 def _parse_options(args: list[str]) -> argparse.Namespace:
     """What is left of the command line without ``--ros-args``; foreign arguments are left alone, as in the original."""
-    parser = argparse.ArgumentParser(prog="turtlesim_node", description="Turtles on a field, shown in the browser.")
+    parser = argparse.ArgumentParser(
+        prog="turtlesim_node", description="Turtles on a field, shown in the browser."
+    )
     parser.add_argument("--headless", action="store_true", help="serve no page")
     parser.add_argument(
-        "--speed", type=_factor, metavar="N", help="run N times faster than real time and publish /clock; for nodes with use_sim_time"
+        "--speed",
+        type=_factor,
+        metavar="N",
+        help="run N times faster than real time and publish /clock; for nodes with use_sim_time",
     )
     return parser.parse_known_args(remove_ros_args(args)[1:])[0]
 

@@ -1,7 +1,8 @@
 """Lets ``colcon build`` make the interface packages of a workspace importable, without CMake and without a compiler.
 
-colcon-ros hands every ``ament_cmake`` package to CMake. A package whose CMakeLists.txt generates interfaces and builds nothing else is
-taken here instead: it gets a type of its own, which only this distribution knows how to build. All other packages stay with colcon-ros.
+colcon-ros hands every ``ament_cmake`` package to CMake. A package whose CMakeLists.txt generates
+interfaces and builds nothing else is taken here instead: it gets a type of its own, which only this
+distribution knows how to build. All other packages stay with colcon-ros.
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ __all__ = ["InterfacePackageBuild", "InterfacePackageIdentification", "Unreadabl
 _TYPE = "ros.turtlewire_interfaces"  # "ros." has colcon-ros read the dependencies in package.xml
 _UNREADABLE_TYPE = "turtlewire.unreadable"
 _KINDS = ("msg", "srv", "action")
-_BUILDS_CODE = re.compile(r"^\s*(add_executable|add_library|ament_python_install_package)\s*\(", re.MULTILINE)
+_BUILDS_CODE = re.compile(
+    r"^\s*(add_executable|add_library|ament_python_install_package)\s*\(", re.MULTILINE
+)
 _GENERATES_INTERFACES = re.compile(r"^\s*rosidl_generate_interfaces\s*\(", re.MULTILINE)
 
 
@@ -79,18 +82,33 @@ class InterfacePackageBuild(TaskExtensionPoint):
         args, name = self.context.args, self.context.pkg.name
         prefix, source = Path(args.install_base), Path(args.path)
         try:
-            environment = await get_command_environment("build", args.build_base, self.context.dependencies)
+            environment = await get_command_environment(
+                "build", args.build_base, self.context.dependencies
+            )
         except RuntimeError as error:
             colcon_logger.error(str(error))
             return 1
-        modules = Path(get_python_install_path("purelib", {"base": str(prefix), "platbase": str(prefix)}))
-        command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(modules), "--package", name]
+        modules = Path(
+            get_python_install_path("purelib", {"base": str(prefix), "platbase": str(prefix)})
+        )
+        command = [
+            sys.executable,
+            "-m",
+            "turtlewire.msg",
+            str(source),
+            "--output",
+            str(modules),
+            "--package",
+            name,
+        ]
         done = await run(self.context, command, cwd=args.build_base, env=environment)
         if done.returncode:
             return int(done.returncode)
         _install_share(name, source, prefix)
         hooks = create_environment_hooks(prefix, name)
-        hooks += create_environment_hook("ament_prefix_path", prefix, name, "AMENT_PREFIX_PATH", "", mode="prepend")
+        hooks += create_environment_hook(
+            "ament_prefix_path", prefix, name, "AMENT_PREFIX_PATH", "", mode="prepend"
+        )
         create_environment_scripts(self.context.pkg, args, default_hooks=hooks)
         return 0
 
@@ -98,11 +116,18 @@ class InterfacePackageBuild(TaskExtensionPoint):
 def _install_share(name: str, source: Path, prefix: Path) -> None:
     """What ``ros2 interface``, ``ros2 pkg`` and rosbag tools look for: the package's files, and its marks in ament's index."""
     share = prefix / "share" / name
-    definitions = [path.relative_to(source) for kind in _KINDS for path in sorted((source / kind).glob(f"*.{kind}"))]
+    definitions = [
+        path.relative_to(source)
+        for kind in _KINDS
+        for path in sorted((source / kind).glob(f"*.{kind}"))
+    ]
     for file in (Path("package.xml"), *definitions):
         (share / file).parent.mkdir(parents=True, exist_ok=True)
         copyfile(source / file, share / file)
     index = prefix / "share" / "ament_index" / "resource_index"
-    for resource, content in {"packages": "", "rosidl_interfaces": "\n".join(path.as_posix() for path in definitions)}.items():
+    for resource, content in {
+        "packages": "",
+        "rosidl_interfaces": "\n".join(path.as_posix() for path in definitions),
+    }.items():
         (index / resource).mkdir(parents=True, exist_ok=True)
         (index / resource / name).write_text(content, encoding="utf-8")

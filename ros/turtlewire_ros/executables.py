@@ -1,8 +1,9 @@
 """What ``ros2 run PACKAGE EXECUTABLE`` runs.
 
-An executable is a file: ``<prefix>/lib/PACKAGE/EXECUTABLE`` of a prefix, or the console script of a package that pip installed (pip puts
-those into the environment's ``bin``). A file that starts with a Python shebang runs on this interpreter, whatever the shebang says: a
-workspace that was built by a foreign colcon names the system's Python there, which knows nothing of this distribution.
+An executable is a file: ``<prefix>/lib/PACKAGE/EXECUTABLE`` of a prefix, or the console script of a
+package that pip installed (pip puts those into the environment's ``bin``). A file that starts with
+a Python shebang runs on this interpreter, whatever the shebang says: a workspace that was built by
+a foreign colcon names the system's Python there, which knows nothing of this distribution.
 """
 
 from __future__ import annotations
@@ -58,7 +59,8 @@ def _libexec_files(folder: str) -> list[str]:
 
 
 def _is_executable(path: str) -> bool:
-    # Windows has no executable bit, and some installers drop it from data files; a Python shebang says the same.
+    # Windows has no executable bit, and some installers drop it from data files; a Python shebang
+    # says the same.
     return os.access(path, os.X_OK) or is_python_script(path)
 
 
@@ -69,4 +71,8 @@ def _console_scripts(package: str) -> list[str]:
         files = distribution(package).files or []
     except (PackageNotFoundError, ValueError):
         return []
-    return sorted(str(os.path.realpath(str(file.locate()))) for file in files if file.parent.name in ("bin", "Scripts"))
+    return sorted(
+        str(os.path.realpath(str(file.locate())))
+        for file in files
+        if file.parent.name in ("bin", "Scripts")
+    )

@@ -1,8 +1,9 @@
 # PYTHON_ARGCOMPLETE_OK
 """Starts ``ros2``, unless packages of a real ROS 2 are mixed in.
 
-A shell that sourced a real ROS 2 puts that one's packages before ours. Half of each does not work, and breaks with errors that nobody
-can read. This module is the entry point because no other ROS 2 has a package of its name.
+A shell that sourced a real ROS 2 puts that one's packages before ours. Half of each does not work,
+and breaks with errors that nobody can read. This module is the entry point because no other ROS 2
+has a package of its name.
 """
 
 from __future__ import annotations

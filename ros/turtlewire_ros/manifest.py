@@ -15,7 +15,8 @@ def manifest_fault(path: str | Path) -> str | None:
         path: The file.
 
     Returns:
-        ``<path>:<line>: <what>``, with the line in which an unclosed tag was opened; None when the XML is well-formed.
+        ``<path>:<line>: <what>``, with the line in which an unclosed tag was opened; None when the
+        XML is well-formed.
 
     Raises:
         OSError: The file cannot be read.
@@ -34,7 +35,10 @@ def manifest_fault(path: str | Path) -> str | None:
     except (LookupError, ValueError) as error:
         return f"{path}:{parser.CurrentLineNumber}: {error}"
     except expat.ExpatError as error:
-        if opened and expat.errors.messages[error.code] in (expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS):
+        if opened and expat.errors.messages[error.code] in (
+            expat.errors.XML_ERROR_TAG_MISMATCH,
+            expat.errors.XML_ERROR_NO_ELEMENTS,
+        ):
             tag, line = opened[-1]
             return f"{path}:{line}: <{tag}> is never closed; remove it, or add </{tag}>"
         return f"{path}:{error.lineno}: {expat.ErrorString(error.code)}"

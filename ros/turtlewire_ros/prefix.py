@@ -1,7 +1,8 @@
 """Where ROS packages live: colcon workspaces, this distribution's own prefix, and packages installed by pip.
 
-A *prefix* is a folder with ``share/ament_index``, as ``/opt/ros/jazzy`` is one. ``AMENT_PREFIX_PATH`` lists those of the workspaces that
-were sourced; the prefix this distribution was installed into needs no sourcing and comes last.
+A *prefix* is a folder with ``share/ament_index``, as ``/opt/ros/jazzy`` is one.
+``AMENT_PREFIX_PATH`` lists those of the workspaces that were sourced; the prefix this distribution
+was installed into needs no sourcing and comes last.
 """
 
 from __future__ import annotations
@@ -10,7 +11,15 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = ["MARKERS", "editable_source", "own_prefix", "package_names", "package_prefix", "prefixes", "share_directory"]
+__all__ = [
+    "MARKERS",
+    "editable_source",
+    "own_prefix",
+    "package_names",
+    "package_prefix",
+    "prefixes",
+    "share_directory",
+]
 
 #: Folder of a prefix in which each installed package has a file of its name.
 MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
@@ -19,16 +28,24 @@ MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
 def own_prefix() -> str | None:
     """The prefix that holds the packages of this distribution; None in a source tree that was never installed.
 
-    It lies above ``site-packages`` in a virtual environment, in ``~/.local`` and in ``/usr/local`` alike. An editable install runs from its
-    source, and its data are in the environment of the interpreter.
+    It lies above ``site-packages`` in a virtual environment, in ``~/.local`` and in ``/usr/local``
+    alike. An editable install runs from its source, and its data are in the environment of the
+    interpreter.
     """
     candidates = [*Path(__file__).resolve().parents, Path(sys.prefix)]
-    return next((str(folder) for folder in candidates if (folder / MARKERS / "turtlewire_ros").is_file()), None)
+    return next(
+        (str(folder) for folder in candidates if (folder / MARKERS / "turtlewire_ros").is_file()),
+        None,
+    )
 
 
 def prefixes() -> list[str]:
     """All prefixes, in the order in which they are searched; those that do not exist are left out."""
-    found = [path for path in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if path and os.path.isdir(path)]
+    found = [
+        path
+        for path in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+        if path and os.path.isdir(path)
+    ]
     own = own_prefix()
     if own is not None and own not in found:
         found.append(own)
@@ -60,7 +77,8 @@ def package_names() -> dict[str, str]:
 def editable_source(package: str) -> str | None:
     """The source folder of a package that was installed by ``pip install -e``, which installs no data files.
 
-    The folder counts when it holds a package.xml; launch files then have the same relative paths as in an installed share folder.
+    The folder counts when it holds a package.xml; launch files then have the same relative paths as
+    in an installed share folder.
     """
     import json
     from importlib.metadata import PackageNotFoundError, distribution
@@ -79,4 +97,7 @@ def editable_source(package: str) -> str | None:
 
 
 def _indexed_prefix(package: str) -> str | None:
-    return next((prefix for prefix in prefixes() if os.path.isfile(os.path.join(prefix, MARKERS, package))), None)
+    return next(
+        (prefix for prefix in prefixes() if os.path.isfile(os.path.join(prefix, MARKERS, package))),
+        None,
+    )

@@ -6,18 +6,20 @@
     ├── CdrError                      malformed CDR bytes, or a value that its field cannot hold
     ├── InterfaceError                an unknown or unreadable .msg/.srv/.action definition
     ├── WireError                     the middleware refused something, or is missing
-    └── TransformException            (the tree of ROS 2's tf2; also reachable as tf2_py.X and tf2_ros.X)
+    └── TransformException            (the tree of ROS 2's tf2; also reachable as tf2_py.X and
+    tf2_ros.X)
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
         ├── ExtrapolationException    the time asked for is outside of the data of a link
         │   ├── BackwardExtrapolationException   it is older than the oldest
         │   ├── ForwardExtrapolationException    it is newer than the newest
-        │   └── NoDataForExtrapolationException  the link has no data, or a single sample of another time
-        ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
+        │   └── NoDataForExtrapolationException  the link has no data, or a single sample of another
+        time ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
-``str(error)`` is the text that ROS 2 defines, where it defines one. What helps beyond it is in ``error.hint``
-(an empty string when there is nothing to add); tracebacks show it as a note on Python 3.11 and later.
+``str(error)`` is the text that ROS 2 defines, where it defines one. What helps beyond it is in
+``error.hint`` (an empty string when there is nothing to add); tracebacks show it as a note on
+Python 3.11 and later.
 """
 
 from __future__ import annotations
@@ -45,7 +47,8 @@ class TurtlewireError(Exception):
     """Base of all errors raised on purpose by this package.
 
     Attributes:
-        hint: One or two plain sentences that say what exists and what to do; empty when there is nothing to add.
+        hint: One or two plain sentences that say what exists and what to do; empty when there is
+            nothing to add.
     """
 
     hint: str = ""
@@ -120,7 +123,8 @@ class ConnectivityException(TransformException):
     """No chain of transforms connects the two frames.
 
     Attributes:
-        target_frame: The frame in which the answer was to be expressed; empty if unknown, as are the others.
+        target_frame: The frame in which the answer was to be expressed; empty if unknown, as are
+            the others.
         source_frame: The frame whose pose was asked for.
         target_root: The root of the target's tree.
         source_root: The root of the source's tree.
@@ -175,8 +179,10 @@ class ExtrapolationException(TransformException):
     """The requested time lies outside of the data of at least one link on the way.
 
     Attributes:
-        target_frame: The frame in which the answer was to be expressed; empty if unknown, as is the next.
-        source_frame: The frame whose pose was asked for. (These two are a part of the way in a lookup through a fixed frame.)
+        target_frame: The frame in which the answer was to be expressed; empty if unknown, as is the
+            next.
+        source_frame: The frame whose pose was asked for. (These two are a part of the way in a
+            lookup through a fixed frame.)
         parent_frame: With the next, the link that failed.
         child_frame: The frame whose pose in its parent is not known at the time.
         requested_ns: The time asked for, in nanoseconds.
@@ -184,7 +190,8 @@ class ExtrapolationException(TransformException):
         newest_ns: The time of the newest data of the link; 0 without data.
     """
 
-    # (target frame, source frame, parent frame, child frame, requested, oldest, newest, whether the link has data)
+    # (target frame, source frame, parent frame, child frame, requested, oldest, newest, whether the
+    # link has data)
 
     target_frame = property(lambda self: self._details[0] if self._details else "")
     source_frame = property(lambda self: self._details[1] if self._details else "")

@@ -7,7 +7,11 @@ from pathlib import Path
 import pytest
 
 import ament_index_python
-from ament_index_python.packages import PackageNotFoundError, get_package_prefix, get_package_share_directory
+from ament_index_python.packages import (
+    PackageNotFoundError,
+    get_package_prefix,
+    get_package_share_directory,
+)
 
 
 @pytest.fixture
@@ -68,7 +72,9 @@ def test_names_with_separators_are_refused(index):
 def test_without_any_prefix_the_variable_is_named(monkeypatch):
     monkeypatch.setattr("turtlewire_ros.prefix.own_prefix", lambda: None)
     monkeypatch.setenv("AMENT_PREFIX_PATH", "")
-    with pytest.raises(EnvironmentError, match=r"^Environment variable 'AMENT_PREFIX_PATH' is not set or empty$"):
+    with pytest.raises(
+        EnvironmentError, match=r"^Environment variable 'AMENT_PREFIX_PATH' is not set or empty$"
+    ):
         ament_index_python.get_search_paths()
 
 

@@ -58,32 +58,54 @@ def test_nodes_of_one_name(context):
 @pytest.mark.parametrize(
     ("offered", "asked", "reason"),
     [
-        (QoS(reliability=Reliability.BEST_EFFORT), QoS(), "it asks for RELIABLE, and BEST_EFFORT is offered"),
-        (QoS(), QoS(durability=Durability.TRANSIENT_LOCAL), "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"),
+        (
+            QoS(reliability=Reliability.BEST_EFFORT),
+            QoS(),
+            "it asks for RELIABLE, and BEST_EFFORT is offered",
+        ),
+        (
+            QoS(),
+            QoS(durability=Durability.TRANSIENT_LOCAL),
+            "it asks for TRANSIENT_LOCAL, and VOLATILE is offered",
+        ),
     ],
 )
 def test_qos_that_cannot_match_names_both_ends(context, offered, asked, reason):
     context.create_node("talker").create_publisher("/x", STRING, offered)
     context.create_node("listener").create_subscription("/x", STRING, asked)
-    assert texts(doctor.graph_findings(context.graph)) == [f"/x: /listener gets nothing from /talker: {reason}."]
+    assert texts(doctor.graph_findings(context.graph)) == [
+        f"/x: /listener gets nothing from /talker: {reason}."
+    ]
 
 
 def test_weaker_requests_match(context):
-    context.create_node("talker").create_publisher("/x", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
-    context.create_node("listener").create_subscription("/x", STRING, QoS(reliability=Reliability.BEST_EFFORT))
+    context.create_node("talker").create_publisher(
+        "/x", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)
+    )
+    context.create_node("listener").create_subscription(
+        "/x", STRING, QoS(reliability=Reliability.BEST_EFFORT)
+    )
     assert doctor.graph_findings(context.graph) == []
 
 
 def test_types_and_definitions_that_differ(context):
     context.create_node("talker").create_publisher("/x", STRING, QoS())
-    context.create_node("listener").create_subscription("/x", TypeId("std_msgs/msg/Int32", ""), QoS())
-    assert texts(doctor.graph_findings(context.graph)) == ["/x has ends of different types: std_msgs/msg/Int32, std_msgs/msg/String."]
+    context.create_node("listener").create_subscription(
+        "/x", TypeId("std_msgs/msg/Int32", ""), QoS()
+    )
+    assert texts(doctor.graph_findings(context.graph)) == [
+        "/x has ends of different types: std_msgs/msg/Int32, std_msgs/msg/String."
+    ]
 
 
 def test_definitions_that_differ(context):
     context.create_node("talker").create_publisher("/x", STRING, QoS())
-    context.create_node("listener").create_subscription("/x", STRING._replace(type_hash="RIHS01_" + "2" * 64), QoS())
-    assert texts(doctor.graph_findings(context.graph)) == ["/x: /listener gets nothing from /talker: their definitions of the type differ."]
+    context.create_node("listener").create_subscription(
+        "/x", STRING._replace(type_hash="RIHS01_" + "2" * 64), QoS()
+    )
+    assert texts(doctor.graph_findings(context.graph)) == [
+        "/x: /listener gets nothing from /talker: their definitions of the type differ."
+    ]
 
 
 def transform(parent, child, stamp_ns=NOW_NS):
@@ -96,7 +118,9 @@ def transform(parent, child, stamp_ns=NOW_NS):
 @pytest.fixture
 def broadcasters(context):
     """Two nodes that publish /tf; their gids."""
-    return [context.create_node(name).create_publisher("/tf", TF, QoS()).gid for name in ("one", "two")]
+    return [
+        context.create_node(name).create_publisher("/tf", TF, QoS()).gid for name in ("one", "two")
+    ]
 
 
 def traffic_of(*entries):
@@ -109,7 +133,11 @@ def traffic_of(*entries):
 
 def test_transforms_without_fault(context, broadcasters):
     one, two = broadcasters
-    traffic = traffic_of((transform("world", "a"), one, False), (transform("world", "b"), two, False), (transform("a", "c", 0), one, True))
+    traffic = traffic_of(
+        (transform("world", "a"), one, False),
+        (transform("world", "b"), two, False),
+        (transform("a", "c", 0), one, True),
+    )
     assert doctor.tf_findings(context.graph, traffic) == []
 
 
@@ -119,26 +147,43 @@ def test_nobody_publishes(context):
 
 def test_two_publishers_of_one_frame(context, broadcasters):
     one, two = broadcasters
-    traffic = traffic_of((transform("world", "a"), one, False), (transform("world", "a"), two, False))
-    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frame 'a' is published by /one and /two."]
+    traffic = traffic_of(
+        (transform("world", "a"), one, False), (transform("world", "a"), two, False)
+    )
+    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+        "The frame 'a' is published by /one and /two."
+    ]
 
 
 def test_two_parents(context, broadcasters):
     one, _ = broadcasters
-    traffic = traffic_of((transform("world", "a"), one, False), (transform("map", "a"), one, False), (transform("world", "map"), one, True))
-    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frame 'a' has several parents: map, world."]
+    traffic = traffic_of(
+        (transform("world", "a"), one, False),
+        (transform("map", "a"), one, False),
+        (transform("world", "map"), one, True),
+    )
+    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+        "The frame 'a' has several parents: map, world."
+    ]
 
 
 def test_separate_trees(context, broadcasters):
     one, _ = broadcasters
-    traffic = traffic_of((transform("world", "a"), one, False), (transform("odom", "b"), one, False))
-    assert texts(doctor.tf_findings(context.graph, traffic)) == ["The frames form 2 separate trees, with the roots odom, world."]
+    traffic = traffic_of(
+        (transform("world", "a"), one, False), (transform("odom", "b"), one, False)
+    )
+    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+        "The frames form 2 separate trees, with the roots odom, world."
+    ]
 
 
 def test_mixed_and_stale_times(context, broadcasters):
     one, _ = broadcasters
     old = NOW_NS - 5_000_000_000
-    traffic = traffic_of((transform("world", "a", old), one, False), (transform("world", "b", 3_000_000_000), one, False))
+    traffic = traffic_of(
+        (transform("world", "a", old), one, False),
+        (transform("world", "b", 3_000_000_000), one, False),
+    )
     assert texts(doctor.tf_findings(context.graph, traffic)) == [
         "Wall time and simulated time are mixed: a and b.",
         "The newest transform of 'a' is 5.0 s old.",
@@ -148,12 +193,18 @@ def test_mixed_and_stale_times(context, broadcasters):
 def test_listening_takes_both_topics_and_drops_nonsense(context):
     node = context.create_node("one")
     latched = QoS(durability=Durability.TRANSIENT_LOCAL)
-    static, dynamic = node.create_publisher("/tf_static", TF, latched), node.create_publisher("/tf", TF, QoS())
+    static, dynamic = (
+        node.create_publisher("/tf_static", TF, latched),
+        node.create_publisher("/tf", TF, QoS()),
+    )
     static.publish(msg.serialize(transform("world", "fixed")))
 
     def send():
         context.graph.wait_for(lambda: dynamic.subscription_count() > 0)
-        for cdr in (b"\x00\x01\x00\x00\xff\xff\xff\xff", msg.serialize(transform("world", "moving"))):
+        for cdr in (
+            b"\x00\x01\x00\x00\xff\xff\xff\xff",
+            msg.serialize(transform("world", "moving")),
+        ):
             dynamic.publish(cdr)
 
     sender = threading.Thread(target=send)
@@ -215,19 +266,29 @@ def test_motion_and_a_change_of_parents_are_no_leaps(context, broadcasters):
     moved = transform("world", "a", NOW_NS + 500_000_000)
     moved.transforms[0].transform.translation.x = 2.0
     elsewhere = transform("map", "a", NOW_NS + 510_000_000)
-    traffic = traffic_of((transform("world", "a"), one, False), (moved, one, False), (elsewhere, one, False))
+    traffic = traffic_of(
+        (transform("world", "a"), one, False), (moved, one, False), (elsewhere, one, False)
+    )
     assert not any("leaps" in text for text in texts(doctor.tf_findings(context.graph, traffic)))
 
 
 def test_the_domains_of_ports():
     # the ports that DDS computes: 7400 + 250 * domain + 10 + 2 * participant (+ 1)
-    assert domains_of([7400, 7401, 7410, 7411, 7412 + 250 * 3, 7410 + 250 * 101 + 239, 7410 + 250 * 102, 53]) == {0, 3, 101}
+    assert domains_of(
+        [7400, 7401, 7410, 7411, 7412 + 250 * 3, 7410 + 250 * 101 + 239, 7410 + 250 * 102, 53]
+    ) == {0, 3, 101}
 
 
 def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
-    monkeypatch.setattr(doctor, "udp_ports", lambda: {7410 + 250 * 100, 7410 + 250 * int(os.environ["ROS_DOMAIN_ID"])})
+    monkeypatch.setattr(
+        doctor,
+        "udp_ports",
+        lambda: {7410 + 250 * 100, 7410 + 250 * int(os.environ["ROS_DOMAIN_ID"])},
+    )
     (finding,) = doctor.graph_findings(context.graph)
-    assert "This host has nodes on domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
+    assert (
+        "This host has nodes on domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
+    )
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the ports in use are read from /proc")
@@ -248,12 +309,16 @@ def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
 
 def test_multicast_that_does_not_come_back(monkeypatch):
     assert multicast_works(0.01) in (True, False)
-    monkeypatch.setattr("turtlewire.cli.network._GROUP", "127.0.0.1")  # no group: joining it fails as without a network
+    monkeypatch.setattr(
+        "turtlewire.cli.network._GROUP", "127.0.0.1"
+    )  # no group: joining it fails as without a network
     assert not multicast_works(0.01)
 
 
 UP = "ip link set lo up"
-OWN_NETWORK = subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False).returncode == 0
+OWN_NETWORK = (
+    subprocess.run(f"unshare -n {UP}", shell=True, capture_output=True, check=False).returncode == 0
+)
 LOST = "PROBLEM: A multicast datagram does not come back"
 NOBODY = "PROBLEM: No node is seen on domain"
 NO_WIRE = "PROBLEM: join domain"
@@ -271,7 +336,9 @@ NO_WIRE = "PROBLEM: join domain"
 )
 def test_the_multicast_of_a_real_network(run, network, problems):
     doctor = f"{network} && {Path(sys.executable).parent / 'turtlewire'} doctor"
-    program = run("unshare", "-n", "sh", "-c", doctor, environment={"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
+    program = run(
+        "unshare", "-n", "sh", "-c", doctor, environment={"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
+    )
     assert program.wait() == 1
     lines = [line for _, line in program.lines]
     found = [line for line in lines if line.startswith("PROBLEM")]

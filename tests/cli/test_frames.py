@@ -30,7 +30,15 @@ RED, BLUE = "\033[31m", "\033[34m"
 
 def put(buffer, parent, child, *ages_s, now_ns=NOW_NS, static=False, sender="/someone"):
     for age_s in ages_s:
-        why = buffer.set_transform(parent, child, now_ns - round(age_s * 1e9), (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), static, sender)
+        why = buffer.set_transform(
+            parent,
+            child,
+            now_ns - round(age_s * 1e9),
+            (1.0, 0.0, 0.0),
+            (0.0, 0.0, 0.0, 1.0),
+            static,
+            sender,
+        )
         assert not why
 
 
@@ -58,7 +66,13 @@ def test_stale_is_red_and_static_is_blue(buffer):
     lines = take_picture(buffer, NOW_NS).as_text(coloured=True)
     assert [line[:5] for line in lines if line.startswith("\033")] == [RED, BLUE]
     assert all(line.endswith("\033[0m") for line in lines if line.startswith("\033"))
-    assert [len(line) for line in take_picture(buffer, NOW_NS).as_text(columns=10)] == [5, 10, 10, 10, 10]
+    assert [len(line) for line in take_picture(buffer, NOW_NS).as_text(columns=10)] == [
+        5,
+        10,
+        10,
+        10,
+        10,
+    ]
 
 
 def test_a_slow_link_is_stale_after_three_of_its_periods():
@@ -74,7 +88,10 @@ def test_simulated_time_is_counted_from_the_newest_stamp():
     put(buffer, "world", "lost", 3.0, now_ns=20 * SECOND)
     picture = take_picture(buffer, NOW_NS)
     assert picture.now_ns == 20 * SECOND
-    assert [(row.frame, row.age_s, row.stale) for row in picture.rows[1:]] == [("robot", 0.0, False), ("lost", 3.0, True)]
+    assert [(row.frame, row.age_s, row.stale) for row in picture.rows[1:]] == [
+        ("robot", 0.0, False),
+        ("lost", 3.0, True),
+    ]
 
 
 def test_a_world_that_begins_anew_is_shown(buffer):
@@ -117,8 +134,22 @@ def test_a_tree_as_json(buffer):
     data = json.loads(take_picture(buffer, NOW_NS).as_json())
     assert data["now_ns"] == NOW_NS
     assert data["loops"] == []
-    assert [frame["frame"] for frame in data["frames"]] == ["world", "robot", "lost", "below", "camera"]
-    robot = {"frame": "robot", "parent": "world", "static": False, "age": 0.1, "rate": 10.0, "publishers": ["/someone"], "stale": False}
+    assert [frame["frame"] for frame in data["frames"]] == [
+        "world",
+        "robot",
+        "lost",
+        "below",
+        "camera",
+    ]
+    robot = {
+        "frame": "robot",
+        "parent": "world",
+        "static": False,
+        "age": 0.1,
+        "rate": 10.0,
+        "publishers": ["/someone"],
+        "stale": False,
+    }
     assert data["frames"][1] == robot
     assert (data["frames"][0]["parent"], data["frames"][4]["age"]) == (None, None)
 
@@ -126,7 +157,10 @@ def test_a_tree_as_json(buffer):
 def test_nothing_was_heard(capsys, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     assert main(["frames", "--once", "--period", "0.05"]) == 1
-    assert capsys.readouterr().out == f"No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={os.environ['ROS_DOMAIN_ID']}).\n"
+    assert (
+        capsys.readouterr().out
+        == f"No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={os.environ['ROS_DOMAIN_ID']}).\n"
+    )
 
 
 def test_what_cannot_be_a_period(capsys):
@@ -189,7 +223,13 @@ def test_json_and_once(run):
 @pytest.mark.usefixtures("talker")
 @pytest.mark.parametrize("no_color", ["", "1"])
 def test_a_terminal_is_redrawn_until_ctrl_c(run, no_color):
-    program = run(*COMMAND, "--period", "0.3", terminal=True, environment={"NO_COLOR": no_color, "PYTHONUTF8": "1"})
+    program = run(
+        *COMMAND,
+        "--period",
+        "0.3",
+        terminal=True,
+        environment={"NO_COLOR": no_color, "PYTHONUTF8": "1"},
+    )
     program.wait_for(r"─ map +static", count=2)
     program.type("\x03")
     assert program.wait() == 130

@@ -45,20 +45,41 @@ def show(substitution=COLOUR):
 
 
 def test_configurations_are_global(launch):
-    outcome = launch(SetLaunchConfiguration("colour", "green"), show(), UnsetLaunchConfiguration("colour"), show())
+    outcome = launch(
+        SetLaunchConfiguration("colour", "green"),
+        show(),
+        UnsetLaunchConfiguration("colour"),
+        show(),
+    )
     assert outcome.messages == ["it is green", "it is none"]
     assert outcome.status == 0
 
 
 def test_configurations_can_be_pushed(launch):
-    change = [PushLaunchConfigurations(), SetLaunchConfiguration("colour", "red"), show(), PopLaunchConfigurations(), show()]
-    assert launch(SetLaunchConfiguration("colour", "green"), *change).messages == ["it is red", "it is green"]
-    assert launch(PopLaunchConfigurations()).error == "launch configurations stack unexpectedly empty"
+    change = [
+        PushLaunchConfigurations(),
+        SetLaunchConfiguration("colour", "red"),
+        show(),
+        PopLaunchConfigurations(),
+        show(),
+    ]
+    assert launch(SetLaunchConfiguration("colour", "green"), *change).messages == [
+        "it is red",
+        "it is green",
+    ]
+    assert (
+        launch(PopLaunchConfigurations()).error == "launch configurations stack unexpectedly empty"
+    )
 
 
 def test_configurations_can_be_reset(launch):
     kept = ResetLaunchConfigurations({"colour": [COLOUR, "ish"]})
-    outcome = launch(SetLaunchConfiguration("colour", "green"), SetLaunchConfiguration("other", "1"), kept, show())
+    outcome = launch(
+        SetLaunchConfiguration("colour", "green"),
+        SetLaunchConfiguration("other", "1"),
+        kept,
+        show(),
+    )
     assert outcome.messages == ["it is greenish"]
     assert "other" not in outcome.context.launch_configurations
 
@@ -66,27 +87,43 @@ def test_configurations_can_be_reset(launch):
 def test_a_group_confines_what_is_set_in_it(launch, monkeypatch):
     monkeypatch.setenv("TURTLE", "outside")
     turtle = EnvironmentVariable("TURTLE")
-    inside = [SetLaunchConfiguration("colour", "red"), SetEnvironmentVariable("TURTLE", "inside"), show(), show(turtle)]
-    outcome = launch(SetLaunchConfiguration("colour", "green"), GroupAction(inside), show(), show(turtle))
+    inside = [
+        SetLaunchConfiguration("colour", "red"),
+        SetEnvironmentVariable("TURTLE", "inside"),
+        show(),
+        show(turtle),
+    ]
+    outcome = launch(
+        SetLaunchConfiguration("colour", "green"), GroupAction(inside), show(), show(turtle)
+    )
     assert outcome.messages == ["it is red", "it is inside", "it is green", "it is outside"]
 
 
 def test_a_group_without_scope_confines_nothing(launch):
-    assert launch(GroupAction([SetLaunchConfiguration("colour", "red")], scoped=False), show()).messages == ["it is red"]
+    assert launch(
+        GroupAction([SetLaunchConfiguration("colour", "red")], scoped=False), show()
+    ).messages == ["it is red"]
 
 
 def test_a_group_can_begin_with_its_own_configurations_alone(launch):
     group = GroupAction(
-        [show(), show(LaunchConfiguration("other", default="gone"))], forwarding=False, launch_configurations={"colour": COLOUR}
+        [show(), show(LaunchConfiguration("other", default="gone"))],
+        forwarding=False,
+        launch_configurations={"colour": COLOUR},
     )
-    outcome = launch(SetLaunchConfiguration("colour", "green"), SetLaunchConfiguration("other", "1"), group)
+    outcome = launch(
+        SetLaunchConfiguration("colour", "green"), SetLaunchConfiguration("other", "1"), group
+    )
     assert outcome.messages == ["it is green", "it is gone"]
 
 
 def test_environment_variables(launch, monkeypatch):
     monkeypatch.setenv("TURTLE", "a")
     monkeypatch.delenv("TURTLE_PATH", raising=False)
-    turtle, path = EnvironmentVariable("TURTLE", default_value="unset"), EnvironmentVariable("TURTLE_PATH")
+    turtle, path = (
+        EnvironmentVariable("TURTLE", default_value="unset"),
+        EnvironmentVariable("TURTLE_PATH"),
+    )
     outcome = launch(
         PushEnvironment(),
         SetEnvironmentVariable("TURTLE", "b"),
@@ -103,15 +140,21 @@ def test_environment_variables(launch, monkeypatch):
         ResetEnvironment(),
         show(turtle),
     )
-    assert outcome.messages == [f"it is {value}" for value in ("b", "unset", "a", f"z;x{os.pathsep}y", "a")]
+    assert outcome.messages == [
+        f"it is {value}" for value in ("b", "unset", "a", f"z;x{os.pathsep}y", "a")
+    ]
     assert launch(PopEnvironment()).error == "environment stack unexpectedly empty"
 
 
 def test_declared_arguments(launch):
-    assert launch(DeclareLaunchArgument("colour", default_value="green"), show()).messages == ["it is green"]
-    assert launch(SetLaunchConfiguration("colour", "red"), DeclareLaunchArgument("colour", default_value="x"), show()).messages == [
-        "it is red"
+    assert launch(DeclareLaunchArgument("colour", default_value="green"), show()).messages == [
+        "it is green"
     ]
+    assert launch(
+        SetLaunchConfiguration("colour", "red"),
+        DeclareLaunchArgument("colour", default_value="x"),
+        show(),
+    ).messages == ["it is red"]
 
 
 def test_a_required_argument_that_is_missing(launch):
@@ -125,7 +168,10 @@ def test_a_required_argument_that_is_missing(launch):
 def test_choices(launch):
     argument = DeclareLaunchArgument("colour", choices=["red", "green"], default_value="blue")
     assert argument.description == "One of: ['red', 'green']"
-    assert launch(argument).error == "Argument \"colour\" provided value \"blue\" is not valid. Valid options are: ['red', 'green']"
+    assert (
+        launch(argument).error
+        == "Argument \"colour\" provided value \"blue\" is not valid. Valid options are: ['red', 'green']"
+    )
     with pytest.raises(ValueError, match="Provided choices are empty"):
         DeclareLaunchArgument("colour", choices=[])
 
@@ -136,7 +182,9 @@ def included(*entities):
 
 def test_an_include_sets_arguments_before(launch):
     inner = included(DeclareLaunchArgument("colour", default_value="x"), show())
-    outcome = launch(IncludeLaunchDescription(inner, launch_arguments=[("colour", "green")]), show())
+    outcome = launch(
+        IncludeLaunchDescription(inner, launch_arguments=[("colour", "green")]), show()
+    )
     assert outcome.messages == ["it is green", "it is green"]
 
 
@@ -151,7 +199,9 @@ def test_an_included_file_knows_its_path(launch, tmp_path):
     inner = tmp_path / "inner.launch.xml"
     inner.write_text('<launch><log message="$(filename) in $(dirname)"/></launch>')
     outer = tmp_path / "outer.launch.yaml"
-    outer.write_text("launch:\n- include: {file: $(dirname)/inner.launch.xml}\n- log: {message: back in $(filename)}\n")
+    outer.write_text(
+        "launch:\n- include: {file: $(dirname)/inner.launch.xml}\n- log: {message: back in $(filename)}\n"
+    )
     outcome = launch(IncludeLaunchDescription(str(outer)))
     assert outcome.messages == [f"{inner} in {tmp_path}", f"back in {outer}"]
 
@@ -164,7 +214,9 @@ def test_functions(launch):
         return [show()] if "colour" in context.launch_configurations else None
 
     call = {"function": function, "args": [1], "kwargs": {"second": 2}}
-    assert launch(OpaqueFunction(**call), SetLaunchConfiguration("colour", "red"), OpaqueFunction(**call)).messages == ["it is red"]
+    assert launch(
+        OpaqueFunction(**call), SetLaunchConfiguration("colour", "red"), OpaqueFunction(**call)
+    ).messages == ["it is red"]
     assert seen == [(1, 2), (1, 2)]
     with pytest.raises(TypeError, match="expected a callable"):
         OpaqueFunction(function=3)
@@ -197,7 +249,10 @@ def test_a_coroutine_that_fails_ends_the_launch(launch):
 
 
 def test_timers(launch):
-    outcome = launch(TimerAction(period=0.02, actions=[LogInfo(msg="second")]), TimerAction(period="0.01", actions=[LogInfo(msg="first")]))
+    outcome = launch(
+        TimerAction(period=0.02, actions=[LogInfo(msg="second")]),
+        TimerAction(period="0.01", actions=[LogInfo(msg="first")]),
+    )
     assert outcome.messages == ["first", "second"]
 
 
@@ -212,11 +267,18 @@ def test_the_end_cancels_timers_unless_told_otherwise(launch):
 def test_shutdown_tells_why(launch):
     why = OnShutdown(on_shutdown=[LogInfo(msg=["why: ", LocalSubstitution("event.reason")])])
     assert launch(RegisterEventHandler(why), Shutdown(reason="enough")).messages == ["why: enough"]
-    assert launch(RegisterEventHandler(why), UnregisterEventHandler(why), EmitEvent(event=ShutdownEvent())).messages == []
+    assert (
+        launch(
+            RegisterEventHandler(why), UnregisterEventHandler(why), EmitEvent(event=ShutdownEvent())
+        ).messages
+        == []
+    )
     assert launch(RegisterEventHandler(why)).messages == ["why: idle"]
     assert "not in deque" in launch(UnregisterEventHandler(why)).error
 
 
 def test_only_events_are_emitted():
-    with pytest.raises(TypeError, match="Expected 'event' of EmitEvent to be of type 'Event', but got 'x'"):
+    with pytest.raises(
+        TypeError, match="Expected 'event' of EmitEvent to be of type 'Event', but got 'x'"
+    ):
         EmitEvent(event="x")

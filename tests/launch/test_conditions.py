@@ -15,14 +15,19 @@ from launch.conditions import (
 from launch.substitutions import LaunchConfiguration
 
 
-@pytest.mark.parametrize(("text", "holds"), [("true", True), ("True", True), ("1", True), (" 1 ", True), ("FALSE", False), ("0", False)])
+@pytest.mark.parametrize(
+    ("text", "holds"),
+    [("true", True), ("True", True), ("1", True), (" 1 ", True), ("FALSE", False), ("0", False)],
+)
 def test_texts_that_are_true_or_false(context, text, holds):
     assert IfCondition(text).evaluate(context) is holds
     assert UnlessCondition(text).evaluate(context) is not holds
 
 
 def test_other_texts_are_refused(context):
-    expected = r"invalid condition expression, expected one of 'true\|1' or 'false\|0' but got 'yes'"
+    expected = (
+        r"invalid condition expression, expected one of 'true\|1' or 'false\|0' but got 'yes'"
+    )
     with pytest.raises(InvalidConditionExpressionError, match=expected):
         IfCondition("yes").evaluate(context)
 

@@ -10,7 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler, SetLaunchConfiguration, Shutdown, TimerAction
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    LogInfo,
+    RegisterEventHandler,
+    SetLaunchConfiguration,
+    Shutdown,
+    TimerAction,
+)
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matchers
 from launch.events.process import ProcessStdin, ShutdownProcess, SignalProcess
@@ -23,7 +31,9 @@ HANDLES_SIGINT = "import signal\ntry: print('ready', flush=True); signal.pause()
 
 
 def python(code, **options):
-    return ExecuteProcess(cmd=[sys.executable, "-c", code], name="child", **{"output": "screen", **options})
+    return ExecuteProcess(
+        cmd=[sys.executable, "-c", code], name="child", **{"output": "screen", **options}
+    )
 
 
 def when_ready(process, *entities):
@@ -38,12 +48,16 @@ def when_ready(process, *entities):
 
 
 def log_lines(outcome, head):
-    return [re.sub(r"pid \[?\d+\]?", "pid N", line) for line in outcome.lines if re.match(head, line)]
+    return [
+        re.sub(r"pid \[?\d+\]?", "pid N", line) for line in outcome.lines if re.match(head, line)
+    ]
 
 
 def test_start_output_and_end(launch):
     outcome = launch(python("print('one'); print('two', end='')"))
-    (name,) = {line.split("]")[0][1:] for line in outcome.lines if re.match(r"\[child-\d+\] ", line)}
+    (name,) = {
+        line.split("]")[0][1:] for line in outcome.lines if re.match(r"\[child-\d+\] ", line)
+    }
     assert log_lines(outcome, rf"\[(INFO\] \[)?{name}") == [
         f"[INFO] [{name}]: process started with pid N",
         f"[{name}] one",
@@ -64,16 +78,26 @@ def test_a_child_that_dies_at_once(launch):
 def test_a_command_that_does_not_exist(launch):
     outcome = launch(ExecuteProcess(cmd=["no_such_program"]), LogInfo(msg="goes on"))
     assert outcome.messages == ["goes on"]
-    assert "exception occurred while executing process: [Errno 2] No such file or directory: 'no_such_program'" in outcome.text
+    assert (
+        "exception occurred while executing process: [Errno 2] No such file or directory: 'no_such_program'"
+        in outcome.text
+    )
 
 
 def test_bytes_that_are_no_text(launch):
-    outcome = launch(python("import os; os.write(1, b'a\\xff\\xfeb\\r\\nGr\\xc3\\xbc\\xc3\\x9fe\\n')"))
-    assert [line.split("] ")[1] for line in outcome.lines if line.startswith("[child")] == ["a\ufffd\ufffdb", "Grüße"]
+    outcome = launch(
+        python("import os; os.write(1, b'a\\xff\\xfeb\\r\\nGr\\xc3\\xbc\\xc3\\x9fe\\n')")
+    )
+    assert [line.split("] ")[1] for line in outcome.lines if line.startswith("[child")] == [
+        "a\ufffd\ufffdb",
+        "Grüße",
+    ]
 
 
 def test_huge_lines_and_much_output(launch):
-    outcome = launch(python("print('x' * 3_000_000); print('y' * 10); [print(i) for i in range(5000)]"))
+    outcome = launch(
+        python("print('x' * 3_000_000); print('y' * 10); [print(i) for i in range(5000)]")
+    )
     shown = [line.split("] ")[1] for line in outcome.lines if line.startswith("[child")]
     assert "".join(line for line in shown if line.startswith("x")) == "x" * 3_000_000
     assert "y" * 10 in shown
@@ -88,7 +112,11 @@ def test_print_is_seen_at_once(launch):
 def test_a_child_that_leaves_its_pipes_to_a_grandchild(launch):
     code = "import subprocess; print(subprocess.Popen(['sleep', '1000']).pid)"
     outcome = launch(python(code))
-    (pid,) = (int(match[1]) for line in outcome.lines if (match := re.match(r"\[child-\d+\] (\d+)$", line)))
+    (pid,) = (
+        int(match[1])
+        for line in outcome.lines
+        if (match := re.match(r"\[child-\d+\] (\d+)$", line))
+    )
     os.kill(pid, signal.SIGKILL)
     assert "process has finished cleanly" in outcome.text
 
@@ -96,19 +124,41 @@ def test_a_child_that_leaves_its_pipes_to_a_grandchild(launch):
 def test_command_lines(launch):
     outcome = launch(
         ExecuteProcess(cmd=["echo one | tr o 0"], shell=True, output="screen"),
-        ExecuteProcess(cmd=["echo", ["t", LaunchConfiguration("x", default="wo")]], output="screen", log_cmd=True, prefix="env Z=1"),
+        ExecuteProcess(
+            cmd=["echo", ["t", LaunchConfiguration("x", default="wo")]],
+            output="screen",
+            log_cmd=True,
+            prefix="env Z=1",
+        ),
         ExecuteProcess(cmd=["pwd"], cwd="/", output="screen"),
-        ExecuteProcess(cmd=["env"], env={"ONLY": "this"}, output="screen", output_format="<{line}>"),
-        ExecuteProcess(cmd=["sh", "-c", "echo more $MORE"], additional_env={"MORE": "that"}, output="screen"),
+        ExecuteProcess(
+            cmd=["env"], env={"ONLY": "this"}, output="screen", output_format="<{line}>"
+        ),
+        ExecuteProcess(
+            cmd=["sh", "-c", "echo more $MORE"], additional_env={"MORE": "that"}, output="screen"
+        ),
     )
-    for pattern in (r"\[echo one .*-\d+\] 0ne", r"\[echo-\d+\] two", r"\[pwd-\d+\] /", r"<ONLY=this>", r"\[sh-\d+\] more that"):
+    for pattern in (
+        r"\[echo one .*-\d+\] 0ne",
+        r"\[echo-\d+\] two",
+        r"\[pwd-\d+\] /",
+        r"<ONLY=this>",
+        r"\[sh-\d+\] more that",
+    ):
         assert any(re.fullmatch(pattern, line) for line in outcome.lines), (pattern, outcome.text)
     assert "process details: cmd='env Z=1 echo two', cwd='None'" in outcome.text
 
 
 def test_prefix_for_some(launch):
-    settings = [SetLaunchConfiguration("launch-prefix", "echo with"), SetLaunchConfiguration("launch-prefix-filter", "ech")]
-    outcome = launch(*settings, ExecuteProcess(cmd=["echo", "a"], output="screen"), ExecuteProcess(cmd=["printf", "b"], output="screen"))
+    settings = [
+        SetLaunchConfiguration("launch-prefix", "echo with"),
+        SetLaunchConfiguration("launch-prefix-filter", "ech"),
+    ]
+    outcome = launch(
+        *settings,
+        ExecuteProcess(cmd=["echo", "a"], output="screen"),
+        ExecuteProcess(cmd=["printf", "b"], output="screen"),
+    )
     assert any(line.endswith("] with echo a") for line in outcome.lines)
     assert any(line.endswith("] b") for line in outcome.lines)
 
@@ -122,14 +172,33 @@ BOTH_STREAMS = "import sys; print('out'); print('err', file=sys.stderr)"
         ("log", ["err"], ["err", "out"], {}),
         ("screen", ["err", "out"], [], {}),
         ("both", ["err", "out"], ["err", "out"], {}),
-        ("own_log", [], [], {".log": ["err", "out"], "-stdout.log": ["out"], "-stderr.log": ["err"]}),
-        ("full", ["err", "out"], ["err", "out"], {".log": ["err", "out"], "-stdout.log": ["out"], "-stderr.log": ["err"]}),
-        ({"stdout": "screen", "stderr": {"log", "own_log"}}, ["out"], ["err"], {"-stderr.log": ["err"]}),
+        (
+            "own_log",
+            [],
+            [],
+            {".log": ["err", "out"], "-stdout.log": ["out"], "-stderr.log": ["err"]},
+        ),
+        (
+            "full",
+            ["err", "out"],
+            ["err", "out"],
+            {".log": ["err", "out"], "-stdout.log": ["out"], "-stderr.log": ["err"]},
+        ),
+        (
+            {"stdout": "screen", "stderr": {"log", "own_log"}},
+            ["out"],
+            ["err"],
+            {"-stderr.log": ["err"]},
+        ),
     ],
 )
 def test_where_output_goes(launch, output, screen, main_log, own):
     def ends(text):
-        return sorted(found[1] for line in text.splitlines() if (found := re.search(r"\[child-\d+\] (out|err)$", line)))
+        return sorted(
+            found[1]
+            for line in text.splitlines()
+            if (found := re.search(r"\[child-\d+\] (out|err)$", line))
+        )
 
     outcome = launch(python(BOTH_STREAMS, output=output))
     assert ends(outcome.text) == screen
@@ -139,9 +208,13 @@ def test_where_output_goes(launch, output, screen, main_log, own):
 
 
 def test_an_output_that_does_not_exist(launch):
-    assert launch(python("", output="nowhere")).error.startswith("'nowhere' is not a valid standard output config i.e. one of: ")
+    assert launch(python("", output="nowhere")).error.startswith(
+        "'nowhere' is not a valid standard output config i.e. one of: "
+    )
     assert "is not a valid output source" in launch(python("", output={"stdin": "log"})).error
-    assert "is not a valid output destination" in launch(python("", output={"stdout": "paper"})).error
+    assert (
+        "is not a valid output destination" in launch(python("", output={"stdout": "paper"})).error
+    )
 
 
 def test_the_environment_overrides_where_output_goes(launch, monkeypatch):
@@ -158,7 +231,9 @@ def test_output_can_be_kept(launch):
 def test_a_process_may_find_a_terminal(launch):
     code = "import sys; print([stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)])"
     assert "] [False, False, False]" in launch(python(code)).text
-    assert "] [False, True, True]" in launch(python(code, emulate_tty=True)).text  # the test has no keyboard
+    assert (
+        "] [False, True, True]" in launch(python(code, emulate_tty=True)).text
+    )  # the test has no keyboard
 
 
 def test_shutdown_escalates(launch):
@@ -175,9 +250,15 @@ def test_shutdown_escalates(launch):
         return Shutdown() if len(ready) == 3 else None
 
     outcome = launch(polite, stubborn, deaf, RegisterEventHandler(OnProcessIO(on_stdout=answer)))
-    assert [process.return_code for process in (polite, stubborn, deaf)] == [0, -signal.SIGTERM, -signal.SIGKILL]
+    assert [process.return_code for process in (polite, stubborn, deaf)] == [
+        0,
+        -signal.SIGTERM,
+        -signal.SIGKILL,
+    ]
     names = [process.process_details["name"] for process in (polite, stubborn, deaf)]
-    steps = [line for line in outcome.lines if "failed to terminate" in line or "sending signal" in line]
+    steps = [
+        line for line in outcome.lines if "failed to terminate" in line or "sending signal" in line
+    ]
     assert sorted(steps) == sorted(
         [f"[INFO] [{name}]: sending signal 'SIGINT' to process[{name}]" for name in names]
         + [
@@ -197,15 +278,32 @@ def test_shutdown_escalates(launch):
 def test_single_processes_can_be_stopped_signalled_and_fed(launch):
     # Each stays until its own event comes; with the last of them the launch ends.
     stopped = python(HANDLES_SIGINT)
-    signalled = python("import signal\nsignal.signal(signal.SIGUSR1, lambda *_: exit(5))\nprint('ready')\nsignal.pause()")
+    signalled = python(
+        "import signal\nsignal.signal(signal.SIGUSR1, lambda *_: exit(5))\nprint('ready')\nsignal.pause()"
+    )
     fed = python("print('ready'); print('got', input())")
     outcome = launch(
         stopped,
         signalled,
         fed,
-        when_ready(stopped, EmitEvent(event=ShutdownProcess(process_matcher=matchers.matches_action(stopped)))),
-        when_ready(signalled, EmitEvent(event=SignalProcess(signal_number="SIGUSR1", process_matcher=lambda action: action is signalled))),
-        when_ready(fed, EmitEvent(event=ProcessStdin(text=b"this\n", process_matcher=lambda action: action is fed))),
+        when_ready(
+            stopped,
+            EmitEvent(event=ShutdownProcess(process_matcher=matchers.matches_action(stopped))),
+        ),
+        when_ready(
+            signalled,
+            EmitEvent(
+                event=SignalProcess(
+                    signal_number="SIGUSR1", process_matcher=lambda action: action is signalled
+                )
+            ),
+        ),
+        when_ready(
+            fed,
+            EmitEvent(
+                event=ProcessStdin(text=b"this\n", process_matcher=lambda action: action is fed)
+            ),
+        ),
     )
     assert [process.return_code for process in (stopped, signalled, fed)] == [0, 5, 0]
     assert "] got this" in outcome.text
@@ -227,9 +325,17 @@ def test_handlers_of_start_and_end(launch):
     seen = []
     outcome = launch(
         first,
-        RegisterEventHandler(OnProcessStart(target_action=first, on_start=[LogInfo(msg="first has started")])),
-        RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[LogInfo(msg="first has ended"), second])),
-        RegisterEventHandler(OnProcessExit(target_action=second, on_exit=lambda event, _: seen.append(event.returncode))),
+        RegisterEventHandler(
+            OnProcessStart(target_action=first, on_start=[LogInfo(msg="first has started")])
+        ),
+        RegisterEventHandler(
+            OnProcessExit(target_action=first, on_exit=[LogInfo(msg="first has ended"), second])
+        ),
+        RegisterEventHandler(
+            OnProcessExit(
+                target_action=second, on_exit=lambda event, _: seen.append(event.returncode)
+            )
+        ),
     )
     assert outcome.messages == ["first has started", "first has ended"]
     assert seen == [4]
@@ -237,10 +343,18 @@ def test_handlers_of_start_and_end(launch):
 
 def test_the_end_of_a_required_process_ends_the_launch(launch):
     required, other = python("pass", on_exit=Shutdown()), python(HANDLES_SIGINT)
-    handler = RegisterEventHandler(OnProcessIO(target_action=other, on_stdout=lambda event: required if b"ready" in event.text else None))
+    handler = RegisterEventHandler(
+        OnProcessIO(
+            target_action=other,
+            on_stdout=lambda event: required if b"ready" in event.text else None,
+        )
+    )
     outcome = launch(other, handler)
     name = required.process_details["name"]
-    assert f"[INFO] [launch]: process[{name}] was required: shutting down launched system" in outcome.lines
+    assert (
+        f"[INFO] [launch]: process[{name}] was required: shutting down launched system"
+        in outcome.lines
+    )
     assert other.return_code == 0
 
 
@@ -248,12 +362,18 @@ def test_respawn_has_limits(launch):
     process = python("print('run')", respawn=True, respawn_max_retries=2)
     outcome = launch(process)
     assert sum(line.endswith("] run") for line in outcome.lines) == 3
-    assert outcome.text.count("process started with pid") == outcome.text.count("process has finished cleanly") == 3
+    assert (
+        outcome.text.count("process started with pid")
+        == outcome.text.count("process has finished cleanly")
+        == 3
+    )
 
 
 def test_the_end_of_the_launch_ends_respawns(launch):
     process = python("print('run')", respawn="true", respawn_delay=100.0)
-    outcome = launch(process, RegisterEventHandler(OnProcessExit(target_action=process, on_exit=[Shutdown()])))
+    outcome = launch(
+        process, RegisterEventHandler(OnProcessExit(target_action=process, on_exit=[Shutdown()]))
+    )
     assert sum(line.endswith("] run") for line in outcome.lines) == 1
 
 
@@ -263,5 +383,8 @@ def test_it_is_executed_once(launch):
 
 
 def test_no_process_starts_after_the_end(launch):
-    outcome = launch(Shutdown(), TimerAction(period=0.0, actions=[python("print('never')")], cancel_on_shutdown=False))
+    outcome = launch(
+        Shutdown(),
+        TimerAction(period=0.0, actions=[python("print('never')")], cancel_on_shutdown=False),
+    )
     assert "never" not in outcome.text

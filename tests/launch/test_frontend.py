@@ -95,13 +95,25 @@ def test_shutdown(launch_file):
 
 def test_actions(launch_file):
     outcome = launch_file(XML, YAML, ("who", "turtle"))
-    assert outcome.messages == ["hello turtle", "always", "b+a", "inside none", "12 gone", "hello turtle b+a", "gone", "gone", "later"]
+    assert outcome.messages == [
+        "hello turtle",
+        "always",
+        "b+a",
+        "inside none",
+        "12 gone",
+        "hello turtle b+a",
+        "gone",
+        "gone",
+        "later",
+    ]
     assert "OUT green turtle turtle" in outcome.lines
     assert outcome.status == 0
 
 
 def test_choices(launch_file):
-    assert launch_file(XML, YAML, ("who", "nobody")).error.endswith("is not valid. Valid options are: ['world', 'turtle']")
+    assert launch_file(XML, YAML, ("who", "nobody")).error.endswith(
+        "is not valid. Valid options are: ['world', 'turtle']"
+    )
 
 
 def test_descriptions_are_unescaped(tmp_path):
@@ -112,22 +124,37 @@ def test_descriptions_are_unescaped(tmp_path):
 
 
 def test_includes_with_arguments(launch_file, tmp_path):
-    (tmp_path / "inner.launch.xml").write_text("<launch><arg name='who'/><log message='$(var who)'/></launch>")
+    (tmp_path / "inner.launch.xml").write_text(
+        "<launch><arg name='who'/><log message='$(var who)'/></launch>"
+    )
     xml = "<launch><include file='$(dirname)/inner.launch.xml'><arg name='who' value='me'/></include></launch>"
     yaml = "launch: [{include: {file: $(dirname)/inner.launch.xml, arg: [{name: who, value: me}]}}]"
     assert launch_file(xml, yaml).messages == ["me"]
 
 
 def test_processes(launch_file):
-    attributes = {"respawn": "false", "respawn_delay": "1.0", "respawn_max_retries": "1", "shell": "true", "emulate_tty": "false"}
-    attributes |= {"sigterm_timeout": "1", "sigkill_timeout": "$(var none 2)", "launch-prefix": "env", "on_exit": "shutdown"}
+    attributes = {
+        "respawn": "false",
+        "respawn_delay": "1.0",
+        "respawn_max_retries": "1",
+        "shell": "true",
+        "emulate_tty": "false",
+    }
+    attributes |= {
+        "sigterm_timeout": "1",
+        "sigkill_timeout": "$(var none 2)",
+        "launch-prefix": "env",
+        "on_exit": "shutdown",
+    }
     xml = (
         "<launch><executable cmd='echo a' output='screen' "
         + " ".join(f"{name}='{value}'" for name, value in attributes.items())
         + "/></launch>"
     )
     yaml = (
-        "launch: [{executable: {cmd: echo a, output: screen, " + ", ".join(f"{name}: {value}" for name, value in attributes.items()) + "}}]"
+        "launch: [{executable: {cmd: echo a, output: screen, "
+        + ", ".join(f"{name}: {value}" for name, value in attributes.items())
+        + "}}]"
     )
     outcome = launch_file(xml, yaml)
     assert "was required: shutting down launched system" in outcome.text
@@ -137,15 +164,27 @@ def test_processes(launch_file):
 @pytest.mark.parametrize(
     ("xml", "yaml", "error"),
     [
-        ("<log/>", "log: {}", "Attribute 'message' of type '<class 'str'>' not found in Entity 'log'"),
+        (
+            "<log/>",
+            "log: {}",
+            "Attribute 'message' of type '<class 'str'>' not found in Entity 'log'",
+        ),
         (
             "<log message='a' if='1' unless='1'/>",
             "log: {message: a, if: '1', unless: '1'}",
             "if and unless conditions can't be used simultaneously",
         ),
-        ("<log message='a' colour='b'/>", "log: {message: a, colour: b}", " found in `log`: {'colour'}"),
+        (
+            "<log message='a' colour='b'/>",
+            "log: {message: a, colour: b}",
+            " found in `log`: {'colour'}",
+        ),
         ("<log message='$(nope a)'/>", "log: {message: $(nope a)}", "Unknown substitution: nope"),
-        ("<log message='$(var a'/>", "log: {message: $(var a}", "the substitution '$(var a' is not closed by ')'"),
+        (
+            "<log message='$(var a'/>",
+            "log: {message: $(var a}",
+            "the substitution '$(var a' is not closed by ')'",
+        ),
         (
             "<executable cmd='a' on_exit='x'/>",
             "executable: {cmd: a, on_exit: x}",

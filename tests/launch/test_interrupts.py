@@ -47,7 +47,9 @@ def test_ctrl_c_in_a_terminal_reaches_the_children_by_itself(ros2_launch):
     assert launch.wait() == 0
     assert launch.text.count("bye") == launch.text.count("process has finished cleanly") == 2
     assert "sending signal" not in launch.text
-    assert "\x1b[33mWARNING\x1b[0m] [launch]: user interrupted with ctrl-c (SIGINT)" in launch.text  # yellow, as it is a terminal
+    assert (
+        "\x1b[33mWARNING\x1b[0m] [launch]: user interrupted with ctrl-c (SIGINT)" in launch.text
+    )  # yellow, as it is a terminal
     assert launch.survivors() == []
 
 
@@ -75,7 +77,10 @@ def test_a_second_ctrl_c_is_ignored(ros2_launch):
     launch.type("\x03")
     launch.wait_for(r"user interrupted with ctrl-c \(SIGINT\) again, ignoring\.\.\.$")
     assert launch.wait() == 0
-    assert "failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to 'SIGTERM'" in launch.text
+    assert (
+        "failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
+        in launch.text
+    )
     assert "process has died [pid" in launch.text
     assert launch.survivors() == []
 
@@ -86,7 +91,10 @@ def test_sigterm_stops_the_children_too(ros2_launch, signum):
     launch.wait_for(r"\[child-\d\] ready", count=2)
     os.kill(launch.process.pid, signum)
     assert launch.wait() == 1
-    assert rf"[ERROR] [launch]: user interrupted with ctrl-\ ({signum.name}), terminating..." in launch.text
+    assert (
+        rf"[ERROR] [launch]: user interrupted with ctrl-\ ({signum.name}), terminating..."
+        in launch.text
+    )
     assert launch.text.count("bye") == 2
     assert launch.survivors() == []
 
@@ -116,7 +124,9 @@ def test_ctrl_c_while_starting(ros2_launch, moment):
 
 
 def test_ctrl_c_before_a_timer_has_started_anything(ros2_launch):
-    launch = ros2_launch(HEAD + "TimerAction(period=100.0, actions=[child(WAITS)]), LogInfo(msg='waiting')])")
+    launch = ros2_launch(
+        HEAD + "TimerAction(period=100.0, actions=[child(WAITS)]), LogInfo(msg='waiting')])"
+    )
     launch.wait_for("waiting")
     os.kill(launch.process.pid, signal.SIGINT)
     assert launch.wait() == 0
@@ -124,7 +134,10 @@ def test_ctrl_c_before_a_timer_has_started_anything(ros2_launch):
 
 
 def test_insisting_ends_a_launch_file_that_hangs(ros2_launch):
-    launch = ros2_launch("import signal\nwhile True:\n    print('hanging', flush=True)\n    signal.pause()\n", terminal=True)
+    launch = ros2_launch(
+        "import signal\nwhile True:\n    print('hanging', flush=True)\n    signal.pause()\n",
+        terminal=True,
+    )
     for count in (1, 2, 3):
         launch.wait_for("hanging", count=count)
         launch.type("\x03")
@@ -134,7 +147,12 @@ def test_insisting_ends_a_launch_file_that_hangs(ros2_launch):
 
 def test_a_reader_that_goes_away_ends_the_launch(run, tmp_path):
     (tmp_path / "test.launch.py").write_text(HEAD + "child('while True: print(1)')])")
-    shell = run("bash", "-c", f"{Path(sys.executable).parent}/ros2 launch ./test.launch.py 2>&1 | head -n 5", cwd=tmp_path)
+    shell = run(
+        "bash",
+        "-c",
+        f"{Path(sys.executable).parent}/ros2 launch ./test.launch.py 2>&1 | head -n 5",
+        cwd=tmp_path,
+    )
     assert shell.wait() == 0
     assert len(shell.lines) == 5
     assert "Error" not in shell.text

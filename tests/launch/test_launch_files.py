@@ -51,7 +51,9 @@ def generate_launch_description():
 def test_python(launch, file, tmp_path, source):
     path = file("x.launch.py", GOOD)
     assert launch(IncludeLaunchDescription(source(path))).messages == ["from the file"]
-    assert [entry.name for entry in tmp_path.iterdir() if entry.name != "log"] == ["x.launch.py"]  # no bytecode beside it
+    assert [entry.name for entry in tmp_path.iterdir() if entry.name != "log"] == [
+        "x.launch.py"
+    ]  # no bytecode beside it
     source = source([str(tmp_path), "/", LaunchConfiguration("name", default="x.launch.py")])
     assert source.try_get_launch_description_without_context() is None
     assert source.location == f"'{tmp_path}' + '/' + LaunchConfig('name')"
@@ -67,7 +69,14 @@ def test_python_without_the_function(file):
 @pytest.mark.parametrize(
     ("name", "content", "errors"),
     [
-        ("x.launch.py", "def f(:", ["SyntaxError: invalid syntax (x.launch.py, line 1)", "RuntimeError: Expected 'launch' as root tag"]),
+        (
+            "x.launch.py",
+            "def f(:",
+            [
+                "SyntaxError: invalid syntax (x.launch.py, line 1)",
+                "RuntimeError: Expected 'launch' as root tag",
+            ],
+        ),
         (
             "x.launch.py",
             "def generate_launch_description():\n    raise ValueError('boom')",
@@ -107,20 +116,29 @@ def test_python_without_the_function(file):
             ],
         ),
         ("x.launch.yaml", "start: []", ["RuntimeError: Expected 'launch' as root tag"]),
-        ("x.launch.yaml", "launch:\n- jump: {}\n", ["RuntimeError: Unrecognized entity of the type: jump"]),
+        (
+            "x.launch.yaml",
+            "launch:\n- jump: {}\n",
+            ["RuntimeError: Unrecognized entity of the type: jump"],
+        ),
     ],
 )
 def test_malformed_files(launch, file, name, content, errors):
     outcome = launch(IncludeLaunchDescription(file(name, content)))
     assert outcome.status == 1
-    assert outcome.error == f"Caught multiple exceptions when trying to load file of format [{name.rpartition('.')[2]}]:"
+    assert (
+        outcome.error
+        == f"Caught multiple exceptions when trying to load file of format [{name.rpartition('.')[2]}]:"
+    )
     listed = [line.removeprefix(" - ") for line in outcome.lines if line.startswith(" - ")]
     assert listed[: len(errors)] == errors
     assert len(listed) == 2
 
 
 def test_a_file_that_is_not_there(launch):
-    assert launch(IncludeLaunchDescription("nowhere.launch.py")).error.endswith("No such file or directory: 'nowhere.launch.py'")
+    assert launch(IncludeLaunchDescription("nowhere.launch.py")).error.endswith(
+        "No such file or directory: 'nowhere.launch.py'"
+    )
 
 
 def test_text_of_another_encoding(launch, tmp_path):
@@ -130,7 +148,9 @@ def test_text_of_another_encoding(launch, tmp_path):
 
 def test_a_frontend_source_reads_all_languages(launch, file):
     path = file("x.launch.xml", "<launch><log message='hello'/></launch>")
-    assert launch(IncludeLaunchDescription(FrontendLaunchDescriptionSource(path))).messages == ["hello"]
+    assert launch(IncludeLaunchDescription(FrontendLaunchDescriptionSource(path))).messages == [
+        "hello"
+    ]
 
 
 def test_a_source_without_description_or_loader():
@@ -141,7 +161,9 @@ def test_a_source_without_description_or_loader():
 
 def test_a_deprecated_description_warns(launch, capsys):
     outcome = launch(LaunchDescription([], deprecated_reason="use the other"))
-    assert "[WARNING] [launch]: This LaunchDescription is deprecated: use the other" in outcome.lines
+    assert (
+        "[WARNING] [launch]: This LaunchDescription is deprecated: use the other" in outcome.lines
+    )
 
 
 def test_arguments_of_a_description_and_of_those_it_includes():
@@ -157,17 +179,32 @@ def test_arguments_of_a_description_and_of_those_it_includes():
         ]
     )
     found = description.get_launch_arguments()
-    assert [argument.name for argument in found] == ["outer", "inner", "later", "conditional", "grouped"]
-    assert [argument.name for argument in found if argument._conditionally_included] == ["later", "conditional"]
+    assert [argument.name for argument in found] == [
+        "outer",
+        "inner",
+        "later",
+        "conditional",
+        "grouped",
+    ]
+    assert [argument.name for argument in found if argument._conditionally_included] == [
+        "later",
+        "conditional",
+    ]
 
 
 def test_the_tree_of_a_description():
-    process = ExecuteProcess(cmd=["echo", LaunchConfiguration("x")], env={"A": "b"}, on_exit=[Shutdown()])
+    process = ExecuteProcess(
+        cmd=["echo", LaunchConfiguration("x")], env={"A": "b"}, on_exit=[Shutdown()]
+    )
     description = LaunchDescription(
         [
             LogInfo(msg=["a ", LaunchConfiguration("x")]),
-            TimerAction(period=2.0, actions=[EmitEvent(event=Shutdown().event), LogInfo(msg="later")]),
-            RegisterEventHandler(OnProcessExit(target_action=process, on_exit=[LogInfo(msg="ended")])),
+            TimerAction(
+                period=2.0, actions=[EmitEvent(event=Shutdown().event), LogInfo(msg="later")]
+            ),
+            RegisterEventHandler(
+                OnProcessExit(target_action=process, on_exit=[LogInfo(msg="ended")])
+            ),
             process,
         ]
     )
@@ -175,12 +212,24 @@ def test_the_tree_of_a_description():
     assert lines[1] == "├── LogInfo('a ' + LaunchConfig('x'))"
     assert lines[2] == "├── Action('TimerAction(period='2.0', actions=<actions>)')"
     assert lines[3] == "│   └── after '2.0' sec"
-    assert lines[4:6] == ["│       ├── EmitEvent(event='launch.events.Shutdown')", "│       └── LogInfo('later')"]
-    assert lines[6].startswith("├── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit object at ")
-    assert lines[7].startswith("│   └── OnProcessExit(matcher='event == ProcessExited and event.action == <launch.actions.execute_process.")
+    assert lines[4:6] == [
+        "│       ├── EmitEvent(event='launch.events.Shutdown')",
+        "│       └── LogInfo('later')",
+    ]
+    assert lines[6].startswith(
+        "├── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit object at "
+    )
+    assert lines[7].startswith(
+        "│   └── OnProcessExit(matcher='event == ProcessExited and event.action == <launch.actions.execute_process."
+    )
     assert lines[8] == "│       └── LogInfo('ended')"
-    assert lines[9] == "└── ExecuteProcess(cmd=['echo', LaunchConfig('x')], cwd=None, env={'A': 'b'}, shell=False)"
-    assert lines[10].startswith("    └── process '[[<launch.substitutions.text_substitution.TextSubstitution object at ")
+    assert (
+        lines[9]
+        == "└── ExecuteProcess(cmd=['echo', LaunchConfig('x')], cwd=None, env={'A': 'b'}, shell=False)"
+    )
+    assert lines[10].startswith(
+        "    └── process '[[<launch.substitutions.text_substitution.TextSubstitution object at "
+    )
     assert lines[11] == "        └── EmitEvent(event='launch.events.Shutdown')"
 
 
@@ -199,7 +248,11 @@ def generate_launch_description():
 @pytest.mark.parametrize(
     ("name", "content", "line"),
     [
-        ("x.launch.py", "import os\n\ndef generate_launch_description():\n    return os.nope()\n", 4),
+        (
+            "x.launch.py",
+            "import os\n\ndef generate_launch_description():\n    return os.nope()\n",
+            4,
+        ),
         ("x.launch.py", "from launch import LaunchDescription\nimport nowhere_at_all\n", 2),
         (
             "x.launch.py",

@@ -8,7 +8,15 @@ import pytest
 
 from launch import EventHandler, LaunchDescription, LaunchService
 from launch.action import Action
-from launch.actions import EmitEvent, ExecuteProcess, LogInfo, OpaqueFunction, RegisterEventHandler, Shutdown, TimerAction
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    LogInfo,
+    OpaqueFunction,
+    RegisterEventHandler,
+    Shutdown,
+    TimerAction,
+)
 from launch.event import Event
 from launch.event_handlers import OnExecutionComplete, OnProcessStart, OnShutdown
 
@@ -25,15 +33,25 @@ def is_ping(event):
 
 
 def on_ping(text, **options):
-    return RegisterEventHandler(EventHandler(matcher=is_ping, entities=[LogInfo(msg=text)], **options))
+    return RegisterEventHandler(
+        EventHandler(matcher=is_ping, entities=[LogInfo(msg=text)], **options)
+    )
 
 
 def test_newest_handlers_come_first(launch):
-    assert launch(on_ping("old"), on_ping("new"), EmitEvent(event=Ping())).messages == ["new", "old"]
+    assert launch(on_ping("old"), on_ping("new"), EmitEvent(event=Ping())).messages == [
+        "new",
+        "old",
+    ]
 
 
 def test_a_handler_may_handle_once(launch):
-    assert launch(on_ping("once", handle_once=True), on_ping("each"), EmitEvent(event=Ping()), EmitEvent(event=Ping())).messages == [
+    assert launch(
+        on_ping("once", handle_once=True),
+        on_ping("each"),
+        EmitEvent(event=Ping()),
+        EmitEvent(event=Ping()),
+    ).messages == [
         "each",
         "once",
         "each",
@@ -51,9 +69,15 @@ def test_a_handler_function_gets_event_and_context(launch):
 
 def test_events_are_handled_in_the_order_of_their_emission(launch):
     def again(event, _context):
-        return [LogInfo(msg=str(event.number)), *([EmitEvent(event=Ping(event.number - 1))] if event.number else [])]
+        return [
+            LogInfo(msg=str(event.number)),
+            *([EmitEvent(event=Ping(event.number - 1))] if event.number else []),
+        ]
 
-    assert launch(RegisterEventHandler(EventHandler(matcher=is_ping, entities=again)), EmitEvent(event=Ping(3))).messages == list("3210")
+    assert launch(
+        RegisterEventHandler(EventHandler(matcher=is_ping, entities=again)),
+        EmitEvent(event=Ping(3)),
+    ).messages == list("3210")
 
 
 def test_a_handler_that_fails_ends_the_launch_after_the_other_handlers(launch):
@@ -86,12 +110,17 @@ def test_completion(launch):
     def done(event, _context):
         return LogInfo(msg=f"done {type(event.action).__name__}")
 
-    handlers = [RegisterEventHandler(OnExecutionComplete(target_action=action, on_completion=done)) for action in (timer, log)]
+    handlers = [
+        RegisterEventHandler(OnExecutionComplete(target_action=action, on_completion=done))
+        for action in (timer, log)
+    ]
     assert launch(*handlers, timer, log).messages == ["x", "done LogInfo", "done TimerAction"]
 
 
 def test_matchers_must_match_actions():
-    with pytest.raises(ValueError, match="action_matcher must be a 'ExecuteLocal' instance or a callable"):
+    with pytest.raises(
+        ValueError, match="action_matcher must be a 'ExecuteLocal' instance or a callable"
+    ):
         OnProcessStart(target_action=LogInfo(msg="x"), on_start=[])
 
 
@@ -108,7 +137,10 @@ def test_debug_shows_tracebacks_and_events(launch):
 
     text = launch(OpaqueFunction(function=fail), debug=True).text
     assert "[DEBUG] [launch]: Traceback (most recent call last):" in text
-    assert "[DEBUG] [launch.launch_context]: emitting event synchronously: 'launch.events.IncludeLaunchDescription'" in text
+    assert (
+        "[DEBUG] [launch.launch_context]: emitting event synchronously: 'launch.events.IncludeLaunchDescription'"
+        in text
+    )
     assert "[INFO] [launch]: Default logging verbosity is set to DEBUG" in text
 
 
@@ -120,7 +152,9 @@ def test_another_thread_can_end_it(launch):
         threads[0].start()
 
     process = ExecuteProcess(cmd=["sleep", "100"])
-    outcome = launch(process, RegisterEventHandler(OnProcessStart(on_start=lambda _, context: end(context))))
+    outcome = launch(
+        process, RegisterEventHandler(OnProcessStart(on_start=lambda _, context: end(context)))
+    )
     threads[0].join()
     assert outcome.status == 0
     assert process.return_code == -2
@@ -134,7 +168,9 @@ def test_it_runs_in_another_thread_too():
         OnProcessStart(on_start=lambda *_: started.set()),
         OnShutdown(on_shutdown=lambda *_: ended.set()),
     ]
-    service.include_launch_description(LaunchDescription([process, *map(RegisterEventHandler, handlers)]))
+    service.include_launch_description(
+        LaunchDescription([process, *map(RegisterEventHandler, handlers)])
+    )
     statuses = []
     thread = threading.Thread(target=lambda: statuses.append(service.run()))
     thread.start()
@@ -153,7 +189,9 @@ def test_it_can_stay_though_idle():
     thread.start()
     seen = threading.Event()
     handler = EventHandler(matcher=is_ping, entities=lambda *_: seen.set())
-    service.include_launch_description(LaunchDescription([RegisterEventHandler(handler), EmitEvent(event=Ping())]))
+    service.include_launch_description(
+        LaunchDescription([RegisterEventHandler(handler), EmitEvent(event=Ping())])
+    )
     assert seen.wait(30)
     assert thread.is_alive()
     service.shutdown()

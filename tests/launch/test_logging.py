@@ -33,7 +33,9 @@ def test_default_folder(monkeypatch):
 def test_a_folder_that_cannot_be_made_is_named_with_the_remedy(tmp_path):
     blocked = tmp_path / "file"
     blocked.touch()
-    with pytest.raises(RuntimeError, match=r"cannot make the log folder .*Not a directory.*ROS_LOG_DIR"):
+    with pytest.raises(
+        RuntimeError, match=r"cannot make the log folder .*Not a directory.*ROS_LOG_DIR"
+    ):
         directory.make_launch_log_dir(str(blocked / "log"))
 
 
@@ -50,7 +52,11 @@ def test_each_launch_has_a_folder_and_the_last_one_a_link(launch, tmp_path):
 def test_files_have_times_and_the_screen_has_none(launch):
     outcome = launch(LogInfo(msg="hello"))
     assert "[INFO] [launch.user]: hello" in outcome.lines
-    assert re.search(r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$", (outcome.log_dir / "launch.log").read_text(), re.MULTILINE)
+    assert re.search(
+        r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$",
+        (outcome.log_dir / "launch.log").read_text(),
+        re.MULTILINE,
+    )
 
 
 def test_the_environment_sets_formats(launch, monkeypatch):
@@ -64,12 +70,16 @@ def test_the_environment_sets_formats(launch, monkeypatch):
 def test_times_on_the_screen(launch, monkeypatch):
     monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "default_with_timestamp")
     outcome = launch(LogInfo(msg="hello"), ExecuteProcess(cmd=["echo", "there"], output="screen"))
-    assert re.search(r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$", outcome.text, re.MULTILINE)
+    assert re.search(
+        r"^\d{10}\.\d{7} \[INFO\] \[launch\.user\]: hello$", outcome.text, re.MULTILINE
+    )
     assert re.search(r"^\d{10}\.\d{7} \[echo-\d+\] there$", outcome.text, re.MULTILINE)
 
 
 def test_other_styles_of_formats_are_refused():
-    with pytest.raises(ValueError, match=r"only the style '\{' of log formats is supported, not '%'"):
+    with pytest.raises(
+        ValueError, match=r"only the style '\{' of log formats is supported, not '%'"
+    ):
         logging.launch_config.set_screen_format("%(message)s", screen_style="%")
 
 

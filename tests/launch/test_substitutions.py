@@ -38,7 +38,10 @@ def test_launch_configuration(context):
     context.launch_configurations["colour"] = "green"
     assert LaunchConfiguration("colour").perform(context) == "green"
     assert LaunchConfiguration(["col", TextSubstitution(text="our")]).perform(context) == "green"
-    assert LaunchConfiguration("none", default=["a", LaunchConfiguration("colour")]).perform(context) == "agreen"
+    assert (
+        LaunchConfiguration("none", default=["a", LaunchConfiguration("colour")]).perform(context)
+        == "agreen"
+    )
     assert LaunchConfiguration("none", default=5).perform(context) == "5"
     assert LaunchConfiguration("colour").describe() == "LaunchConfig('colour')"
     with pytest.raises(SubstitutionFailure, match=r"^launch configuration 'none' does not exist$"):
@@ -50,7 +53,9 @@ def test_environment_variable(context, monkeypatch):
     assert EnvironmentVariable("TURTLE_COLOUR").perform(context) == "red"
     monkeypatch.delenv("TURTLE_COLOUR")
     assert EnvironmentVariable("TURTLE_COLOUR", default_value="").perform(context) == ""
-    with pytest.raises(SubstitutionFailure, match=r"^environment variable 'TURTLE_COLOUR' does not exist$"):
+    with pytest.raises(
+        SubstitutionFailure, match=r"^environment variable 'TURTLE_COLOUR' does not exist$"
+    ):
         EnvironmentVariable("TURTLE_COLOUR").perform(context)
 
 
@@ -108,7 +113,10 @@ def test_if_else(context):
 
 def test_python_expression(context):
     context.launch_configurations["count"] = "3"
-    assert PythonExpression([LaunchConfiguration("count"), " * 2 + int(sqrt(4))"]).perform(context) == "8"
+    assert (
+        PythonExpression([LaunchConfiguration("count"), " * 2 + int(sqrt(4))"]).perform(context)
+        == "8"
+    )
     assert PythonExpression(["os.sep.join(['a'])"], python_modules=["os"]).perform(context) == "a"
     assert PythonExpression("1 +").describe() == "PythonExpr('1 +', ['math'])"
     with pytest.raises(SubstitutionFailure, match="division by zero"):
@@ -130,7 +138,9 @@ def test_command(context, capsys):
         Command([python, " -c 'raise SystemExit(3)'"]).perform(context)
     with pytest.raises(SubstitutionFailure, match="file not found"):
         Command("no_such_program").perform(context)
-    with pytest.raises(SubstitutionFailure, match="expected one of: 'fail', 'ignore', 'warn' or 'capture'"):
+    with pytest.raises(
+        SubstitutionFailure, match="expected one of: 'fail', 'ignore', 'warn' or 'capture'"
+    ):
         Command("true", on_stderr="perhaps").perform(context)
 
 
@@ -140,7 +150,9 @@ def test_files(context, tmp_path):
     with pytest.raises(SubstitutionFailure, match=r"Failed to read file 'nowhere'"):
         FileContent("nowhere").perform(context)
     assert os.path.basename(FindExecutable(name="sh").perform(context)) == "sh"
-    with pytest.raises(SubstitutionFailure, match=r"^executable 'no_such_program' not found on the PATH$"):
+    with pytest.raises(
+        SubstitutionFailure, match=r"^executable 'no_such_program' not found on the PATH$"
+    ):
         FindExecutable(name="no_such_program").perform(context)
 
 

@@ -22,7 +22,11 @@ def test_the_demo_in_one_process(run):
     launch.wait_for(r"\[sim\]: Spawning turtle \[turtle2\]")
     os.kill(launch.process.pid, signal.SIGINT)
     assert launch.wait() == 0
-    assert launch.text.count("process started with pid") == launch.text.count("process has finished cleanly") == 1
+    assert (
+        launch.text.count("process started with pid")
+        == launch.text.count("process has finished cleanly")
+        == 1
+    )
     assert "Traceback" not in launch.text
     assert launch.survivors() == []
 

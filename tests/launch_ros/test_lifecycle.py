@@ -6,7 +6,14 @@ import sys
 
 import pytest
 
-from launch.actions import EmitEvent, ExecuteProcess, IncludeLaunchDescription, LogInfo, RegisterEventHandler, Shutdown
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    IncludeLaunchDescription,
+    LogInfo,
+    RegisterEventHandler,
+    Shutdown,
+)
 from launch.event_handlers import OnExecutionComplete
 from launch.events.matchers import matches_action
 from launch_ros.actions import LifecycleNode, LifecycleTransition, RosTimer, SetUseSimTime
@@ -46,7 +53,11 @@ def managed(tmp_path):
 
 def test_states_become_events_and_events_change_states(launch, managed):
     def change(transition):
-        return EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_action(managed), transition_id=transition))
+        return EmitEvent(
+            event=ChangeState(
+                lifecycle_node_matcher=matches_action(managed), transition_id=transition
+            )
+        )
 
     seen = []
 
@@ -55,8 +66,16 @@ def test_states_become_events_and_events_change_states(launch, managed):
 
     outcome = launch(
         RegisterEventHandler(OnStateTransition(entities=remember)),
-        RegisterEventHandler(OnStateTransition(target_lifecycle_node=managed, goal_state="active", entities=[Shutdown()])),
-        RegisterEventHandler(OnStateTransition(goal_state="inactive", entities=[change(Transition.TRANSITION_ACTIVATE)])),
+        RegisterEventHandler(
+            OnStateTransition(
+                target_lifecycle_node=managed, goal_state="active", entities=[Shutdown()]
+            )
+        ),
+        RegisterEventHandler(
+            OnStateTransition(
+                goal_state="inactive", entities=[change(Transition.TRANSITION_ACTIVATE)]
+            )
+        ),
         managed,
         change(Transition.TRANSITION_CONFIGURE),
     )
@@ -72,9 +91,12 @@ def test_states_become_events_and_events_change_states(launch, managed):
 
 def test_transitions_one_after_the_other(launch, managed):
     transitions = LifecycleTransition(
-        lifecycle_node_names=["ns/m"], transition_ids=[Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
+        lifecycle_node_names=["ns/m"],
+        transition_ids=[Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE],
     )
-    done = RegisterEventHandler(OnExecutionComplete(target_action=transitions, on_completion=[Shutdown()]))
+    done = RegisterEventHandler(
+        OnExecutionComplete(target_action=transitions, on_completion=[Shutdown()])
+    )
     outcome = launch(done, managed, transitions)
     assert outcome.status == 0, outcome.text
     assert "] ACTIVE" in outcome.text
@@ -83,19 +105,36 @@ def test_transitions_one_after_the_other(launch, managed):
 
 
 def test_a_transition_that_fails_ends_those_of_its_node(launch, managed):
-    ids = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_DEACTIVATE, Transition.TRANSITION_CLEANUP]
+    ids = [
+        Transition.TRANSITION_CONFIGURE,
+        Transition.TRANSITION_ACTIVATE,
+        Transition.TRANSITION_DEACTIVATE,
+        Transition.TRANSITION_CLEANUP,
+    ]
     transitions = LifecycleTransition(lifecycle_node_names=["/ns/m"], transition_ids=ids)
-    done = RegisterEventHandler(OnExecutionComplete(target_action=transitions, on_completion=[Shutdown()]))
+    done = RegisterEventHandler(
+        OnExecutionComplete(target_action=transitions, on_completion=[Shutdown()])
+    )
     outcome = launch(done, managed, transitions)
-    assert outcome.text.count("Failed to make transition 'TRANSITION_DEACTIVATE' for LifecycleNode '/ns/m'") == 1
+    assert (
+        outcome.text.count(
+            "Failed to make transition 'TRANSITION_DEACTIVATE' for LifecycleNode '/ns/m'"
+        )
+        == 1
+    )
     assert "TRANSITION_CLEANUP" not in outcome.text
 
 
 def test_the_end_of_the_launch_ends_the_wait_for_a_node(launch):
-    transitions = LifecycleTransition(lifecycle_node_names=["nowhere"], transition_ids=[Transition.TRANSITION_CONFIGURE])
+    transitions = LifecycleTransition(
+        lifecycle_node_names=["nowhere"], transition_ids=[Transition.TRANSITION_CONFIGURE]
+    )
     ends = ExecuteProcess(cmd=[sys.executable, "-c", ""], on_exit=Shutdown())
     outcome = launch(transitions, ends)
-    assert "Abandoning wait for the '/nowhere/change_state' service response, due to shutdown." in outcome.text
+    assert (
+        "Abandoning wait for the '/nowhere/change_state' service response, due to shutdown."
+        in outcome.text
+    )
     assert outcome.status == 0
 
 
@@ -108,7 +147,9 @@ def test_transitions_need_nodes_and_ids():
 
 def test_ros_timers(launch, tmp_path):
     assert launch(RosTimer(period=0.01, actions=[LogInfo(msg="ticked")])).messages == ["ticked"]
-    (tmp_path / "x.launch.xml").write_text("<launch><ros_timer period='0.01'><log message='ticked'/></ros_timer></launch>")
+    (tmp_path / "x.launch.xml").write_text(
+        "<launch><ros_timer period='0.01'><log message='ticked'/></ros_timer></launch>"
+    )
     assert launch(IncludeLaunchDescription(str(tmp_path / "x.launch.xml"))).messages == ["ticked"]
 
 

@@ -69,7 +69,10 @@ def node(**options):
 
 
 def without_files(arguments):
-    return ["FILE" if arguments[at - 1] == "--params-file" else word for at, word in enumerate(arguments)]
+    return [
+        "FILE" if arguments[at - 1] == "--params-file" else word
+        for at, word in enumerate(arguments)
+    ]
 
 
 def test_a_bare_node(nodes):
@@ -176,10 +179,16 @@ def test_values_of_parameters(nodes):
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ([{"x": [1, "a"]}], "the sequence of the parameter 'x' must hold values of one type, but has int, str"),
+        (
+            [{"x": [1, "a"]}],
+            "the sequence of the parameter 'x' must hold values of one type, but has int, str",
+        ),
         ([{"x": object()}], "the parameter 'x' has a value of type object"),
         ([{"x": ParameterValue("a", value_type=int)}], "invalid literal for int"),
-        ([{"x": ParameterValue("a", value_type=bool)}], "Expected one of 'yes|true|on|no|false|off', got 'a'"),
+        (
+            [{"x": ParameterValue("a", value_type=bool)}],
+            "Expected one of 'yes|true|on|no|false|off', got 'a'",
+        ),
         ([{"x": ParameterValue("a", value_type=list[int])}], "'a' is no list of int"),
     ],
 )
@@ -191,13 +200,18 @@ def test_values_that_parameters_do_not_have(launch, show, parameters, message):
 
 @pytest.mark.parametrize("parameters", ["file.yaml", 3, LaunchConfiguration("x")])
 def test_parameters_are_a_list(parameters):
-    with pytest.raises(TypeError, match="Expecting a list of parameter files or parameter dictionaries"):
+    with pytest.raises(
+        TypeError, match="Expecting a list of parameter files or parameter dictionaries"
+    ):
         node(parameters=parameters)
 
 
 def test_a_parameter_file_that_is_not_there_warns(launch, show):
     outcome = launch(node(parameters=["nowhere.yaml"]))
-    assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: nowhere.yaml" in outcome.lines
+    assert (
+        "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: nowhere.yaml"
+        in outcome.lines
+    )
     assert outcome.status == 0
 
 
@@ -205,7 +219,10 @@ def test_parameter_files_with_substitutions(nodes, tmp_path):
     (tmp_path / "params.yaml").write_text("x: $(var five)")
     shared = ParameterFile(str(tmp_path / "params.yaml"), allow_substs=True)
     first, second, plain = nodes(
-        SetLaunchConfiguration("five", "5"), node(parameters=[shared]), node(parameters=[shared]), node(parameters=[shared.param_file[0]])
+        SetLaunchConfiguration("five", "5"),
+        node(parameters=[shared]),
+        node(parameters=[shared]),
+        node(parameters=[shared.param_file[0]]),
     )
     assert first["files"] == second["files"] == ["x: 5"]
     assert plain["files"] == ["x: $(var five)"]
@@ -254,7 +271,15 @@ def test_what_a_scope_adds(nodes, tmp_path):
 
 @pytest.mark.parametrize(
     ("pushed", "own", "expected"),
-    [("a", None, "/a"), ("/a", "b", "/a/b"), ("a/", "/b", "/b"), ("a", "", "/a"), ("/", "b", "/b"), ("", "b", "/b"), ("a", "/", "/")],
+    [
+        ("a", None, "/a"),
+        ("/a", "b", "/a/b"),
+        ("a/", "/b", "/b"),
+        ("a", "", "/a"),
+        ("/", "b", "/b"),
+        ("", "b", "/b"),
+        ("a", "/", "/"),
+    ],
 )
 def test_namespaces(nodes, pushed, own, expected):
     (seen,) = nodes(PushRosNamespace(pushed), node(namespace=own))
@@ -281,7 +306,9 @@ def test_equal_names_are_warned_of(launch, show):
     outcome = launch(node(name="n"), node(name="n"), node(name="n", namespace="other"))
     warnings = [line for line in outcome.lines if line.startswith("[WARNING]")]
     assert len(warnings) == 1
-    assert warnings[0].endswith("]: there are now at least 2 nodes with the name /n created within this launch context")
+    assert warnings[0].endswith(
+        "]: there are now at least 2 nodes with the name /n created within this launch context"
+    )
 
 
 def test_executables_and_packages(launch, show, context):
@@ -291,12 +318,18 @@ def test_executables_and_packages(launch, show, context):
     assert FindPackageShare("shows").describe() == "FindPackageShare(pkg='shows')"
     assert launch(node(exec_name="mine", name="n")).text.count("[mine-") >= 3
     missing = launch(Node(package="shows", executable="hide"))
-    assert missing.error == f"executable 'hide' not found on the libexec directory '{show}/lib/shows' "
-    assert launch(Node(package="nowhere", executable="x")).error.startswith("\"package 'nowhere' not found, searching: ['")
+    assert (
+        missing.error == f"executable 'hide' not found on the libexec directory '{show}/lib/shows' "
+    )
+    assert launch(Node(package="nowhere", executable="x")).error.startswith(
+        "\"package 'nowhere' not found, searching: ['"
+    )
 
 
 def test_an_executable_without_package(launch, show):
-    outcome = launch(Node(executable=str(show / "lib/shows/show"), output="screen", arguments=["x"]))
+    outcome = launch(
+        Node(executable=str(show / "lib/shows/show"), output="screen", arguments=["x"])
+    )
     assert '{"arguments": ["x", "--ros-args"]' in outcome.text
 
 
@@ -371,7 +404,20 @@ def test_launch_files_in_other_languages(nodes, tmp_path, language):
     path.write_text(XML if language == "xml" else YAML)
     (seen,) = nodes(IncludeLaunchDescription(str(path)))
     assert without_files(seen["arguments"]) == (
-        ["one", "two words", "3", "--ros-args", "--log-level", "info", "-r", "__node:=n", "-r", "__ns:=/robot/arm", "-p", "speed:=2"]
+        [
+            "one",
+            "two words",
+            "3",
+            "--ros-args",
+            "--log-level",
+            "info",
+            "-r",
+            "__node:=n",
+            "-r",
+            "__ns:=/robot/arm",
+            "-p",
+            "speed:=2",
+        ]
         + ["-p", "label:='2'", "-p", "use_sim_time:=true"]
         + ["--params-file", "FILE"] * 8
         + ["-r", "a:=b", "-r", "c:=d"]
@@ -398,9 +444,18 @@ def test_launch_files_in_other_languages(nodes, tmp_path, language):
     [
         ("<param name='x'/>", "either a value attribute or nested parameters are needed"),
         ("<param name='x' from='y'/>", "name and from attributes are mutually exclusive"),
-        ("<param name='x' value='1'><param name='y' value='1'/></param>", "nested parameters and value attributes are mutually exclusive"),
-        ("<param name='x' value='1' type='colour'/>", "unknown type 'colour' of a parameter; one of: str, int, float, bool, list_of_str"),
-        ("<param name='x' value='1' unit='m'/>", "Unexpected attribute(s) found in `param`: {'unit'}"),
+        (
+            "<param name='x' value='1'><param name='y' value='1'/></param>",
+            "nested parameters and value attributes are mutually exclusive",
+        ),
+        (
+            "<param name='x' value='1' type='colour'/>",
+            "unknown type 'colour' of a parameter; one of: str, int, float, bool, list_of_str",
+        ),
+        (
+            "<param name='x' value='1' unit='m'/>",
+            "Unexpected attribute(s) found in `param`: {'unit'}",
+        ),
     ],
 )
 def test_param_elements_that_are_wrong(launch, tmp_path, parameter, error):

@@ -22,7 +22,9 @@ def entity(tmp_path):
 
 
 def test_attributes(entity):
-    element = entity("<launch a='1' b='1.5' c='true' d='x' e='1;2' e-sep=';' f='a, b' g='[1, 2]'><child/><child/></launch>")
+    element = entity(
+        "<launch a='1' b='1.5' c='true' d='x' e='1;2' e-sep=';' f='a, b' g='[1, 2]'><child/><child/></launch>"
+    )
     assert element.type_name == "launch"
     assert element.get_attr("a") == "1"
     assert element.get_attr("a", data_type=int) == 1
@@ -41,18 +43,25 @@ def test_attributes(entity):
 def test_attributes_that_are_missing_or_of_another_type(entity):
     element = entity("<launch a='x'/>")
     assert element.get_attr("b", optional=True) is None
-    with pytest.raises(AttributeError, match="Attribute 'b' of type '<class 'str'>' not found in Entity 'launch'"):
+    with pytest.raises(
+        AttributeError, match="Attribute 'b' of type '<class 'str'>' not found in Entity 'launch'"
+    ):
         element.get_attr("b")
     with pytest.raises(AttributeError, match="not found in Entity 'launch'"):
         element.get_attr("b", data_type=list[BaseEntity])
-    with pytest.raises(TypeError, match="Attribute 'a' of Entity 'launch' expected to be of type '<class 'bool'>' but got 'x'"):
+    with pytest.raises(
+        TypeError,
+        match="Attribute 'a' of Entity 'launch' expected to be of type '<class 'bool'>' but got 'x'",
+    ):
         element.get_attr("a", data_type=bool, can_be_str=False)
 
 
 def test_what_nobody_asked_for_is_refused(entity):
     with pytest.raises(ValueError, match=r"Unexpected attribute\(s\) found in `launch`: {'a'}"):
         entity("<launch a='x'/>").assert_entity_completely_parsed()
-    with pytest.raises(ValueError, match=r"Unexpected nested entity\(ies\) found in `launch`: {'b'}"):
+    with pytest.raises(
+        ValueError, match=r"Unexpected nested entity\(ies\) found in `launch`: {'b'}"
+    ):
         entity("<launch><b/></launch>").assert_entity_completely_parsed()
 
 
@@ -82,4 +91,6 @@ def test_the_source_reads_only_xml(tmp_path):
     source = XMLLaunchDescriptionSource(str(tmp_path / "x.launch.xml"))
     assert isinstance(source.try_get_launch_description_without_context(), LaunchDescription)
     assert source.method == "interpreted XML launch file"
-    assert isinstance(IncludeLaunchDescription(source).describe_sub_entities()[0], LaunchDescription)
+    assert isinstance(
+        IncludeLaunchDescription(source).describe_sub_entities()[0], LaunchDescription
+    )

@@ -21,9 +21,9 @@ def entity(tmp_path):
 
 
 def test_attributes(entity):
-    element = entity("launch:\n- node: {a: 1, b: 1.5, c: true, d: x, e: [1, 2], children: [{x: {}}, {y: {}}], env: [{name: n}]}").children[
-        0
-    ]
+    element = entity(
+        "launch:\n- node: {a: 1, b: 1.5, c: true, d: x, e: [1, 2], children: [{x: {}}, {y: {}}], env: [{name: n}]}"
+    ).children[0]
     assert element.type_name == "node"
     assert element.get_attr("a", data_type=int) == 1
     assert element.get_attr("a", data_type=float) == 1
@@ -42,13 +42,20 @@ def test_attributes(entity):
 def test_attributes_that_are_missing_or_of_another_type(entity):
     element = entity("launch:\n- node: {a: x, c: true, env: 3}").children[0]
     assert element.get_attr("b", optional=True) is None
-    with pytest.raises(AttributeError, match="Attribute 'b' of type '<class 'str'>' not found in Entity 'node'"):
+    with pytest.raises(
+        AttributeError, match="Attribute 'b' of type '<class 'str'>' not found in Entity 'node'"
+    ):
         element.get_attr("b")
-    with pytest.raises(TypeError, match="Attribute 'c' of Entity 'node' expected to be of type '<class 'int'>' but got '<class 'bool'>'"):
+    with pytest.raises(
+        TypeError,
+        match="Attribute 'c' of Entity 'node' expected to be of type '<class 'int'>' but got '<class 'bool'>'",
+    ):
         element.get_attr("c", data_type=int)
     with pytest.raises(TypeError, match="expected to be of type '<class 'bool'>'"):
         element.get_attr("a", data_type=bool, can_be_str=False)
-    with pytest.raises(TypeError, match="Attribute 'env' of Entity 'node' expected to be a list of dictionaries"):
+    with pytest.raises(
+        TypeError, match="Attribute 'env' of Entity 'node' expected to be a list of dictionaries"
+    ):
         element.get_attr("env", data_type=list[BaseEntity])
 
 
@@ -57,7 +64,11 @@ def test_attributes_that_are_missing_or_of_another_type(entity):
     [
         ("launch: 3", TypeError, "Expected a list of entities in `launch`, got '3'"),
         ("launch: {}", ValueError, "Expected entity `launch` to have children entities"),
-        ("launch: [{a: 1, b: 2}]", RuntimeError, "Subentities must be a dictionary with only one key"),
+        (
+            "launch: [{a: 1, b: 2}]",
+            RuntimeError,
+            "Subentities must be a dictionary with only one key",
+        ),
         ("launch: [x]", RuntimeError, "Subentities must be a dictionary with only one key"),
     ],
 )
@@ -72,8 +83,14 @@ def test_what_nobody_asked_for_is_refused(entity):
 
 
 def test_aliases_work_but_no_bombs(entity):
-    assert entity("launch: [{log: &m {message: hi}}, {log: *m}]").children[1].get_attr("message") == "hi"
-    levels = "\n".join(f"  - group: &g{level} [{', '.join(f'{{group: *g{level - 1}}}' for _ in range(10))}]" for level in range(1, 9))
+    assert (
+        entity("launch: [{log: &m {message: hi}}, {log: *m}]").children[1].get_attr("message")
+        == "hi"
+    )
+    levels = "\n".join(
+        f"  - group: &g{level} [{', '.join(f'{{group: *g{level - 1}}}' for _ in range(10))}]"
+        for level in range(1, 9)
+    )
     with pytest.raises(ValueError, match="The file stands for more than 100000 elements"):
         entity(f"launch:\n  - group: &g0 []\n{levels}")
     with pytest.raises(ValueError, match="An alias contains itself"):
@@ -84,12 +101,18 @@ def test_a_malformed_file_is_named_with_its_line(tmp_path):
     (tmp_path / "x.launch.yaml").write_text("launch:\n- log:\n\tmessage: x")
     with pytest.raises(SyntaxError) as caught:
         Parser.load(str(tmp_path / "x.launch.yaml"))
-    assert str(caught.value) == "found character '\\t' that cannot start any token (x.launch.yaml, line 3)"
+    assert (
+        str(caught.value)
+        == "found character '\\t' that cannot start any token (x.launch.yaml, line 3)"
+    )
 
 
 def test_no_python_objects(tmp_path):
     (tmp_path / "x.launch.yaml").write_text("launch: !!python/object/apply:os.getcwd []")
-    with pytest.raises(SyntaxError, match=r"could not determine a constructor for the tag .* \(x\.launch\.yaml, line 1\)"):
+    with pytest.raises(
+        SyntaxError,
+        match=r"could not determine a constructor for the tag .* \(x\.launch\.yaml, line 1\)",
+    ):
         Parser.load(str(tmp_path / "x.launch.yaml"))
 
 

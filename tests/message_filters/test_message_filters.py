@@ -7,7 +7,13 @@ import random
 import pytest
 
 from geometry_msgs.msg import PointStamped
-from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
+from message_filters import (
+    ApproximateTimeSynchronizer,
+    Cache,
+    SimpleFilter,
+    Subscriber,
+    TimeSynchronizer,
+)
 from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -35,7 +41,10 @@ def collected():
             self.append(messages)
 
         def stamps(self):
-            return [tuple(Time.from_msg(message.header.stamp).nanoseconds for message in messages) for messages in self]
+            return [
+                tuple(Time.from_msg(message.header.stamp).nanoseconds for message in messages)
+                for messages in self
+            ]
 
     return Collected()
 
@@ -60,7 +69,9 @@ def test_exact_sets_pass_in_the_order_of_time(collected):
     for index, stamp in arrivals:
         filters[index].signalMessage(at(stamp, x=float(index)))
     assert sorted(collected.stamps()) == [(stamp,) * 3 for stamp in range(1, 6)]
-    assert all([message.point.x for message in messages] == [0.0, 1.0, 2.0] for messages in collected)
+    assert all(
+        [message.point.x for message in messages] == [0.0, 1.0, 2.0] for messages in collected
+    )
     assert synchronizer.queues == [{}, {}, {}]
 
 
@@ -119,7 +130,11 @@ def test_random_traffic_gives_each_message_to_one_set_within_the_slop(collected)
     chance = random.Random(7)
     filters = [SimpleFilter() for _ in range(3)]
     ApproximateTimeSynchronizer(filters, 20, 3e-8).registerCallback(collected)
-    arrivals = [(index, 100 * number + chance.randrange(-10, 11)) for number in range(1, 200) for index in range(3)]
+    arrivals = [
+        (index, 100 * number + chance.randrange(-10, 11))
+        for number in range(1, 200)
+        for index in range(3)
+    ]
     for index, stamp in arrivals:
         filters[index].signalMessage(at(stamp))
     sets = collected.stamps()
@@ -129,7 +144,9 @@ def test_random_traffic_gives_each_message_to_one_set_within_the_slop(collected)
         assert len({stamps[index] for stamps in sets}) == 199
 
 
-@pytest.mark.parametrize("make", [lambda fs: TimeSynchronizer(fs, 5), lambda fs: ApproximateTimeSynchronizer(fs, 5, 0.1)])
+@pytest.mark.parametrize(
+    "make", [lambda fs: TimeSynchronizer(fs, 5), lambda fs: ApproximateTimeSynchronizer(fs, 5, 0.1)]
+)
 def test_messages_without_a_stamp_are_refused(make, collected, capfd):
     left = SimpleFilter()
     make([left]).registerCallback(collected)
@@ -140,7 +157,9 @@ def test_messages_without_a_stamp_are_refused(make, collected, capfd):
 
 def test_messages_without_a_stamp_can_be_allowed(collected):
     left, right = SimpleFilter(), SimpleFilter()
-    ApproximateTimeSynchronizer([left, right], 5, 10.0, allow_headerless=True).registerCallback(collected)
+    ApproximateTimeSynchronizer([left, right], 5, 10.0, allow_headerless=True).registerCallback(
+        collected
+    )
     left.signalMessage(String(data="left"))
     right.signalMessage(String(data="right"))
     assert [[message.data for message in messages] for messages in collected] == [["left", "right"]]
@@ -155,14 +174,21 @@ def test_the_cache_answers_by_time(collected):
     for stamp in (10, 30, 40, 20, 50):
         source.signalMessage(at(stamp, x=float(stamp)))
     assert [time.nanoseconds for time in cache.cache_times] == [20, 30, 40, 50]
-    assert [message.point.x for message in cache.getInterval(ros_time(30), ros_time(40))] == [30.0, 40.0]
+    assert [message.point.x for message in cache.getInterval(ros_time(30), ros_time(40))] == [
+        30.0,
+        40.0,
+    ]
     assert cache.getElemAfterTime(ros_time(30)).point.x == 30.0
     assert cache.getElemAfterTime(ros_time(31)).point.x == 40.0
     assert cache.getElemAfterTime(ros_time(51)) is None
     assert cache.getElemBeforeTime(ros_time(30)).point.x == 30.0
     assert cache.getElemBeforeTime(ros_time(29)).point.x == 20.0
     assert cache.getElemBeforeTime(ros_time(19)) is None
-    assert (cache.getOldestTime().nanoseconds, cache.getLatestTime().nanoseconds, cache.getLastestTime().nanoseconds) == (
+    assert (
+        cache.getOldestTime().nanoseconds,
+        cache.getLatestTime().nanoseconds,
+        cache.getLastestTime().nanoseconds,
+    ) == (
         20,
         50,
         50,
@@ -171,7 +197,10 @@ def test_the_cache_answers_by_time(collected):
     assert len(collected) == 5
 
 
-@pytest.mark.parametrize("kind", [TimeSynchronizer, lambda filters, size: ApproximateTimeSynchronizer(filters, size, slop=0.5)])
+@pytest.mark.parametrize(
+    "kind",
+    [TimeSynchronizer, lambda filters, size: ApproximateTimeSynchronizer(filters, size, slop=0.5)],
+)
 def test_after_the_time_has_jumped_back_sets_pass_again(kind, collected):
     left, right = SimpleFilter(), SimpleFilter()
     kind([left, right], 3).registerCallback(collected)
@@ -207,9 +236,17 @@ def test_subscribers_on_topics(monkeypatch, collected):
     node = Node("filters", context=context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    left, right = Subscriber(node, PointStamped, "left"), Subscriber(node, PointStamped, "right", qos_profile=QoSProfile(depth=3))
+    left, right = (
+        Subscriber(node, PointStamped, "left"),
+        Subscriber(node, PointStamped, "right", qos_profile=QoSProfile(depth=3)),
+    )
     third = Subscriber(node, PointStamped, "third", 7)
-    assert (left.getTopic(), left.topic_name, right.qos_profile.depth, third.qos_profile.depth) == ("left", "/left", 3, 7)
+    assert (left.getTopic(), left.topic_name, right.qos_profile.depth, third.qos_profile.depth) == (
+        "left",
+        "/left",
+        3,
+        7,
+    )
     with pytest.raises(AttributeError):
         _ = left.nothing
     TimeSynchronizer([left, right], 5).registerCallback(collected)

@@ -46,7 +46,11 @@ def all_messages():
     names = []
     for package, kinds in sorted(msg.interface_names().items()):
         names += [f"{package}/msg/{name}" for name in kinds["msg"]]
-        names += [f"{package}/srv/{name}_{part}" for name in kinds["srv"] for part in ("Request", "Response", "Event")]
+        names += [
+            f"{package}/srv/{name}_{part}"
+            for name in kinds["srv"]
+            for part in ("Request", "Response", "Event")
+        ]
         names += [
             f"{package}/action/{name}_{part}"
             for name in kinds["action"]
@@ -63,7 +67,9 @@ def _message_from(full_name: str, values: dict[str, Any]) -> Any:
     """A message from golden values: nested dicts, bytes as {"bytes": hex}, nan and inf as strings."""
     definition = load_message(full_name)
     types = {field.name: field.type for field in definition.fields}
-    return msg.get_message(full_name)(**{name: _value_from(types[name], value) for name, value in values.items()})
+    return msg.get_message(full_name)(
+        **{name: _value_from(types[name], value) for name, value in values.items()}
+    )
 
 
 def _value_from(type_: AbstractType, value: Any) -> Any:
@@ -84,14 +90,23 @@ def _messages(full_name: str) -> st.SearchStrategy[Any]:
 
 def _values(type_: AbstractType) -> st.SearchStrategy[Any]:
     if isinstance(type_, AbstractNestedType):
-        low, high = (type_.size, type_.size) if isinstance(type_, Array) else (0, min(getattr(type_, "maximum_size", 3), 3))
+        low, high = (
+            (type_.size, type_.size)
+            if isinstance(type_, Array)
+            else (0, min(getattr(type_, "maximum_size", 3), 3))
+        )
         return st.lists(_values(type_.value_type), min_size=low, max_size=high)
     if isinstance(type_, NamespacedType):
         return _messages(type_.full_name)
     if isinstance(type_, AbstractString):
-        return st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=min(getattr(type_, "maximum_size", 24) // 4, 6))
+        return st.text(
+            st.characters(codec="utf-8", exclude_characters="\0"),
+            max_size=min(getattr(type_, "maximum_size", 24) // 4, 6),
+        )
     if isinstance(type_, AbstractWString):
-        return st.text(st.characters(codec="utf-8"), max_size=min(getattr(type_, "maximum_size", 6), 6))
+        return st.text(
+            st.characters(codec="utf-8"), max_size=min(getattr(type_, "maximum_size", 6), 6)
+        )
     assert isinstance(type_, BasicType)
     if type_.typename in INTEGER_RANGES:
         return st.integers(*INTEGER_RANGES[type_.typename])

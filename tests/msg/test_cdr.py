@@ -27,24 +27,46 @@ def test_integers_and_numpy_scalars_are_accepted_as_floats():
 
 def test_numpy_integers_are_accepted_as_integers():
     time = msg.get_message("builtin_interfaces/msg/Time")
-    assert msg.deserialize(time, msg.serialize(time(sec=np.int32(-5), nanosec=np.uint64(7)))) == time(sec=-5, nanosec=7)
+    assert msg.deserialize(
+        time, msg.serialize(time(sec=np.int32(-5), nanosec=np.uint64(7)))
+    ) == time(sec=-5, nanosec=7)
 
 
 @pytest.mark.parametrize("truth", [True, np.True_, 1])
 def test_what_equals_true_is_accepted_as_bool(truth):
-    assert msg.deserialize(SetBool.Request, msg.serialize(SetBool.Request(data=truth))) == SetBool.Request(data=True)
+    assert msg.deserialize(
+        SetBool.Request, msg.serialize(SetBool.Request(data=truth))
+    ) == SetBool.Request(data=True)
 
 
 @pytest.mark.parametrize(
     ("message", "text"),
     [
-        (Twist(linear=Vector3(x="fast")), "geometry_msgs/msg/Twist: field 'linear.x': expected a float, got str ('fast')"),
-        (Twist(linear=3), "geometry_msgs/msg/Twist: field 'linear': expected geometry_msgs/msg/Vector3, got int (3)"),
-        (Twist(angular=Header()), "geometry_msgs/msg/Twist: field 'angular': expected geometry_msgs/msg/Vector3, got Header"),
+        (
+            Twist(linear=Vector3(x="fast")),
+            "geometry_msgs/msg/Twist: field 'linear.x': expected a float, got str ('fast')",
+        ),
+        (
+            Twist(linear=3),
+            "geometry_msgs/msg/Twist: field 'linear': expected geometry_msgs/msg/Vector3, got int (3)",
+        ),
+        (
+            Twist(angular=Header()),
+            "geometry_msgs/msg/Twist: field 'angular': expected geometry_msgs/msg/Vector3, got Header",
+        ),
         (String(data=b"x"), "std_msgs/msg/String: field 'data': expected str, got bytes (b'x')"),
-        (String(data="\ud800"), "std_msgs/msg/String: field 'data': expected str that can be encoded (no lone surrogates), got str"),
-        (SetBool.Request(data="false"), "std_srvs/srv/SetBool_Request: field 'data': expected bool, got str ('false')"),
-        (SetBool.Request(data=2), "std_srvs/srv/SetBool_Request: field 'data': expected bool, got int (2)"),
+        (
+            String(data="\ud800"),
+            "std_msgs/msg/String: field 'data': expected str that can be encoded (no lone surrogates), got str",
+        ),
+        (
+            SetBool.Request(data="false"),
+            "std_srvs/srv/SetBool_Request: field 'data': expected bool, got str ('false')",
+        ),
+        (
+            SetBool.Request(data=2),
+            "std_srvs/srv/SetBool_Request: field 'data': expected bool, got int (2)",
+        ),
         (
             msg.get_message("std_msgs/msg/UInt8")(data=256),
             "std_msgs/msg/UInt8: field 'data': expected an integer from 0 to 255, got int (256)",
@@ -123,17 +145,25 @@ def test_any_buffer_can_be_decoded():
 
 def test_big_endian_bytes_are_decoded():
     data = bytes.fromhex("00000000 00000005 00000007 00000004 6d617000")
-    assert msg.deserialize(Header, data) == Header(stamp=msg.get_message("builtin_interfaces/msg/Time")(sec=5, nanosec=7), frame_id="map")
+    assert msg.deserialize(Header, data) == Header(
+        stamp=msg.get_message("builtin_interfaces/msg/Time")(sec=5, nanosec=7), frame_id="map"
+    )
     scan = msg.get_message("sensor_msgs/msg/JointState")
-    body = "00000000 00000000 00000001 00000000 00000000 00000001 3ff0000000000000 00000000 00000000"
+    body = (
+        "00000000 00000000 00000001 00000000 00000000 00000001 3ff0000000000000 00000000 00000000"
+    )
     assert list(msg.deserialize(scan, bytes.fromhex("00000000" + body)).position) == [1.0]
 
 
 def test_big_endian_fixed_arrays_and_wide_strings_are_decoded():
     mesh = msg.get_message("shape_msgs/msg/MeshTriangle")
-    assert msg.deserialize(mesh, bytes.fromhex("00000000 00000001 00000002 00000003")).vertex_indices.tolist() == [1, 2, 3]
+    assert msg.deserialize(
+        mesh, bytes.fromhex("00000000 00000001 00000002 00000003")
+    ).vertex_indices.tolist() == [1, 2, 3]
     wide = msg.get_message("example_interfaces/msg/WString")
-    assert msg.deserialize(wide, bytes.fromhex("00000000 00000002 00006c49 0001f422")) == wide(data="汉🐢")
+    assert msg.deserialize(wide, bytes.fromhex("00000000 00000002 00006c49 0001f422")) == wide(
+        data="汉🐢"
+    )
 
 
 @pytest.mark.parametrize("header", ["", "00", "0002", "0003", "0007", "0100", "00060000", "ffff"])
@@ -147,10 +177,26 @@ def test_other_encapsulations_are_refused(header):
     ("cls", "body", "text"),
     [
         (Header, "", "field 'stamp.sec' at offset 4: needs 4 bytes, but the data ends after 4"),
-        (Header, "0000000000000000", "field 'frame_id' at offset 12: needs 4 bytes, but the data ends after 12"),
-        (Header, "0000000000000000ffffffff6d", "field 'frame_id' at offset 16: needs 4294967295 bytes, but the data ends after 17"),
-        (Header, "0000000000000000020000006d61", "field 'frame_id' at offset 16: a string without its terminating zero byte"),
-        (Header, "000000000000000002000000ff00", "field 'frame_id' at offset 16: a string that is not valid UTF-8 (invalid start byte)"),
+        (
+            Header,
+            "0000000000000000",
+            "field 'frame_id' at offset 12: needs 4 bytes, but the data ends after 12",
+        ),
+        (
+            Header,
+            "0000000000000000ffffffff6d",
+            "field 'frame_id' at offset 16: needs 4294967295 bytes, but the data ends after 17",
+        ),
+        (
+            Header,
+            "0000000000000000020000006d61",
+            "field 'frame_id' at offset 16: a string without its terminating zero byte",
+        ),
+        (
+            Header,
+            "000000000000000002000000ff00",
+            "field 'frame_id' at offset 16: a string that is not valid UTF-8 (invalid start byte)",
+        ),
         (
             TFMessage,
             "ffffffff00000000",
@@ -176,8 +222,16 @@ def test_other_encapsulations_are_refused(header):
             "0100000000001100",
             "field 'data' at offset 8: a string that is not valid UTF-32 (code point not in range(0x110000))",
         ),
-        (msg.get_message("std_msgs/msg/Empty"), "", "field '(the byte of an empty message)' at offset 4: needs 1 bytes"),
-        (msg.get_message("unique_identifier_msgs/msg/UUID"), "0102", "field 'uuid' at offset 4: needs 16 bytes, but the data ends after 6"),
+        (
+            msg.get_message("std_msgs/msg/Empty"),
+            "",
+            "field '(the byte of an empty message)' at offset 4: needs 1 bytes",
+        ),
+        (
+            msg.get_message("unique_identifier_msgs/msg/UUID"),
+            "0102",
+            "field 'uuid' at offset 4: needs 16 bytes, but the data ends after 6",
+        ),
     ],
 )
 def test_malformed_bytes_are_named(cls, body, text):

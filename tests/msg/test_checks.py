@@ -28,14 +28,30 @@ def _make(name, **fields):
             {"data": 1e300},
             "The 'data' field must be a float in [-3.402823466e+38, 3.402823466e+38]",
         ),
-        ("geometry_msgs/msg/Twist", {"linear": 3}, "The 'linear' field must be a sub message of type 'Vector3'"),
+        (
+            "geometry_msgs/msg/Twist",
+            {"linear": 3},
+            "The 'linear' field must be a sub message of type 'Vector3'",
+        ),
         ("std_msgs/msg/String", {"data": b"x"}, "The 'data' field must be of type 'str'"),
         ("std_msgs/msg/Bool", {"data": 1}, "The 'data' field must be of type 'bool'"),
         ("std_msgs/msg/UInt8", {"data": 1.0}, "The 'data' field must be of type 'int'"),
-        ("std_msgs/msg/UInt8", {"data": 256}, "The 'data' field must be an unsigned integer in [0, 255]"),
+        (
+            "std_msgs/msg/UInt8",
+            {"data": 256},
+            "The 'data' field must be an unsigned integer in [0, 255]",
+        ),
         ("std_msgs/msg/Int8", {"data": -129}, "The 'data' field must be an integer in [-128, 127]"),
-        ("std_msgs/msg/Byte", {"data": b"ab"}, "The 'data' field must be of type 'bytes' or 'ByteString' with length 1"),
-        ("rmw_dds_common/msg/NodeEntitiesInfo", {"node_name": "x" * 257}, "The 'node_name' field must be string value not longer than 256"),
+        (
+            "std_msgs/msg/Byte",
+            {"data": b"ab"},
+            "The 'data' field must be of type 'bytes' or 'ByteString' with length 1",
+        ),
+        (
+            "rmw_dds_common/msg/NodeEntitiesInfo",
+            {"node_name": "x" * 257},
+            "The 'node_name' field must be string value not longer than 256",
+        ),
         (
             "std_msgs/msg/MultiArrayLayout",
             {"dim": [3]},
@@ -69,7 +85,9 @@ def test_what_does_not_fit_is_an_assertion_error(name, fields, text):
 
 def test_every_later_assignment_is_checked():
     message = _make("geometry_msgs/msg/Twist")
-    with pytest.raises(AssertionError, match="The 'linear' field must be a sub message of type 'Vector3'"):
+    with pytest.raises(
+        AssertionError, match="The 'linear' field must be a sub message of type 'Vector3'"
+    ):
         message.linear = None
     message.linear = Vector3(x=2.0)
     assert message == Twist(linear=Vector3(x=2.0))
@@ -87,20 +105,32 @@ def test_sequences_are_checked_before_they_are_converted():
         "The 'ranges' field must be a set or sequence and each value of type 'float' and each float in "
         "[-340282346600000016151267322115014000640.000000, 340282346600000016151267322115014000640.000000]"
     )
-    with pytest.raises(AssertionError, match=r"The 'ranges' array.array\(\) must have the type code of 'f'"):
+    with pytest.raises(
+        AssertionError, match=r"The 'ranges' array.array\(\) must have the type code of 'f'"
+    ):
         scan.ranges = array("d", [1.0])
     shape = _make("shape_msgs/msg/SolidPrimitive")
-    with pytest.raises(AssertionError, match=r"The 'dimensions' array.array\(\) must have a size <= 3"):
+    with pytest.raises(
+        AssertionError, match=r"The 'dimensions' array.array\(\) must have a size <= 3"
+    ):
         shape.dimensions = array("d", [1.0] * 4)
     uuid = _make("unique_identifier_msgs/msg/UUID")
-    with pytest.raises(AssertionError, match=r"The 'uuid' numpy.ndarray\(\) must have the dtype of 'numpy.uint8'"):
+    with pytest.raises(
+        AssertionError, match=r"The 'uuid' numpy.ndarray\(\) must have the dtype of 'numpy.uint8'"
+    ):
         uuid.uuid = np.zeros(16)
-    with pytest.raises(AssertionError, match="a set or sequence with length 16 and each value of type 'int' and each unsigned integer"):
+    with pytest.raises(
+        AssertionError,
+        match="a set or sequence with length 16 and each value of type 'int' and each unsigned integer",
+    ):
         uuid.uuid = [0] * 15
     with pytest.raises(AssertionError, match="The 'uuid' field must be a set or sequence"):
         uuid.uuid = 3
     names = _make("sensor_msgs/msg/JointState")
-    with pytest.raises(AssertionError, match="The 'name' field must be a set or sequence and each value of type 'str'"):
+    with pytest.raises(
+        AssertionError,
+        match="The 'name' field must be a set or sequence and each value of type 'str'",
+    ):
         names.name = "abc"
 
 
@@ -112,6 +142,12 @@ def test_without_checks_anything_can_be_assigned():
 def test_the_environment_turns_checks_on(value, status):
     program = "from turtlewire import msg; msg.get_message('std_msgs/msg/String')().data = 3"
     environment = {"ROS_PYTHON_CHECK_FIELDS": value, "PATH": ""}
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == status
     assert ("AssertionError: The 'data' field must be of type 'str'" in done.stderr) == bool(status)

@@ -25,8 +25,14 @@ from turtlewire.errors import InterfaceError
 
 def test_repr_is_that_of_ros():
     assert repr(Vector3(x=1.5)) == "geometry_msgs.msg.Vector3(x=1.5, y=0.0, z=0.0)"
-    assert repr(Header(frame_id="map")) == "std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time(sec=0, nanosec=0), frame_id='map')"
-    assert repr(Spawn.Request(name="t")) == "turtlesim.srv.Spawn_Request(x=0.0, y=0.0, theta=0.0, name='t')"
+    assert (
+        repr(Header(frame_id="map"))
+        == "std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time(sec=0, nanosec=0), frame_id='map')"
+    )
+    assert (
+        repr(Spawn.Request(name="t"))
+        == "turtlesim.srv.Spawn_Request(x=0.0, y=0.0, theta=0.0, name='t')"
+    )
     state = repr(JointState(name=["a"], position=[1, 2]))
     assert state.endswith("name=['a'], position=[1.0, 2.0], velocity=[], effort=[])")
     covariance = repr(PoseWithCovariance()).partition("covariance=")[2]
@@ -46,7 +52,9 @@ def test_fields_are_plain_slots_that_do_not_take_other_names():
     assert TransformStamped.__slots__ == ("header", "child_frame_id", "transform")
     message = TransformStamped()
     assert not hasattr(message, "__dict__")
-    with pytest.raises(AttributeError, match="'TransformStamped' object has no attribute 'frame_id'"):
+    with pytest.raises(
+        AttributeError, match="'TransformStamped' object has no attribute 'frame_id'"
+    ):
         message.frame_id = "map"
 
 
@@ -73,7 +81,12 @@ def test_types_of_fields_are_told():
 
 def test_defaults_and_constants_are_attributes_of_the_class():
     assert Quaternion().w == Quaternion.W__DEFAULT == 1.0
-    assert msg.get_service("type_description_interfaces/srv/GetTypeDescription").Request().include_type_sources is True
+    assert (
+        msg.get_service("type_description_interfaces/srv/GetTypeDescription")
+        .Request()
+        .include_type_sources
+        is True
+    )
     assert msg.get_message("sensor_msgs/msg/NavSatStatus")().status == -2
     assert Log.WARN == b"\x1e"
     assert Log().WARN == b"\x1e"
@@ -190,7 +203,11 @@ def test_kinds_are_not_mixed_up():
 
 
 def test_a_class_is_made_once_however_it_is_asked_for():
-    assert msg.get_message("geometry_msgs/Vector3") is msg.get_message("geometry_msgs/msg/Vector3") is Vector3
+    assert (
+        msg.get_message("geometry_msgs/Vector3")
+        is msg.get_message("geometry_msgs/msg/Vector3")
+        is Vector3
+    )
 
 
 def test_the_modules_of_packages_list_their_interfaces():
@@ -221,5 +238,7 @@ try:
 except KeyboardInterrupt:
     print("caught")
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "caught\n", "")

@@ -28,7 +28,9 @@ def test_the_examples_of_the_page_do_what_it_says(tmp_path, monkeypatch):
             assert line in PAGE.read_text()
     (command,) = re.findall(r"```sh\n(.*)\n```", PAGE.read_text())
     assert command.startswith("python ")
-    subprocess.run([sys.executable, *command.split()[1:]], cwd=tmp_path, check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, *command.split()[1:]], cwd=tmp_path, check=True, capture_output=True
+    )
     monkeypatch.syspath_prepend(str(tmp_path / "generated"))
     failed, tried = doctest.testfile(str(PAGE), module_relative=False, optionflags=doctest.ELLIPSIS)
     assert failed == 0

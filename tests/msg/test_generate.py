@@ -76,7 +76,9 @@ def generated(source, tmp_path):
 
 
 def test_the_modules_are_imported_like_any(generated, source):
-    for path in sorted(source.rglob("*"), reverse=True):  # the package does not need its sources any more
+    for path in sorted(
+        source.rglob("*"), reverse=True
+    ):  # the package does not need its sources any more
         path.rmdir() if path.is_dir() else path.unlink()
     program = """
 import sys
@@ -95,7 +97,13 @@ print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw, agai
 print(msg.interface_names()["my_interfaces"])
 """
     environment = {**os.environ, "PYTHONPATH": str(generated)}
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         (
@@ -110,9 +118,13 @@ print(msg.interface_names()["my_interfaces"])
 
 
 def test_a_type_is_found_by_name_before_its_package_was_imported(generated):
-    program = "from turtlewire import msg; print(msg.get_message('my_interfaces/msg/Sphere')().radius)"
+    program = (
+        "from turtlewire import msg; print(msg.get_message('my_interfaces/msg/Sphere')().radius)"
+    )
     environment = {**os.environ, "PYTHONPATH": str(generated)}
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
+    )
     assert done.stdout == "1.5\n"
 
 
@@ -135,10 +147,27 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         "Sphere().rdius\n"
     )
     root = Path(__file__).parents[2]
-    environment = {**os.environ, "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}"}
-    command = [sys.executable, "-m", "mypy", "--cache-dir", str(tmp_path / "cache"), "--follow-imports=silent", str(program)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, cwd=tmp_path)
-    errors = [line.partition("user.py:")[2] for line in done.stdout.splitlines() if "error" in line and "user.py" in line]
+    environment = {
+        **os.environ,
+        "MYPYPATH": f"{generated}:{root / 'src'}:{root / 'ros'}:{root / 'ros/interfaces'}",
+    }
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--cache-dir",
+        str(tmp_path / "cache"),
+        "--follow-imports=silent",
+        str(program),
+    ]
+    done = subprocess.run(
+        command, env=environment, capture_output=True, text=True, check=False, cwd=tmp_path
+    )
+    errors = [
+        line.partition("user.py:")[2]
+        for line in done.stdout.splitlines()
+        if "error" in line and "user.py" in line
+    ]
     assert errors == [
         '12: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  [arg-type]',
         '13: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
@@ -156,10 +185,20 @@ def test_the_folder_names_a_package_without_package_xml(source, tmp_path, monkey
 
 def test_mistakes_end_the_command_with_a_line(source, tmp_path):
     (source / "msg" / "Sphere.msg").write_text("floot64 radius\n")
-    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(tmp_path / "out")]
+    command = [
+        sys.executable,
+        "-m",
+        "turtlewire.msg",
+        str(source),
+        "--output",
+        str(tmp_path / "out"),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert done.stderr == "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'\n"
+    assert (
+        done.stderr
+        == "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'\n"
+    )
 
 
 def test_the_package_is_not_written_into_its_own_sources(source):
@@ -172,7 +211,14 @@ def test_the_package_is_not_written_into_its_own_sources(source):
 
 def test_an_output_that_cannot_be_written_ends_the_command_with_a_line(source, tmp_path):
     (tmp_path / "file").touch()
-    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(tmp_path / "file")]
+    command = [
+        sys.executable,
+        "-m",
+        "turtlewire.msg",
+        str(source),
+        "--output",
+        str(tmp_path / "file"),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "Not a directory" in done.stderr

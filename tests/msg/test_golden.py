@@ -77,7 +77,9 @@ def test_samples_of_the_running_demo_come_out_as_they_went_in(golden, message_fr
         again = msg.serialize(decoded)
         assert again + bytes(-len(again) % 4) == data, sample["topic"]
         if sample["dds_type"].endswith("Log_"):
-            sample["values"]["file"] = decoded.file  # the capture's values have another directory than its bytes
+            sample["values"]["file"] = (
+                decoded.file
+            )  # the capture's values have another directory than its bytes
         assert decoded == message_from(cls._TYPE_NAME, sample["values"]), sample["topic"]
     assert len(samples) == 32
 

@@ -15,7 +15,14 @@ from rosbags.typesys import Stores, get_typestore
 
 from turtlewire import msg
 from turtlewire.msg.registry import load_message
-from turtlewire.msg.types import AbstractNestedType, AbstractString, AbstractWString, Array, BasicType, NamespacedType
+from turtlewire.msg.types import (
+    AbstractNestedType,
+    AbstractString,
+    AbstractWString,
+    Array,
+    BasicType,
+    NamespacedType,
+)
 
 FEW = settings(max_examples=6, suppress_health_check=list(HealthCheck))
 MANY = settings(max_examples=60, suppress_health_check=list(HealthCheck))
@@ -45,7 +52,11 @@ def _round_trip(message):
 # --- oracle one: pycdr2 ----------------------------------------------------------------------------------------------------------
 
 _PYCDR2_BASICS = {
-    **{f"{sign}int{bits}": getattr(idl, f"{sign}int{bits}") for sign in ("", "u") for bits in (8, 16, 32, 64)},
+    **{
+        f"{sign}int{bits}": getattr(idl, f"{sign}int{bits}")
+        for sign in ("", "u")
+        for bits in (8, 16, 32, 64)
+    },
     "float": idl.float32,
     "double": idl.float64,
     "boolean": bool,
@@ -64,7 +75,9 @@ class _Pycdr2Types:
             return idl.array[self.type_of(type_.value_type), type_.size]
         if isinstance(type_, AbstractNestedType):
             limit = getattr(type_, "maximum_size", None)
-            return idl.sequence[(self.type_of(type_.value_type), limit) if limit else self.type_of(type_.value_type)]
+            return idl.sequence[
+                (self.type_of(type_.value_type), limit) if limit else self.type_of(type_.value_type)
+            ]
         if isinstance(type_, NamespacedType):
             return self.class_of(type_.full_name)
         return str if isinstance(type_, AbstractString) else _PYCDR2_BASICS[type_.typename]
@@ -73,7 +86,12 @@ class _Pycdr2Types:
         if name not in self.classes:
             fields = [(field.name, self.type_of(field.type)) for field in load_message(name).fields]
             fields = fields or [("structure_needs_at_least_one_member", idl.uint8)]
-            self.classes[name] = make_dataclass(name.replace("/", "_"), fields, bases=(IdlStruct,), namespace={"__module__": __name__})
+            self.classes[name] = make_dataclass(
+                name.replace("/", "_"),
+                fields,
+                bases=(IdlStruct,),
+                namespace={"__module__": __name__},
+            )
         return self.classes[name]
 
     def convert(self, type_, value):
@@ -86,14 +104,19 @@ class _Pycdr2Types:
         return value.item() if isinstance(value, np.generic) else value
 
     def message(self, name, value):
-        fields = [self.convert(field.type, getattr(value, field.name)) for field in load_message(name).fields]
+        fields = [
+            self.convert(field.type, getattr(value, field.name))
+            for field in load_message(name).fields
+        ]
         return self.class_of(name)(*(fields or [0]))
 
 
 def _has_wide_strings(name):
     for field in load_message(name).fields:
         inner = field.type.value_type if isinstance(field.type, AbstractNestedType) else field.type
-        if isinstance(inner, AbstractWString) or (isinstance(inner, NamespacedType) and _has_wide_strings(inner.full_name)):
+        if isinstance(inner, AbstractWString) or (
+            isinstance(inner, NamespacedType) and _has_wide_strings(inner.full_name)
+        ):
             return True
     return False
 
@@ -141,15 +164,24 @@ def _rosbags_value(store, type_, value):
         if not basic:
             return items
         kinds = {"float": "f4", "double": "f8", "boolean": "?", "octet": "i1"}
-        return np.array(items, dtype=kinds.get(type_.value_type.typename, type_.value_type.typename))
+        return np.array(
+            items, dtype=kinds.get(type_.value_type.typename, type_.value_type.typename)
+        )
     if isinstance(type_, NamespacedType):
         return _rosbags_message(store, type_.full_name, value)
-    return int.from_bytes(value, "big", signed=True) if type_ == BasicType("octet") else value  # a scalar byte is signed there
+    return (
+        int.from_bytes(value, "big", signed=True) if type_ == BasicType("octet") else value
+    )  # a scalar byte is signed there
 
 
 def _rosbags_message(store, name, value):
     fields = load_message(name).fields
-    return store.types[name](**{field.name: _rosbags_value(store, field.type, getattr(value, field.name)) for field in fields})
+    return store.types[name](
+        **{
+            field.name: _rosbags_value(store, field.type, getattr(value, field.name))
+            for field in fields
+        }
+    )
 
 
 def _run_rosbags(all_messages, messages, limits):
@@ -184,17 +216,35 @@ def test_every_type_that_rosbags_knows_has_its_bytes_many_times(all_messages, me
     ("name", "fill"),
     [
         ("sensor_msgs/msg/LaserScan", lambda m, n: {"ranges": [1.5] * n, "intensities": [2.5] * n}),
-        ("sensor_msgs/msg/JointState", lambda m, n: {"position": [1.5] * n, "velocity": [1.0], "effort": [2.5] * n}),
-        ("sensor_msgs/msg/PointCloud2", lambda m, n: {"data": bytes(range(250)) * (n // 250) + bytes(n % 250), "is_dense": True}),
+        (
+            "sensor_msgs/msg/JointState",
+            lambda m, n: {"position": [1.5] * n, "velocity": [1.0], "effort": [2.5] * n},
+        ),
+        (
+            "sensor_msgs/msg/PointCloud2",
+            lambda m, n: {
+                "data": bytes(range(250)) * (n // 250) + bytes(n % 250),
+                "is_dense": True,
+            },
+        ),
         (
             "trajectory_msgs/msg/JointTrajectory",
-            lambda m, n: {"points": [m("trajectory_msgs/msg/JointTrajectoryPoint")(positions=[0.5] * n, effort=[1.0]) for _ in range(3)]},
+            lambda m, n: {
+                "points": [
+                    m("trajectory_msgs/msg/JointTrajectoryPoint")(positions=[0.5] * n, effort=[1.0])
+                    for _ in range(3)
+                ]
+            },
         ),
         (
             "visualization_msgs/msg/MarkerArray",
             lambda m, n: {
                 "markers": [
-                    m("visualization_msgs/msg/Marker")(mesh_file=m("visualization_msgs/msg/MeshFile")(data=bytes(n)), text="ab", ns="x" * i)
+                    m("visualization_msgs/msg/Marker")(
+                        mesh_file=m("visualization_msgs/msg/MeshFile")(data=bytes(n)),
+                        text="ab",
+                        ns="x" * i,
+                    )
                     for i in range(4)
                 ]
             },
@@ -205,7 +255,10 @@ def test_large_sequences_have_the_bytes_of_rosbags(name, fill, size):
     store = get_typestore(Stores.ROS2_JAZZY)
     message = msg.get_message(name)(**fill(msg.get_message, size))
     ours = msg.serialize(message)
-    assert bytes(store.serialize_cdr(_rosbags_message(store, name, message), name))[: len(ours)] == ours
+    assert (
+        bytes(store.serialize_cdr(_rosbags_message(store, name, message), name))[: len(ours)]
+        == ours
+    )
     assert msg.serialize(msg.deserialize(type(message), ours)) == ours
 
 
@@ -217,19 +270,22 @@ def test_rosbags_knows_the_same_fields_constants_and_hashes(all_messages):
             continue
         constants, fields = store.fielddefs[name]
         definition = load_message(name)
-        ours = [field.name for field in definition.fields] or ["structure_needs_at_least_one_member"]
+        ours = [field.name for field in definition.fields] or [
+            "structure_needs_at_least_one_member"
+        ]
         assert ours == [field[0] for field in fields], name
         values = {constant.name: constant.value for constant in definition.constants}
-        assert {key: value[0] if isinstance(value, bytes) else value for key, value in values.items()} == {c[0]: c[2] for c in constants}, (
-            name
-        )
+        assert {
+            key: value[0] if isinstance(value, bytes) else value for key, value in values.items()
+        } == {c[0]: c[2] for c in constants}, name
         if name not in _ROSBAGS_KEEPS_CHAR:
             assert store.hash_rihs01(name) == msg.type_hash(name), name
             hashed += 1
     assert hashed == 157 - len(_ROSBAGS_KEEPS_CHAR)
 
 
-# ROS 2 hashes `char` as the uint8 it becomes; rosbags hashes it as char. The golden hashes have ours.
+# ROS 2 hashes `char` as the uint8 it becomes; rosbags hashes it as char. The golden hashes have
+# ours.
 _ROSBAGS_KEEPS_CHAR = {
     "rmw_dds_common/msg/Gid",
     "rmw_dds_common/msg/NodeEntitiesInfo",
@@ -244,7 +300,15 @@ def test_copies_pickles_and_reprs_of_any_message(data):
     import copy
     import pickle
 
-    name = data.draw(st.sampled_from(["geometry_msgs/msg/TransformStamped", "sensor_msgs/msg/Imu", "sensor_msgs/msg/JointState"]))
+    name = data.draw(
+        st.sampled_from(
+            [
+                "geometry_msgs/msg/TransformStamped",
+                "sensor_msgs/msg/Imu",
+                "sensor_msgs/msg/JointState",
+            ]
+        )
+    )
     cls = msg.get_message(name)
     message = msg.deserialize(cls, msg.serialize(cls()))
     message.header.frame_id = data.draw(st.text(st.characters(codec="utf-8")))

@@ -32,7 +32,11 @@ def _field(line, name="X"):
         ("char", BasicType("uint8")),
         ("float32", BasicType("float")),
         ("float64", BasicType("double")),
-        *[(f"{sign}int{bits}", BasicType(f"{sign}int{bits}")) for sign in ("", "u") for bits in (8, 16, 32, 64)],
+        *[
+            (f"{sign}int{bits}", BasicType(f"{sign}int{bits}"))
+            for sign in ("", "u")
+            for bits in (8, 16, 32, 64)
+        ],
         ("string", UnboundedString()),
         ("wstring", UnboundedWString()),
         ("string<=10", BoundedString(10)),
@@ -136,7 +140,9 @@ def test_mistakes_are_named_with_their_line(line, reason):
 
 
 def test_lines_of_later_parts_are_counted_from_the_top():
-    with pytest.raises(InterfaceError, match="demo_interfaces/action/Go_Feedback, line 6: 'oops' is not a type"):
+    with pytest.raises(
+        InterfaceError, match="demo_interfaces/action/Go_Feedback, line 6: 'oops' is not a type"
+    ):
         parse_action("demo_interfaces/action/Go", "int32 a\n---\n\nint32 b\n---\noops x\n")
 
 

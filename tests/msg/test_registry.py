@@ -6,7 +6,13 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.registry import interface_names, interface_path, load_action, load_message, load_service
+from turtlewire.msg.registry import (
+    interface_names,
+    interface_path,
+    load_action,
+    load_message,
+    load_service,
+)
 
 
 @pytest.fixture
@@ -20,7 +26,9 @@ def prefix(tmp_path, monkeypatch):
 
 def test_definitions_of_a_prefix_are_found(prefix):
     assert interface_names()["prefix_interfaces"] == {"msg": ["Thing"], "srv": [], "action": []}
-    assert interface_path("prefix_interfaces/msg/Thing") == str(prefix / "share/prefix_interfaces/msg/Thing.msg")
+    assert interface_path("prefix_interfaces/msg/Thing") == str(
+        prefix / "share/prefix_interfaces/msg/Thing.msg"
+    )
     assert repr(msg.get_message("prefix_interfaces/msg/Thing")()) == (
         "prefix_interfaces.msg.Thing(place=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0))"
     )
@@ -49,11 +57,27 @@ def test_all_interfaces_are_listed():
 @pytest.mark.parametrize(
     ("name", "text", "hint"),
     [
-        ("geometry_msgs/msg/Twst", "unknown interface 'geometry_msgs/msg/Twst'", "Did you mean geometry_msgs/msg/Twist"),
-        ("nope/msg/X", "unknown interface 'nope/msg/X'", "`ros2 interface list` shows what there is."),
-        ("Twist", "'Twist//' is not the name of an interface", "Names look like geometry_msgs/msg/Twist"),
+        (
+            "geometry_msgs/msg/Twst",
+            "unknown interface 'geometry_msgs/msg/Twst'",
+            "Did you mean geometry_msgs/msg/Twist",
+        ),
+        (
+            "nope/msg/X",
+            "unknown interface 'nope/msg/X'",
+            "`ros2 interface list` shows what there is.",
+        ),
+        (
+            "Twist",
+            "'Twist//' is not the name of an interface",
+            "Names look like geometry_msgs/msg/Twist",
+        ),
         ("a/msg/../../etc", "'a/msg/..' is not the name of an interface", "Names look like"),
-        ("geometry_msgs/msgs/Twist", "'geometry_msgs/msgs/Twist' is not the name of an interface", "Names look like"),
+        (
+            "geometry_msgs/msgs/Twist",
+            "'geometry_msgs/msgs/Twist' is not the name of an interface",
+            "Names look like",
+        ),
         ("turtlesim/srv/Spawn_Nope", "unknown interface 'turtlesim/srv/Spawn_Nope'", ""),
     ],
 )

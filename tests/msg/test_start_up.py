@@ -8,7 +8,20 @@ import sys
 
 import pytest
 
-HEAVY = {"numpy", "dataclasses", "inspect", "asyncio", "json", "yaml", "concurrent", "subprocess", "uuid", "http", "logging", "argparse"}
+HEAVY = {
+    "numpy",
+    "dataclasses",
+    "inspect",
+    "asyncio",
+    "json",
+    "yaml",
+    "concurrent",
+    "subprocess",
+    "uuid",
+    "http",
+    "logging",
+    "argparse",
+}
 
 
 @pytest.mark.parametrize(
@@ -23,9 +36,12 @@ HEAVY = {"numpy", "dataclasses", "inspect", "asyncio", "json", "yaml", "concurre
 )
 def test_nothing_heavy_is_imported(program):
     code = (
-        program + "\nimport sys\nloaded = {name.partition('.')[0] for name in sys.modules}\nimport json\nprint(json.dumps(sorted(loaded)))"
+        program
+        + "\nimport sys\nloaded = {name.partition('.')[0] for name in sys.modules}\nimport json\nprint(json.dumps(sorted(loaded)))"
     )
-    done = subprocess.run([sys.executable, "-I", "-c", code], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-I", "-c", code], capture_output=True, text=True, check=True
+    )
     assert HEAVY & set(json.loads(done.stdout)) == set()
 
 
@@ -40,5 +56,7 @@ steps.append(made())
 msg.deserialize(cls, data)
 print([*steps, made()])
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
     assert done.stdout == "[[False, False], [True, False], [True, True]]\n"

@@ -56,7 +56,9 @@ class Program:
 
     def __init__(self, source: str, *arguments: str) -> None:
         command = [sys.executable, "-u", "-c", textwrap.dedent(source), *arguments]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
 
     def read_line(self) -> str:
         line = b""

@@ -128,7 +128,10 @@ def test_a_given_goal_id_and_a_repeated_one(serve, client, finish):
 
 
 def test_a_rejected_goal(serve, client, finish):
-    serve(count, goal_callback=lambda goal: GoalResponse.REJECT if goal.order > 5 else GoalResponse.ACCEPT)
+    serve(
+        count,
+        goal_callback=lambda goal: GoalResponse.REJECT if goal.order > 5 else GoalResponse.ACCEPT,
+    )
     assert not send(client, finish, order=6, feedback_callback=print).accepted
     assert send(client, finish, order=5).accepted
     assert client._feedback_callbacks == {}
@@ -137,7 +140,10 @@ def test_a_rejected_goal(serve, client, finish):
 def test_a_goal_callback_that_decides_nothing_rejects(serve, client, finish, capfd):
     serve(count, goal_callback=lambda goal: None)
     assert not send(client, finish).accepted
-    assert "Goal request callback did not return a GoalResponse type. Rejecting goal." in capfd.readouterr().err
+    assert (
+        "Goal request callback did not return a GoalResponse type. Rejecting goal."
+        in capfd.readouterr().err
+    )
 
 
 def test_async_decisions(serve, client, finish):
@@ -166,7 +172,10 @@ def test_without_an_outcome_a_goal_is_aborted_with_a_warning(serve, client, fini
     response = finish(send(client, finish).get_result_async())
     assert response.status == GoalStatus.STATUS_ABORTED
     assert list(response.result.sequence) == [1]
-    assert "[tested.action_server]: Goal state not set, assuming aborted. Goal ID: [" in capfd.readouterr().err
+    assert (
+        "[tested.action_server]: Goal state not set, assuming aborted. Goal ID: ["
+        in capfd.readouterr().err
+    )
 
 
 def test_an_exception_aborts_and_is_logged(serve, client, finish, capfd):
@@ -182,7 +191,10 @@ def test_outcomes_can_be_reported_once(serve, client, finish):
     def execute(goal_handle):
         goal_handle.abort()
         for report in (goal_handle.succeed, goal_handle.abort, goal_handle.canceled):
-            with pytest.raises(RCLError, match="goal_handle attempted invalid transition from state ABORTED with event") as caught:
+            with pytest.raises(
+                RCLError,
+                match="goal_handle attempted invalid transition from state ABORTED with event",
+            ) as caught:
                 report()
             errors.append(caught.value)
         return Fibonacci.Result()
@@ -220,7 +232,9 @@ def test_cancelling(patient, client, finish):
     assert [goal.goal_id for goal in answer.goals_canceling] == [handle.goal_id]
     patient.gate.set_result(None)
     assert finish(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
-    assert finish(handle.cancel_goal_async()).return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
+    assert (
+        finish(handle.cancel_goal_async()).return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
+    )
 
 
 def test_a_refused_cancelling(patient, client, finish):
@@ -238,12 +252,19 @@ def test_which_goals_a_cancel_request_means(patient, client, finish):
     handles = [send(client, finish) for _ in range(3)]
     unknown = GoalInfo(goal_id=UUID(uuid=[9] * 16))
     answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=unknown)))
-    assert (answer.return_code, answer.goals_canceling) == (CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID, [])
+    assert (answer.return_code, answer.goals_canceling) == (
+        CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID,
+        [],
+    )
     until_second = GoalInfo(stamp=handles[1].stamp)
     answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=until_second)))
-    assert [goal.goal_id for goal in answer.goals_canceling] == [handle.goal_id for handle in handles[:2]]
+    assert [goal.goal_id for goal in answer.goals_canceling] == [
+        handle.goal_id for handle in handles[:2]
+    ]
     long_ago_and_third = GoalInfo(stamp=TimeMsg(sec=1), goal_id=handles[2].goal_id)
-    answer = finish(client._cancel_client.call_async(CancelGoal.Request(goal_info=long_ago_and_third)))
+    answer = finish(
+        client._cancel_client.call_async(CancelGoal.Request(goal_info=long_ago_and_third))
+    )
     assert [goal.goal_id for goal in answer.goals_canceling] == [handles[2].goal_id]
     answer = finish(client._cancel_client.call_async(CancelGoal.Request()))
     assert len(answer.goals_canceling) == 3
@@ -252,7 +273,11 @@ def test_which_goals_a_cancel_request_means(patient, client, finish):
 
 def test_a_goal_can_be_executed_later_or_be_cancelled_before(serve, client, finish, spin_until):
     accepted = []
-    serve(count, handle_accepted_callback=accepted.append, cancel_callback=lambda _: CancelResponse.ACCEPT)
+    serve(
+        count,
+        handle_accepted_callback=accepted.append,
+        cancel_callback=lambda _: CancelResponse.ACCEPT,
+    )
     handle = send(client, finish)
     spin_until(lambda: accepted)
     assert isinstance(accepted[0], ServerGoalHandle)
@@ -334,6 +359,11 @@ def test_coming_and_going(serve, client, node, context):
 def test_the_graph_knows_actions(serve, client, node, context):
     serve(count)
     expected = [("/fibonacci", ["example_interfaces/action/Fibonacci"])]
-    assert context._wait_for_graph(lambda: get_action_names_and_types(node) == expected, 20_000_000_000)
-    assert context._wait_for_graph(lambda: get_action_server_names_and_types_by_node(node, "tested", "/") == expected, 20_000_000_000)
+    assert context._wait_for_graph(
+        lambda: get_action_names_and_types(node) == expected, 20_000_000_000
+    )
+    assert context._wait_for_graph(
+        lambda: get_action_server_names_and_types_by_node(node, "tested", "/") == expected,
+        20_000_000_000,
+    )
     assert get_action_client_names_and_types_by_node(node, "tested", "/") == expected

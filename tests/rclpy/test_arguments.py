@@ -20,9 +20,12 @@ from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
 from turtlewire.wire import names
 
 GOLDEN = Path(__file__).parent.parent / "golden" / "cli"
-#: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type): tests/rclpy and tests/turtlesim play them.
+#: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type):
+#: tests/rclpy and tests/turtlesim play them.
 NEEDS_A_NODE = {"160_rosargs_rclpy_param_range.txt", "170_rosargs_rclcpp_wrong_param_type.txt"}
-CASES = sorted(path.name for path in GOLDEN.glob("*_rosargs_*.txt") if path.name not in NEEDS_A_NODE)
+CASES = sorted(
+    path.name for path in GOLDEN.glob("*_rosargs_*.txt") if path.name not in NEEDS_A_NODE
+)
 SOURCE_LOCATION = re.compile(r", at /\S+\.c:\d+")
 STAMP = re.compile(r"\[\d+\.\d{9}\]")
 
@@ -35,7 +38,11 @@ def golden(name):
     log = [STAMP.sub("[t]", line) for line in lines if "] [rcl]: " in line]
     prefixes = ("rclpy._rclpy_pybind11.", "  what():  ")
     (error,) = [line for line in lines if line.startswith(prefixes)]
-    return command[command.index("--ros-args") + 1 :], log, SOURCE_LOCATION.sub("", error.removeprefix("  what():  "))
+    return (
+        command[command.index("--ros-args") + 1 :],
+        log,
+        SOURCE_LOCATION.sub("", error.removeprefix("  what():  ")),
+    )
 
 
 def test_the_golden_cases_are_there():
@@ -54,7 +61,9 @@ def test_golden_errors(name, capfd, monkeypatch):
     assert [STAMP.sub("[t]", line) for line in capfd.readouterr().err.splitlines()] == log
 
 
-@pytest.mark.parametrize("name", ["151_rosargs_rclpy_bad_remap2.txt", "154_rosargs_rclpy_unknown_flag.txt"])
+@pytest.mark.parametrize(
+    "name", ["151_rosargs_rclpy_bad_remap2.txt", "154_rosargs_rclpy_unknown_flag.txt"]
+)
 def test_golden_exit_codes(name):
     """A program that lets the error through: the exit code and the traceback's last line are ROS 2's."""
     words, _, error = golden(name)
@@ -77,25 +86,64 @@ def test_golden_exit_codes(name):
         (["-r"], "Couldn't parse trailing -r flag. No remap rule found."),
         (["--param"], "Couldn't parse trailing --param flag. No parameter override found."),
         (["--params-file"], "Couldn't parse trailing --params-file flag. No file path provided."),
-        (["--log-level"], "Couldn't parse trailing log level flag: '--log-level'. No log level provided."),
+        (
+            ["--log-level"],
+            "Couldn't parse trailing log level flag: '--log-level'. No log level provided.",
+        ),
         (["-e"], "Couldn't parse trailing -e flag. No enclave path provided."),
-        (["-r", "a:=b:"], "Couldn't parse remap rule: '-r a:=b:'. Error: Expected lexeme type 19, got 5 at index 4"),
-        (["-r", "a*:=b"], "Couldn't parse remap rule: '-r a*:=b'. Error: Expected lexeme type 19, got 20 at index 1"),
-        (["-r", "*:=b"], "Couldn't parse remap rule: '-r *:=b'. Error: Wildcard '*' is not implemented"),
-        (["-r", "/**:=b"], "Couldn't parse remap rule: '-r /**:=b'. Error: Wildcard '**' is not implemented"),
-        (["-r", r"a:=/\1"], r"Couldn't parse remap rule: '-r a:=/\1'. Error: Backreferences are not implemented"),
-        (["-r", "a:="], "Couldn't parse remap rule: '-r a:='. Error: Expected lexeme type (18) not found, search ended at index 3"),
-        (["-p", "n:=[1, 2.0]"], "Sequence should be of same type. Value type 'double' do not belong at line_num 1"),
-        (["-p", "n:=[true, 1]"], "Sequence should be of same type. Value type 'integer' do not belong at line_num 1"),
-        (["-p", "n:=[1, yes]"], "Sequence should be of same type. Value type 'bool' do not belong at line_num 1"),
-        (["-p", "n:="], "Couldn't parse parameter override rule: '-p n:='. Error: No value at line 1"),
-        (["-p", "n:={a: 1}"], "Couldn't parse parameter override rule: '-p n:={a: 1}'. Error: No value at line 1"),
+        (
+            ["-r", "a:=b:"],
+            "Couldn't parse remap rule: '-r a:=b:'. Error: Expected lexeme type 19, got 5 at index 4",
+        ),
+        (
+            ["-r", "a*:=b"],
+            "Couldn't parse remap rule: '-r a*:=b'. Error: Expected lexeme type 19, got 20 at index 1",
+        ),
+        (
+            ["-r", "*:=b"],
+            "Couldn't parse remap rule: '-r *:=b'. Error: Wildcard '*' is not implemented",
+        ),
+        (
+            ["-r", "/**:=b"],
+            "Couldn't parse remap rule: '-r /**:=b'. Error: Wildcard '**' is not implemented",
+        ),
+        (
+            ["-r", r"a:=/\1"],
+            r"Couldn't parse remap rule: '-r a:=/\1'. Error: Backreferences are not implemented",
+        ),
+        (
+            ["-r", "a:="],
+            "Couldn't parse remap rule: '-r a:='. Error: Expected lexeme type (18) not found, search ended at index 3",
+        ),
+        (
+            ["-p", "n:=[1, 2.0]"],
+            "Sequence should be of same type. Value type 'double' do not belong at line_num 1",
+        ),
+        (
+            ["-p", "n:=[true, 1]"],
+            "Sequence should be of same type. Value type 'integer' do not belong at line_num 1",
+        ),
+        (
+            ["-p", "n:=[1, yes]"],
+            "Sequence should be of same type. Value type 'bool' do not belong at line_num 1",
+        ),
+        (
+            ["-p", "n:="],
+            "Couldn't parse parameter override rule: '-p n:='. Error: No value at line 1",
+        ),
+        (
+            ["-p", "n:={a: 1}"],
+            "Couldn't parse parameter override rule: '-p n:={a: 1}'. Error: No value at line 1",
+        ),
         (["-p", "n:=[[1]]"], "Sequences can only hold plain values. Error at line 1"),
         (["-p", 'n:="a'], "Error parsing a event near line 1"),
         (["-p", "a.*:=1"], "Wildcard '*' is not implemented"),
         (["--log-level", ":=info"], "Argument has an invalid logger item that name is empty"),
         (["--log-level", "rcl:=loud"], "Argument does not use a valid severity level"),
-        (["-e", "x"], "Enclave name is not valid: 'context name must be absolute, it must lead with a '/''. Invalid index: 0"),
+        (
+            ["-e", "x"],
+            "Enclave name is not valid: 'context name must be absolute, it must lead with a '/''. Invalid index: 0",
+        ),
     ],
 )
 def test_malformed_rules(words, text):
@@ -107,7 +155,9 @@ def test_malformed_rules(words, text):
 
 def test_everything_unknown_is_listed():
     with pytest.raises(UnknownROSArgsError) as caught:
-        Arguments.parse(["a", "--ros-args", "--nope", "-r", "a:=b", "b", "--", "c", "--ros-args", "d"])
+        Arguments.parse(
+            ["a", "--ros-args", "--nope", "-r", "a:=b", "b", "--", "c", "--ros-args", "d"]
+        )
     assert str(caught.value) == "['--nope', 'b', 'd']"
 
 
@@ -150,8 +200,16 @@ def test_switches_and_the_rest():
             "x",
         ]
     )
-    assert (arguments.stdout_logs, arguments.rosout_logs, arguments.external_lib_logs) == (False, True, False)
-    assert (arguments.log_file_name, arguments.enclave, arguments.log_config_file) == ("robot", "/a/b", "x")
+    assert (arguments.stdout_logs, arguments.rosout_logs, arguments.external_lib_logs) == (
+        False,
+        True,
+        False,
+    )
+    assert (arguments.log_file_name, arguments.enclave, arguments.log_config_file) == (
+        "robot",
+        "/a/b",
+        "x",
+    )
     with pytest.raises(RCLInvalidROSArgsError):
         Arguments.parse(["--ros-args", "--log-file-name", "../x"])
 
@@ -183,7 +241,13 @@ def test_remap_rules(rule, name, topic, service):
 
 
 def test_node_name_and_namespace():
-    arguments = rules("other:__node:=x", "__node:=renamed", "__name:=late", "old:__ns:=/wrong", "renamed:__ns:=/right")
+    arguments = rules(
+        "other:__node:=x",
+        "__node:=renamed",
+        "__name:=late",
+        "old:__ns:=/wrong",
+        "renamed:__ns:=/right",
+    )
     assert arguments.remap_node_name("old") == "renamed"
     assert arguments.remap_node_name("other") == "x"
     assert arguments.remap_namespace("renamed", "/") == "/right"
@@ -199,11 +263,18 @@ def test_local_rules_come_before_global_ones():
 
 tokens = st.from_regex(r"[a-z][a-z0-9]{0,5}", fullmatch=True)
 relative_names = st.lists(tokens, min_size=1, max_size=3).map("/".join)
-typed_names = st.one_of(relative_names, relative_names.map("/{}".format), relative_names.map("~/{}".format))
+typed_names = st.one_of(
+    relative_names, relative_names.map("/{}".format), relative_names.map("~/{}".format)
+)
 namespaces = st.one_of(st.just("/"), relative_names.map("/{}".format))
 
 
-@given(st.lists(st.tuples(typed_names, typed_names), min_size=1, max_size=5), typed_names, tokens, namespaces)
+@given(
+    st.lists(st.tuples(typed_names, typed_names), min_size=1, max_size=5),
+    typed_names,
+    tokens,
+    namespaces,
+)
 def test_the_first_rule_whose_expansion_is_the_name_wins(pairs, asked, node, namespace):
     def expand(name):
         return names.expand_topic_name(name, node, namespace)
@@ -211,7 +282,11 @@ def test_the_first_rule_whose_expansion_is_the_name_wins(pairs, asked, node, nam
     arguments = rules(*(f"{match}:={replacement}" for match, replacement in pairs))
     replacements = [replacement for match, replacement in pairs if expand(match) == expand(asked)]
     expected = expand(replacements[0]) if replacements else expand(asked)
-    assert arguments.remap_topic(expand(asked), node, namespace) == arguments.remap_service(expand(asked), node, namespace) == expected
+    assert (
+        arguments.remap_topic(expand(asked), node, namespace)
+        == arguments.remap_service(expand(asked), node, namespace)
+        == expected
+    )
 
 
 @given(st.lists(tokens, min_size=1, max_size=4), st.data())
@@ -249,7 +324,23 @@ def test_the_lexer_reads_everything_or_says_where_it_stops(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["__node", "__name", "__ns", "rostopic://", "rosservice://", ":=", ":", "~/", "**", "*", "/", ".", "a_b", "_"]
+    "text",
+    [
+        "__node",
+        "__name",
+        "__ns",
+        "rostopic://",
+        "rosservice://",
+        ":=",
+        ":",
+        "~/",
+        "**",
+        "*",
+        "/",
+        ".",
+        "a_b",
+        "_",
+    ],
 )
 def test_each_lexeme_is_one(text):
     lexer = Lexer(text)
@@ -312,19 +403,52 @@ def test_not_a_number():
     assert [each != each for each in read] == [True, True, True]
 
 
-@given(st.one_of(st.booleans(), st.integers(-(2**63), 2**63 - 1), st.floats(allow_nan=False, allow_infinity=False), st.text("abcxyz _-")))
+@given(
+    st.one_of(
+        st.booleans(),
+        st.integers(-(2**63), 2**63 - 1),
+        st.floats(allow_nan=False, allow_infinity=False),
+        st.text("abcxyz _-"),
+    )
+)
 def test_python_values_survive_yaml(value):
-    text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f"'{value}'" if isinstance(value, str) else repr(value)
+    text = (
+        {True: "true", False: "false"}[value]
+        if isinstance(value, bool)
+        else f"'{value}'"
+        if isinstance(value, str)
+        else repr(value)
+    )
     read = parse_value(text)
     assert read == value
     assert type(read) is type(value)
 
 
 def test_rules_with_a_node_and_slashes():
-    arguments = Arguments.parse(["--ros-args", "-p", "n:a.b:=1", "-p", "qos_overrides./chatter.publisher.depth:=5", "-p", "c:=x"])
-    assert arguments.parameter_overrides("/n") == {"a.b": 1, "qos_overrides./chatter.publisher.depth": 5, "c": "x"}
-    assert arguments.parameter_overrides("/m") == {"qos_overrides./chatter.publisher.depth": 5, "c": "x"}
-    assert arguments.parameter_overrides("/ns/n") == {"qos_overrides./chatter.publisher.depth": 5, "c": "x"}
+    arguments = Arguments.parse(
+        [
+            "--ros-args",
+            "-p",
+            "n:a.b:=1",
+            "-p",
+            "qos_overrides./chatter.publisher.depth:=5",
+            "-p",
+            "c:=x",
+        ]
+    )
+    assert arguments.parameter_overrides("/n") == {
+        "a.b": 1,
+        "qos_overrides./chatter.publisher.depth": 5,
+        "c": "x",
+    }
+    assert arguments.parameter_overrides("/m") == {
+        "qos_overrides./chatter.publisher.depth": 5,
+        "c": "x",
+    }
+    assert arguments.parameter_overrides("/ns/n") == {
+        "qos_overrides./chatter.publisher.depth": 5,
+        "c": "x",
+    }
 
 
 FILE = """\
@@ -376,7 +500,10 @@ def test_local_parameters_win_over_global_ones():
         ("ros__parameters: {a: 1}", "There are no node names before ros__parameters at line 1"),
         ("n:\n  ros__parameters: 1", "Expected parameters below ros__parameters at line 2"),
         ("n:\n  ros__parameters:\n    [1]: 2", "Sequences cannot be key at line 3"),
-        ("n:\n  ros__parameters:\n    a: [1, [2]]", "Sequences can only hold plain values. Error at line 3"),
+        (
+            "n:\n  ros__parameters:\n    a: [1, [2]]",
+            "Sequences can only hold plain values. Error at line 3",
+        ),
         ("n:\n  ros__parameters:\n    a: &x 1\n    b: *x", "Will not support aliasing at line 4\n"),
         ("n:\n  ros__parameters:\n    a:", "No value at line 3"),
         ("n:\n\tros__parameters: 1", "Error parsing a event near line 1"),
@@ -405,7 +532,12 @@ def test_empty_and_unreadable_parameter_files(tmp_path):
 yaml_like = st.text(alphabet="ab_1.:=~/*&!|>%@`'\"[]{},- #\n\t\\\x00é", max_size=40)
 
 
-@given(st.sampled_from(["-r", "-p", "--log-level", "-e", "--log-file-name", "--params-file", "--nope"]), yaml_like)
+@given(
+    st.sampled_from(
+        ["-r", "-p", "--log-level", "-e", "--log-file-name", "--params-file", "--nope"]
+    ),
+    yaml_like,
+)
 def test_nonsense_is_answered_with_the_right_error(flag, text):
     try:
         arguments = Arguments.parse(["--ros-args", flag, text])

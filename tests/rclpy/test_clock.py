@@ -60,7 +60,9 @@ def test_each_clock_tells_its_time():
     before = time.time_ns()
     assert before <= Clock().now().nanoseconds <= ROSClock().now().nanoseconds <= time.time_ns()
     before = time.monotonic_ns()
-    assert before <= Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds <= time.monotonic_ns()
+    assert (
+        before <= Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds <= time.monotonic_ns()
+    )
 
 
 def test_ros_time_follows_the_override_while_active():
@@ -93,7 +95,9 @@ def test_jump_thresholds(min_forward, min_backward, on_clock_change, steps, hear
         on_clock_change=on_clock_change,
     )
     jumps = []
-    handle = clock.create_jump_callback(threshold, post_callback=lambda jump: jumps.append(jump.delta.nanoseconds))
+    handle = clock.create_jump_callback(
+        threshold, post_callback=lambda jump: jumps.append(jump.delta.nanoseconds)
+    )
     for step in steps:
         clock.set_ros_time_override(ros_time(step))
     assert jumps == heard
@@ -112,7 +116,9 @@ def test_jump_callbacks_run_before_and_after():
     with clock.create_jump_callback(
         threshold,
         pre_callback=lambda: seen.append(clock.ros_time_is_active),
-        post_callback=lambda jump: seen.append((clock.ros_time_is_active, jump.clock_change, jump.delta)),
+        post_callback=lambda jump: seen.append(
+            (clock.ros_time_is_active, jump.clock_change, jump.delta)
+        ),
     ):
         clock._set_ros_time_is_active(True)
         clock._set_ros_time_is_active(True)
@@ -149,19 +155,30 @@ def test_a_jump_callback_may_unregister_itself():
             lambda: JumpThreshold(min_forward=None, min_backward=None, on_clock_change=False),
             "At least one jump threshold must be enabled",
         ),
-        (lambda: JumpThreshold(min_forward=Duration(), min_backward=None), "min_forward must be a positive non-zero duration"),
-        (lambda: JumpThreshold(min_forward=None, min_backward=Duration()), "min_backward must be a negative non-zero duration"),
+        (
+            lambda: JumpThreshold(min_forward=Duration(), min_backward=None),
+            "min_forward must be a positive non-zero duration",
+        ),
+        (
+            lambda: JumpThreshold(min_forward=None, min_backward=Duration()),
+            "min_backward must be a negative non-zero duration",
+        ),
         (
             lambda: JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=1)),
             "min_backward must be a negative non-zero duration",
         ),
         (
-            lambda: Clock().create_jump_callback(JumpThreshold(min_forward=None, min_backward=None)),
+            lambda: Clock().create_jump_callback(
+                JumpThreshold(min_forward=None, min_backward=None)
+            ),
             "One of pre_callback or post_callback must be callable",
         ),
         (
             lambda: JumpHandle(
-                clock=Clock(), threshold=JumpThreshold(min_forward=None, min_backward=None), pre_callback=1, post_callback=None
+                clock=Clock(),
+                threshold=JumpThreshold(min_forward=None, min_backward=None),
+                pre_callback=1,
+                post_callback=None,
             ),
             "pre_callback must be callable if given",
         ),
@@ -174,11 +191,15 @@ def test_bad_thresholds(make, text):
 
 
 def test_bad_jump():
-    with pytest.raises(TypeError, match=r"^clock_change must be an instance of rclpy.clock.ClockChange$"):
+    with pytest.raises(
+        TypeError, match=r"^clock_change must be an instance of rclpy.clock.ClockChange$"
+    ):
         TimeJump(1, Duration())
 
 
-@pytest.mark.parametrize("clock_type", [ClockType.SYSTEM_TIME, ClockType.STEADY_TIME, ClockType.ROS_TIME])
+@pytest.mark.parametrize(
+    "clock_type", [ClockType.SYSTEM_TIME, ClockType.STEADY_TIME, ClockType.ROS_TIME]
+)
 def test_sleep_lasts_until_the_time(clock_type):
     clock = Clock(clock_type=clock_type)
     until = clock.now() + Duration(seconds=0.02)

@@ -12,7 +12,11 @@ from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
-from rclpy.qos_overriding_options import InvalidQosOverridesError, QoSCallbackResult, QoSOverridingOptions
+from rclpy.qos_overriding_options import (
+    InvalidQosOverridesError,
+    QoSCallbackResult,
+    QoSOverridingOptions,
+)
 from std_msgs.msg import String
 
 RELIABLE = QoSProfile(depth=1)
@@ -46,7 +50,9 @@ def world(request, monkeypatch):
 
 def test_matches(world):
     seen = []
-    publisher = world.node.create_publisher(String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append))
+    publisher = world.node.create_publisher(
+        String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append)
+    )
     subscription = world.node.create_subscription(String, "a", print, 1)
     world.spin_until(lambda: seen)
     assert seen.pop() == event_handler.QoSPublisherMatchedInfo(1, 1, 1, 1)
@@ -58,11 +64,20 @@ def test_matches(world):
 
 def test_endpoints_that_do_not_match_are_told(world):
     offered, requested = [], []
-    world.node.create_publisher(String, "a", BEST_EFFORT, event_callbacks=PublisherEventCallbacks(incompatible_qos=offered.append))
+    world.node.create_publisher(
+        String,
+        "a",
+        BEST_EFFORT,
+        event_callbacks=PublisherEventCallbacks(incompatible_qos=offered.append),
+    )
     callbacks = SubscriptionEventCallbacks(incompatible_qos=requested.append)
     world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
     world.spin_until(lambda: offered and requested)
-    assert offered == requested == [event_handler.QoSOfferedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)]
+    assert (
+        offered
+        == requested
+        == [event_handler.QoSOfferedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)]
+    )
 
 
 def test_ros_2s_warnings(world, capfd):
@@ -92,10 +107,17 @@ def test_ros_2s_warnings(world, capfd):
 
 def test_the_warnings_can_be_switched_off(world, capfd):
     matched = []
-    world.node.create_publisher(String, "a", BEST_EFFORT, event_callbacks=PublisherEventCallbacks(use_default_callbacks=False))
+    world.node.create_publisher(
+        String,
+        "a",
+        BEST_EFFORT,
+        event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
+    )
     callbacks = SubscriptionEventCallbacks(use_default_callbacks=False)
     world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
-    world.node.create_publisher(String, "b", 1, event_callbacks=PublisherEventCallbacks(matched=matched.append))
+    world.node.create_publisher(
+        String, "b", 1, event_callbacks=PublisherEventCallbacks(matched=matched.append)
+    )
     world.node.create_subscription(String, "b", print, 1)
     world.spin_until(lambda: matched)
     assert capfd.readouterr().err == ""
@@ -103,7 +125,10 @@ def test_the_warnings_can_be_switched_off(world, capfd):
 
 def test_what_no_middleware_reports(world):
     for create, callbacks in (
-        (lambda **keywords: world.node.create_publisher(String, "a", 1, **keywords), PublisherEventCallbacks(incompatible_type=print)),
+        (
+            lambda **keywords: world.node.create_publisher(String, "a", 1, **keywords),
+            PublisherEventCallbacks(incompatible_type=print),
+        ),
         (
             lambda **keywords: world.node.create_subscription(String, "a", print, 1, **keywords),
             SubscriptionEventCallbacks(incompatible_type=print),
@@ -133,10 +158,17 @@ def test_overrides(context):
         "qos_overrides./a.subscription_x.history:=keep_all",
     )
     given = QoSProfile(depth=1)
-    publisher = node.create_publisher(String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies())
+    publisher = node.create_publisher(
+        String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies()
+    )
     options = QoSOverridingOptions.with_default_policies(entity_id="x")
-    subscription = node.create_subscription(String, "a", print, given, qos_overriding_options=options)
-    assert (publisher.qos_profile.depth, publisher.qos_profile.reliability) == (7, ReliabilityPolicy.BEST_EFFORT)
+    subscription = node.create_subscription(
+        String, "a", print, given, qos_overriding_options=options
+    )
+    assert (publisher.qos_profile.depth, publisher.qos_profile.reliability) == (
+        7,
+        ReliabilityPolicy.BEST_EFFORT,
+    )
     assert subscription.qos_profile.history is HistoryPolicy.KEEP_ALL
     assert given == QoSProfile(depth=1)
     names = node.list_parameters(["qos_overrides"], 0).names
@@ -146,18 +178,29 @@ def test_overrides(context):
         for policy in ("history", "depth", "reliability")
     ]
     described = node.describe_parameter("qos_overrides./a.subscription_x.depth")
-    assert (described.read_only, described.description) == (True, "depth for subscription `/a` with id `x`")
-    again = node.create_publisher(String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies())
+    assert (described.read_only, described.description) == (
+        True,
+        "depth for subscription `/a` with id `x`",
+    )
+    again = node.create_publisher(
+        String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies()
+    )
     assert again.qos_profile.depth == 7
     node.destroy_node()
 
 
 def test_every_policy_can_be_overridden(context):
-    node = overridden(context, "qos_overrides./a.publisher.deadline:=1000000000", "qos_overrides./a.publisher.durability:=transient_local")
+    node = overridden(
+        context,
+        "qos_overrides./a.publisher.deadline:=1000000000",
+        "qos_overrides./a.publisher.durability:=transient_local",
+    )
     policies = [kind for kind in QoSPolicyKind if kind is not QoSPolicyKind.INVALID]
     for create in (
         lambda options: node.create_publisher(String, "a", 1, qos_overriding_options=options),
-        lambda options: node.create_subscription(String, "b", print, 1, qos_overriding_options=options),
+        lambda options: node.create_subscription(
+            String, "b", print, 1, qos_overriding_options=options
+        ),
     ):
         create(QoSOverridingOptions(policies))
     names = node.list_parameters(["qos_overrides"], 0).names
@@ -170,13 +213,25 @@ def test_every_policy_can_be_overridden(context):
 
 
 def test_wrong_overrides(context):
-    node = overridden(context, "qos_overrides./a.publisher.reliability:=maybe", "qos_overrides./b.publisher.depth:=deep")
+    node = overridden(
+        context,
+        "qos_overrides./a.publisher.reliability:=maybe",
+        "qos_overrides./b.publisher.depth:=deep",
+    )
     options = QoSOverridingOptions.with_default_policies()
-    with pytest.raises(ValueError, match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable"):
+    with pytest.raises(
+        ValueError,
+        match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable",
+    ):
         node.create_publisher(String, "a", 1, qos_overriding_options=options)
     with pytest.raises(InvalidParameterTypeException):
         node.create_publisher(String, "b", 1, qos_overriding_options=options)
-    refusing = QoSOverridingOptions.with_default_policies(callback=lambda qos: QoSCallbackResult(successful=False, reason=f"{qos.depth}"))
-    with pytest.raises(InvalidQosOverridesError, match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$"):
+    refusing = QoSOverridingOptions.with_default_policies(
+        callback=lambda qos: QoSCallbackResult(successful=False, reason=f"{qos.depth}")
+    )
+    with pytest.raises(
+        InvalidQosOverridesError,
+        match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$",
+    ):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
     node.destroy_node()

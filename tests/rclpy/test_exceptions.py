@@ -10,11 +10,20 @@ from rclpy.parameter import Parameter
     ("error", "text"),
     [
         (exceptions.NotInitializedException(), "rclpy.init() has not been called"),
-        (exceptions.NotInitializedException("cannot create node"), "rclpy.init() has not been called. msg:cannot create node"),
+        (
+            exceptions.NotInitializedException("cannot create node"),
+            "rclpy.init() has not been called. msg:cannot create node",
+        ),
         (exceptions.NoTypeSupportImportedException(), "no type_support imported"),
         (exceptions.ROSInterruptException(), "rclpy.shutdown() has been called"),
-        (exceptions.ParameterNotDeclaredException(["a"]), "Invalid access to undeclared parameter(s): ['a']"),
-        (exceptions.ParameterAlreadyDeclaredException(["a"]), "Parameter(s) already declared: ['a']"),
+        (
+            exceptions.ParameterNotDeclaredException(["a"]),
+            "Invalid access to undeclared parameter(s): ['a']",
+        ),
+        (
+            exceptions.ParameterAlreadyDeclaredException(["a"]),
+            "Parameter(s) already declared: ['a']",
+        ),
         (exceptions.InvalidParameterException(""), "Invalid parameter name: "),
         (exceptions.ParameterImmutableException("a"), "Attempted to modify read-only parameter: a"),
         (exceptions.ParameterUninitializedException("a"), "The parameter is not initialized: a"),
@@ -37,6 +46,10 @@ def test_hints_are_notes():
 def test_the_tree_of_errors():
     assert exceptions.InvalidHandle is _rclpy_pybind11.InvalidHandle
     for name in ("NotDeclared", "AlreadyDeclared", "Uninitialized"):
-        assert issubclass(getattr(exceptions, f"Parameter{name}Exception"), exceptions.ParameterException)
+        assert issubclass(
+            getattr(exceptions, f"Parameter{name}Exception"), exceptions.ParameterException
+        )
     for name in ("Node", "Topic", "Service"):
-        assert issubclass(getattr(exceptions, f"Invalid{name}NameException"), exceptions.NameValidationException)
+        assert issubclass(
+            getattr(exceptions, f"Invalid{name}NameException"), exceptions.NameValidationException
+        )

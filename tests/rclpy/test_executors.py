@@ -75,7 +75,9 @@ def test_it_needs_an_initialized_context():
 def test_one_cycle_runs_in_ros_2s_order(node, executor):
     order = []
     client = node.create_client(AddTwoInts, "add")
-    node.create_service(AddTwoInts, "add", lambda request, response: order.append("service") or response)
+    node.create_service(
+        AddTwoInts, "add", lambda request, response: order.append("service") or response
+    )
     guard = node.create_guard_condition(lambda: order.append("guard"))
     node.create_subscription(Int32, "number", lambda _: order.append("subscription"), 10)
     publisher = node.create_publisher(Int32, "number", 10)
@@ -104,7 +106,10 @@ def test_nodes_are_served_in_the_order_in_which_they_were_added(context, node, e
 
 def test_spin_once_runs_one_callback(node, executor):
     calls = []
-    guards = [node.create_guard_condition(lambda number=number: calls.append(number)) for number in range(3)]
+    guards = [
+        node.create_guard_condition(lambda number=number: calls.append(number))
+        for number in range(3)
+    ]
     for guard in guards:
         guard.trigger()
     executor.spin_once(timeout_sec=10)
@@ -236,7 +241,9 @@ def test_a_waiting_async_callback_holds_its_group_but_nothing_else(node, executo
 
     node.create_guard_condition(wait).trigger()
     node.create_guard_condition(lambda: order.append("same group")).trigger()
-    node.create_guard_condition(lambda: order.append("other group"), MutuallyExclusiveCallbackGroup()).trigger()
+    node.create_guard_condition(
+        lambda: order.append("other group"), MutuallyExclusiveCallbackGroup()
+    ).trigger()
     free = MutuallyExclusiveCallbackGroup()
     node.create_guard_condition(lambda: order.append("kept group"), free).trigger()
     spin_until(lambda: "kept group" in order)
@@ -303,9 +310,13 @@ def test_call_in_a_callback_of_a_single_thread(context, node, executor, spinning
     spinning(elsewhere)
     client = node.create_client(AddTwoInts, "add")
     order = []
-    node.create_guard_condition(lambda: order.append(client.call(AddTwoInts.Request(a=1, b=2)).sum)).trigger()
+    node.create_guard_condition(
+        lambda: order.append(client.call(AddTwoInts.Request(a=1, b=2)).sum)
+    ).trigger()
     node.create_guard_condition(lambda: order.append("after"), ReentrantCallbackGroup()).trigger()
-    node.create_timer(0.001, lambda: order.append("timer"), ReentrantCallbackGroup()).timer_period_ns = 3_600_000_000_000
+    node.create_timer(
+        0.001, lambda: order.append("timer"), ReentrantCallbackGroup()
+    ).timer_period_ns = 3_600_000_000_000
     executor.spin_once(timeout_sec=10)
     assert order in ([3], ["timer"])
     for _ in range(2):
@@ -323,7 +334,9 @@ def test_call_to_a_service_of_the_blocked_executor_raises(node, executor):
 
 def test_call_in_a_callback_respects_its_timeout(node, executor):
     client = node.create_client(AddTwoInts, "nobody")
-    node.create_guard_condition(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.05)).trigger()
+    node.create_guard_condition(
+        lambda: client.call(AddTwoInts.Request(), timeout_sec=0.05)
+    ).trigger()
     with pytest.raises(TimeoutError):
         executor.spin_once(timeout_sec=10)
     assert client._pending == {}
@@ -389,7 +402,10 @@ def test_a_call_of_a_service_in_the_callers_own_group_is_warned_of(node, pool, s
     node.create_guard_condition(ask).trigger()
     spinning(pool)
     assert over.wait(60)
-    assert "service '/add', which cannot run because its callback group is busy" in capfd.readouterr().err
+    assert (
+        "service '/add', which cannot run because its callback group is busy"
+        in capfd.readouterr().err
+    )
 
 
 def test_a_reentrant_group_runs_at_the_same_time_up_to_the_number_of_threads(node, pool, spinning):
@@ -463,15 +479,23 @@ def test_spinning_within_a_callback(node, executor):
     assert sums == [8]
 
 
-def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executor, capfd, monkeypatch):
+def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
+    node, executor, capfd, monkeypatch
+):
     done = Future()
-    at_once, later = (node.create_guard_condition(lambda: done.set_result("in the same group")) for _ in range(2))
+    at_once, later = (
+        node.create_guard_condition(lambda: done.set_result("in the same group")) for _ in range(2)
+    )
     warn = executor._warn_of_nested_spin
-    monkeypatch.setattr(executor, "_warn_of_nested_spin", lambda: (warn(), done.set_result("after the warning")))
+    monkeypatch.setattr(
+        executor, "_warn_of_nested_spin", lambda: (warn(), done.set_result("after the warning"))
+    )
 
     def wait():
         at_once.trigger()
-        helping = threading.Timer(0.1, later.trigger)  # what cannot run either does not put the warning off
+        helping = threading.Timer(
+            0.1, later.trigger
+        )  # what cannot run either does not put the warning off
         helping.start()
         executor.spin_until_future_complete(done)
         helping.join()
@@ -479,16 +503,23 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(node, executo
     node.create_guard_condition(wait).trigger()
     executor.spin_once(timeout_sec=10)
     assert done.result() == "after the warning"
-    assert "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)" in capfd.readouterr().err
+    assert (
+        "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)"
+        in capfd.readouterr().err
+    )
 
 
-def test_an_async_callback_that_waits_for_itself_is_warned_of(node, any_executor, capfd, monkeypatch):
+def test_an_async_callback_that_waits_for_itself_is_warned_of(
+    node, any_executor, capfd, monkeypatch
+):
     monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 10_000_000)
     service = node.create_service(AddTwoInts, "held_up", lambda _, response: response)
     client = node.create_client(AddTwoInts, "held_up")
     warned = Future()
     warning = service._logger.warning
-    monkeypatch.setattr(service._logger, "warning", lambda text: (warning(text), warned.set_result(None)))
+    monkeypatch.setattr(
+        service._logger, "warning", lambda text: (warning(text), warned.set_result(None))
+    )
 
     async def ask():
         await client.call_async(AddTwoInts.Request())
@@ -497,13 +528,21 @@ def test_an_async_callback_that_waits_for_itself_is_warned_of(node, any_executor
     any_executor.spin_until_future_complete(warned, timeout_sec=60)
     any_executor.spin_once(timeout_sec=0.05)  # says nothing a second time
     assert (
-        capfd.readouterr().err.count("An async callback awaits, and service '/held_up', which was called, cannot run before it ends") == 1
+        capfd.readouterr().err.count(
+            "An async callback awaits, and service '/held_up', which was called, cannot run before it ends"
+        )
+        == 1
     )
 
 
 def test_an_async_callback_that_waits_for_others_is_not(node, any_executor, capfd, monkeypatch):
     monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 0)
-    node.create_service(AddTwoInts, "free", lambda _, response: response, callback_group=MutuallyExclusiveCallbackGroup())
+    node.create_service(
+        AddTwoInts,
+        "free",
+        lambda _, response: response,
+        callback_group=MutuallyExclusiveCallbackGroup(),
+    )
     node.create_service(AddTwoInts, "not_called", lambda _, response: response)
     client = node.create_client(AddTwoInts, "free")
     answered = Future()

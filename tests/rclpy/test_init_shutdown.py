@@ -218,7 +218,9 @@ def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middlewar
         "service": lambda: node.create_service(Empty, "other", print),
     }
     for what, create in creators.items():
-        with pytest.raises(RCLError, match=f"could not create {what}: rcl node's context is invalid"):
+        with pytest.raises(
+            RCLError, match=f"could not create {what}: rcl node's context is invalid"
+        ):
             create()
     with pytest.raises(RCLError, match="failed to send request"):
         client.call_async(Empty.Request())
@@ -235,7 +237,12 @@ def test_every_module_is_an_attribute_of_the_package():
     names = "time duration clock qos executors logging parameter callback_groups action node task timer exceptions"
     lines = [f"assert rclpy.{name}.__name__ == 'rclpy.{name}'" for name in names.split()]
     program = "\n".join(["import rclpy", *lines, "print(rclpy.time.Time().nanoseconds)"])
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == "0\n"
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", program], capture_output=True, text=True, check=True
+        ).stdout
+        == "0\n"
+    )
     assert rclpy.Parameter is rclpy.parameter.Parameter
     assert rclpy.Future is rclpy.task.Future
     assert rclpy.Context is Context
@@ -252,7 +259,12 @@ node = Node("light")
 heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasses", "subprocess", "uuid", "http", "yaml"}
 print(sorted(heavy & set(sys.modules)))
 """
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == "[]\n"
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", program], capture_output=True, text=True, check=True
+        ).stdout
+        == "[]\n"
+    )
 
 
 def test_helpers():
@@ -260,7 +272,11 @@ def test_helpers():
     assert timeout_sec_to_nsec(-0.5) == -1
     assert timeout_sec_to_nsec(0) == 0
     assert timeout_sec_to_nsec(1.5) == 1_500_000_000
-    assert remove_ros_args(["program", "a", "--ros-args", "-r", "x:=y", "--", "b"]) == ["program", "a", "b"]
+    assert remove_ros_args(["program", "a", "--ros-args", "-r", "x:=y", "--", "b"]) == [
+        "program",
+        "a",
+        "b",
+    ]
     assert rclpy.utilities.get_rmw_implementation_identifier() == "local"
     assert "rmw_cyclonedds_cpp" in rclpy.utilities.get_available_rmw_implementations()
 
@@ -280,7 +296,9 @@ def test_a_callback_may_shut_down_while_others_wait_for_it(monkeypatch, middlewa
     def end():
         publisher.publish(Int32())
         publisher.wait_for_all_acked()
-        executor.spin_once(timeout_sec=0.1)  # finds the message, whose callback has to wait for this one
+        executor.spin_once(
+            timeout_sec=0.1
+        )  # finds the message, whose callback has to wait for this one
         context.shutdown()
 
     assert context._wait_for_graph(lambda: publisher.get_subscription_count() == 1, 20_000_000_000)

@@ -80,7 +80,9 @@ def test_the_whole_way(managed):
 
 @pytest.mark.parametrize("step", ["activate", "deactivate", "cleanup"])
 def test_a_step_that_does_not_lead_on_raises(managed, step):
-    with pytest.raises(RCLError, match=f"no transition matching {step} found for current state unconfigured"):
+    with pytest.raises(
+        RCLError, match=f"no transition matching {step} found for current state unconfigured"
+    ):
         getattr(managed, f"trigger_{step}")()
 
 
@@ -91,7 +93,13 @@ def test_a_failure_leads_back(managed):
 
 
 @pytest.mark.parametrize(
-    ("after_error", "state"), [(SUCCESS, "unconfigured"), (FAILURE, "finalized"), (ERROR, "finalized"), (ValueError("x"), "finalized")]
+    ("after_error", "state"),
+    [
+        (SUCCESS, "unconfigured"),
+        (FAILURE, "finalized"),
+        (ERROR, "finalized"),
+        (ValueError("x"), "finalized"),
+    ],
 )
 @pytest.mark.parametrize("outcome", [ERROR, LookupError("wrong"), None])
 def test_an_error_is_processed(managed, capfd, outcome, after_error, state):
@@ -103,7 +111,9 @@ def test_an_error_is_processed(managed, capfd, outcome, after_error, state):
 
 
 def test_registered_callbacks_replace_the_methods(managed):
-    assert managed.register_on_configure(lambda state: FAILURE if state == State("unconfigured", 1) else ERROR)
+    assert managed.register_on_configure(
+        lambda state: FAILURE if state == State("unconfigured", 1) else ERROR
+    )
     assert managed.trigger_configure() is FAILURE
     assert managed.calls == []
 
@@ -162,12 +172,18 @@ def test_services(managed, node, executor, capfd):
         (14, "deactivating"),
         (15, "errorprocessing"),
     ]
-    available = call(node, executor, GetAvailableTransitions, "get_available_transitions").available_transitions
-    assert [(each.transition.id, each.transition.label, each.goal_state.label) for each in available] == [
+    available = call(
+        node, executor, GetAvailableTransitions, "get_available_transitions"
+    ).available_transitions
+    assert [
+        (each.transition.id, each.transition.label, each.goal_state.label) for each in available
+    ] == [
         (1, "configure", "configuring"),
         (5, "shutdown", "shuttingdown"),
     ]
-    graph = call(node, executor, GetAvailableTransitions, "get_transition_graph").available_transitions
+    graph = call(
+        node, executor, GetAvailableTransitions, "get_transition_graph"
+    ).available_transitions
     assert len(graph) == 25
     request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_CONFIGURE))
     assert call(node, executor, ChangeState, "change_state", request).success
@@ -191,7 +207,9 @@ def test_transition_events(managed, node, spin_until):
 
 
 def test_without_services(context):
-    managed = Managed(context=context, enable_communication_interface=False, start_parameter_services=False)
+    managed = Managed(
+        context=context, enable_communication_interface=False, start_parameter_services=False
+    )
     assert not any("change_state" in service.srv_name for service in managed.services)
     assert managed.trigger_configure() is SUCCESS
     managed.destroy_node()

@@ -19,7 +19,12 @@ from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.time import Time
 
-ENVIRONMENT = ("RCUTILS_CONSOLE_OUTPUT_FORMAT", "RCUTILS_COLORIZED_OUTPUT", "RCUTILS_LOGGING_USE_STDOUT", "RCUTILS_LOGGING_BUFFERED_STREAM")
+ENVIRONMENT = (
+    "RCUTILS_CONSOLE_OUTPUT_FORMAT",
+    "RCUTILS_COLORIZED_OUTPUT",
+    "RCUTILS_LOGGING_USE_STDOUT",
+    "RCUTILS_LOGGING_BUFFERED_STREAM",
+)
 
 
 @pytest.fixture(autouse=True)
@@ -109,7 +114,11 @@ def test_errors_of_names_and_levels(logger):
         rclpy.logging.get_logger("")
     with pytest.raises(ValueError, match=r"^Child logger name must not be empty\.$"):
         logger.get_child("")
-    for call in (lambda: logger.set_level(15), lambda: logger.log("x", 15), lambda: rclpy.logging.set_logger_level("x", 15)):
+    for call in (
+        lambda: logger.set_level(15),
+        lambda: logger.log("x", 15),
+        lambda: rclpy.logging.set_logger_level("x", 15),
+    ):
         with pytest.raises(ValueError):
             call()
     assert rclpy.logging.get_logging_severity_from_string("warn") is LoggingSeverity.WARN
@@ -124,7 +133,16 @@ def test_once_and_skip_first_belong_to_the_line(logger, capfd):
         logger.info(f"skip {index}", skip_first=True)
         logger.info(f"both {index}", skip_first=True, once=True)
         logger.info(f"none {index}", once=False, skip_first=False)
-    assert messages(capfd) == ["once 0", "other 0", "none 0", "skip 1", "both 1", "none 1", "skip 2", "none 2"]
+    assert messages(capfd) == [
+        "once 0",
+        "other 0",
+        "none 0",
+        "skip 1",
+        "both 1",
+        "none 1",
+        "skip 2",
+        "none 2",
+    ]
 
 
 class SettableClock(Clock):
@@ -158,8 +176,16 @@ def test_a_suppressed_line_tells(logger):
     ("keywords", "error", "text"),
     [
         ({"foo": 1}, TypeError, 'parameter "foo" is not one of the recognized logging options'),
-        ({"throttle_time_source_type": Clock()}, TypeError, 'required parameter "throttle_duration_sec" not specified'),
-        ({"throttle_duration_sec": 1, "throttle_time_source_type": 5}, ValueError, "is not a clock instance"),
+        (
+            {"throttle_time_source_type": Clock()},
+            TypeError,
+            'required parameter "throttle_duration_sec" not specified',
+        ),
+        (
+            {"throttle_duration_sec": 1, "throttle_time_source_type": 5},
+            ValueError,
+            "is not a clock instance",
+        ),
     ],
 )
 def test_wrong_options(logger, keywords, error, text):
@@ -171,8 +197,16 @@ def test_wrong_options(logger, keywords, error, text):
     ("first", "second", "text"),
     [
         ({"severity": 20}, {"severity": 30}, "Logger severity cannot be changed between calls."),
-        ({"severity": 20, "name": "a"}, {"severity": 20, "name": "b"}, "Logger name cannot be changed between calls."),
-        ({"severity": 20, "once": True}, {"severity": 20}, "Requested logging filters cannot be changed between calls."),
+        (
+            {"severity": 20, "name": "a"},
+            {"severity": 20, "name": "b"},
+            "Logger name cannot be changed between calls.",
+        ),
+        (
+            {"severity": 20, "once": True},
+            {"severity": 20},
+            "Requested logging filters cannot be changed between calls.",
+        ),
         (
             {"severity": 20, "throttle_duration_sec": 1},
             {"severity": 20, "throttle_duration_sec": 2},
@@ -233,7 +267,13 @@ def test_colours(logger, monkeypatch, capfd):
     logger.error("x")
     logger.fatal("x")
     reset = "\033[0m"
-    assert errors(capfd) == [f"\033[32mx{reset}", f"{reset}x{reset}", f"\033[33mx{reset}", f"\033[31mx{reset}", f"\033[31mx{reset}"]
+    assert errors(capfd) == [
+        f"\033[32mx{reset}",
+        f"{reset}x{reset}",
+        f"\033[33mx{reset}",
+        f"\033[31mx{reset}",
+        f"\033[31mx{reset}",
+    ]
 
 
 def test_stdout_and_wrong_values(logger, monkeypatch, capfd):
@@ -243,25 +283,46 @@ def test_stdout_and_wrong_values(logger, monkeypatch, capfd):
     logger.info("x")
     captured = capfd.readouterr()
     assert captured.out.endswith("]: x\n")
-    assert captured.err == "RCUTILS_LOGGING_BUFFERED_STREAM has the value '7', which is neither 0 nor 1: it is ignored.\n"
+    assert (
+        captured.err
+        == "RCUTILS_LOGGING_BUFFERED_STREAM has the value '7', which is neither 0 nor 1: it is ignored.\n"
+    )
 
 
 def test_the_command_line_decides(logger, capfd):
     rclpy.logging.configure(
-        Arguments.parse(["--ros-args", "--log-level", "warn", "--log-level", "robot:=debug", "--disable-external-lib-logs"])
+        Arguments.parse(
+            [
+                "--ros-args",
+                "--log-level",
+                "warn",
+                "--log-level",
+                "robot:=debug",
+                "--disable-external-lib-logs",
+            ]
+        )
     )
     logger.debug("shown")
     rclpy.logging.get_logger("other").info("hidden")
     assert messages(capfd) == ["shown"]
-    rclpy.logging.configure(Arguments.parse(["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"]))
+    rclpy.logging.configure(
+        Arguments.parse(["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"])
+    )
     logger.error("hidden")
     assert messages(capfd) == []
 
 
 def test_a_configuration_file_is_ignored_with_a_warning(logger, capfd):
-    rclpy.logging.configure(Arguments.parse(["--ros-args", "--log-config-file", "spdlog.conf", "--disable-external-lib-logs"]))
+    rclpy.logging.configure(
+        Arguments.parse(
+            ["--ros-args", "--log-config-file", "spdlog.conf", "--disable-external-lib-logs"]
+        )
+    )
     logger.info("shown")
-    assert messages(capfd) == ["Configuration files of logging are not supported: 'spdlog.conf' is ignored", "shown"]
+    assert messages(capfd) == [
+        "Configuration files of logging are not supported: 'spdlog.conf' is ignored",
+        "shown",
+    ]
 
 
 def test_the_log_file(logger, tmp_path, monkeypatch, capfd):
@@ -312,7 +373,10 @@ def test_records_reach_the_sink_of_their_node(logger):
     finally:
         log_output.remove_rosout_sink("robot.camera")
     logger.info("late")
-    shown = [(record.severity, record.name, record.message, record.function_name, record.file_name) for record in records]
+    shown = [
+        (record.severity, record.name, record.message, record.function_name, record.file_name)
+        for record in records
+    ]
     here = ("test_records_reach_the_sink_of_their_node", __file__)
     assert shown == [(30, "robot.camera", "own", *here), (20, "robot.camera.lens", "child", *here)]
 
@@ -322,7 +386,10 @@ def test_two_nodes_of_one_name_share_the_first_sink(logger, capfd):
     log_output.add_rosout_sink("robot.camera", first.append)
     log_output.add_rosout_sink("robot.camera", second.append)
     (warning,) = errors(capfd)
-    assert "[rcl.logging_rosout]: Publisher already registered for node name: 'robot.camera'." in warning
+    assert (
+        "[rcl.logging_rosout]: Publisher already registered for node name: 'robot.camera'."
+        in warning
+    )
     logger.info("x")
     log_output.remove_rosout_sink("robot.camera")
     log_output.remove_rosout_sink("robot.camera")
@@ -362,7 +429,9 @@ def test_once_is_once_for_all_threads(capfd):
 
 def test_a_closed_stream_does_not_end_the_program():
     program = "import os; os.close(2); import rclpy.logging; print(rclpy.logging.get_logger('x').info('y'))"
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
+    )
     assert run.stdout == "True\n"
 
 

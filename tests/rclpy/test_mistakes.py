@@ -17,7 +17,11 @@ MISTAKES = {
         TypeError,
         "Pass the function itself (self.tick), not what it returns (self.tick())",
     ),
-    "a timer gets no function": (lambda node, _: node.create_timer(1.0, 5), TypeError, "Pass the function itself"),
+    "a timer gets no function": (
+        lambda node, _: node.create_timer(1.0, 5),
+        TypeError,
+        "Pass the function itself",
+    ),
     "a service gets what the callback returned": (
         lambda node, _: node.create_service(AddTwoInts, "add", None),
         TypeError,
@@ -33,19 +37,33 @@ MISTAKES = {
         AttributeError,
         "not an object of type String",
     ),
-    "a topic without a name": (lambda node, _: node.create_publisher(String, None, 10), TypeError, "is a str, not None"),
+    "a topic without a name": (
+        lambda node, _: node.create_publisher(String, None, 10),
+        TypeError,
+        "is a str, not None",
+    ),
     "the class of a request": (
         lambda node, _: node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request),
         TypeError,
         "A request of service '/add' is a AddTwoInts.Request(), not the class AddTwoInts_Request",
     ),
     "the class of a goal": (
-        lambda node, _: ActionClient(node, RotateAbsolute, "turn").send_goal_async(RotateAbsolute.Goal),
+        lambda node, _: ActionClient(node, RotateAbsolute, "turn").send_goal_async(
+            RotateAbsolute.Goal
+        ),
         TypeError,
         "A goal of action 'turn' is a RotateAbsolute.Goal(), not the class",
     ),
-    "the class of a node": (lambda _, executor: executor.add_node(Node), TypeError, "not the class Node"),
-    "several nodes at once": (lambda node, executor: executor.add_node([node]), TypeError, "not an object of type list"),
+    "the class of a node": (
+        lambda _, executor: executor.add_node(Node),
+        TypeError,
+        "not the class Node",
+    ),
+    "several nodes at once": (
+        lambda node, executor: executor.add_node([node]),
+        TypeError,
+        "not an object of type list",
+    ),
     "a future that a function forgot to return": (
         lambda _, executor: executor.spin_until_future_complete(None),
         TypeError,
@@ -82,7 +100,9 @@ def test_a_service_that_forgets_to_return_its_response(node, executor):
     with pytest.raises(TypeError) as caught:
         executor.spin_until_future_complete(response, timeout_sec=10)
     assert str(caught.value) == ""  # as in ROS 2
-    assert caught.value.hint.startswith("The callback of service '/add' has to return its second argument")
+    assert caught.value.hint.startswith(
+        "The callback of service '/add' has to return its second argument"
+    )
     assert caught.value.hint.endswith("it returned None")
 
 

@@ -62,7 +62,11 @@ def test_good_names():
             exceptions.InvalidServiceNameException,
             "Invalid service name: topic name must be absolute, it must lead with a '/':\n  'a'\n   ^",
         ),
-        (lambda: validate_parameter_name(""), exceptions.InvalidParameterException, "Invalid parameter name: "),
+        (
+            lambda: validate_parameter_name(""),
+            exceptions.InvalidParameterException,
+            "Invalid parameter name: ",
+        ),
     ],
 )
 def test_bad_names(check, error, text):
@@ -81,7 +85,14 @@ def test_the_parts_of_the_error():
 
 @pytest.mark.parametrize(
     ("name", "expanded"),
-    [("a", "/ns/a"), ("/a", "/a"), ("~", "/ns/node"), ("~/a", "/ns/node/a"), ("{node}/a", "/ns/node/a"), ("{ns}/a", "/ns/a")],
+    [
+        ("a", "/ns/a"),
+        ("/a", "/a"),
+        ("~", "/ns/node"),
+        ("~/a", "/ns/node/a"),
+        ("{node}/a", "/ns/node/a"),
+        ("{ns}/a", "/ns/a"),
+    ],
 )
 def test_expansion(name, expanded):
     assert expand_topic_name(name, "node", "/ns") == expanded

@@ -44,7 +44,12 @@ def remapped(monkeypatch):
 
 
 def test_names(context):
-    for namespace, full, logger in ((None, "/n", "n"), ("", "/n", "n"), ("a", "/a/n", "a.n"), ("/a/b", "/a/b/n", "a.b.n")):
+    for namespace, full, logger in (
+        (None, "/n", "n"),
+        ("", "/n", "n"),
+        ("a", "/a/n", "a.n"),
+        ("/a/b", "/a/b/n", "a.b.n"),
+    ):
         node = Node("n", context=context, namespace=namespace)
         assert node.get_name() == "n"
         assert node.get_fully_qualified_name() == full
@@ -83,9 +88,13 @@ def test_the_command_line_renames_the_node_first_and_all_follows_the_new_name(re
 
 
 def test_topics_and_services_are_remapped(remapped):
-    node = remapped("-r", "chatter:=talk", "-r", "other_node:quiet:=loud", "-r", "ask:=/answer", namespace="/ns")
+    node = remapped(
+        "-r", "chatter:=talk", "-r", "other_node:quiet:=loud", "-r", "ask:=/answer", namespace="/ns"
+    )
     assert node.create_publisher(Int32, "chatter", 1).topic_name == "/ns/talk"
-    assert node.create_subscription(Int32, "/ns/chatter", lambda _: None, 1).topic_name == "/ns/talk"
+    assert (
+        node.create_subscription(Int32, "/ns/chatter", lambda _: None, 1).topic_name == "/ns/talk"
+    )
     assert node.create_publisher(Int32, "quiet", 1).topic_name == "/ns/quiet"
     assert node.create_client(Trigger, "ask").service_name == "/answer"
     assert node.resolve_topic_name("chatter") == "/ns/talk"
@@ -105,18 +114,28 @@ def test_the_nodes_own_arguments_come_before_those_of_the_process(remapped):
 
 
 def test_what_every_node_has(context, node):
-    assert {service.service_name for service in node.services} == {f"/tested/{name}" for name in BUILT_IN_SERVICES}
+    assert {service.service_name for service in node.services} == {
+        f"/tested/{name}" for name in BUILT_IN_SERVICES
+    }
     published = dict(node.get_publisher_names_and_types_by_node("tested", "/"))
-    assert published == {"/parameter_events": ["rcl_interfaces/msg/ParameterEvent"], "/rosout": ["rcl_interfaces/msg/Log"]}
+    assert published == {
+        "/parameter_events": ["rcl_interfaces/msg/ParameterEvent"],
+        "/rosout": ["rcl_interfaces/msg/Log"],
+    }
     (rosout,) = node.get_publishers_info_by_topic("/rosout")
-    assert (rosout.qos_profile.depth, rosout.qos_profile.durability) == (1000, DurabilityPolicy.TRANSIENT_LOCAL)
+    assert (rosout.qos_profile.depth, rosout.qos_profile.durability) == (
+        1000,
+        DurabilityPolicy.TRANSIENT_LOCAL,
+    )
     assert rosout.qos_profile.lifespan.nanoseconds == 10_000_000_000
 
 
 def test_a_node_can_have_less(context):
     node = Node("bare", context=context, enable_rosout=False, start_parameter_services=False)
     assert {service.service_name for service in node.services} == {"/bare/get_type_description"}
-    assert [name for name, _ in node.get_publisher_names_and_types_by_node("bare", "/")] == ["/parameter_events"]
+    assert [name for name, _ in node.get_publisher_names_and_types_by_node("bare", "/")] == [
+        "/parameter_events"
+    ]
     node.destroy_node()
 
 
@@ -161,7 +180,11 @@ def test_destroying_a_node_closes_everything(context, executor):
     node.destroy_node()
     assert node not in executor.get_nodes()
     assert publisher not in list(node.publishers)
-    for use in (lambda: node.create_publisher(Int32, "number", 1), node.get_topic_names_and_types, lambda: node.handle):
+    for use in (
+        lambda: node.create_publisher(Int32, "number", 1),
+        node.get_topic_names_and_types,
+        lambda: node.handle,
+    ):
         with pytest.raises(InvalidHandle):
             use()
     assert ("short", "/", "/") not in [tuple(each) for each in context.wire.graph.nodes()]

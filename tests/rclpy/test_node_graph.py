@@ -34,7 +34,9 @@ def other(middleware):
     with Context() as context:
         context.init(args=[])
         other = Node("other", namespace="/ns", context=context, start_parameter_services=False)
-        other.create_publisher(Int32, "number", QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT))
+        other.create_publisher(
+            Int32, "number", QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT)
+        )
         other.create_subscription(String, "/chatter", lambda _: None, 10)
         other.create_service(Trigger, "serve", lambda request, response: response)
         other.create_client(Trigger, "ask")
@@ -95,11 +97,21 @@ def test_by_node(node, other, wait_for):
             return False
 
     wait_for(known)
-    assert dict(node.get_publisher_names_and_types_by_node("other", "/ns"))["/ns/number"] == ["std_msgs/msg/Int32"]
-    assert node.get_subscriber_names_and_types_by_node("other", "/ns") == [("/chatter", ["std_msgs/msg/String"])]
-    assert dict(node.get_service_names_and_types_by_node("other", "/ns"))["/ns/serve"] == ["std_srvs/srv/Trigger"]
-    assert node.get_client_names_and_types_by_node("other", "/ns") == [("/ns/ask", ["std_srvs/srv/Trigger"])]
-    assert "rt/ns/number" in dict(node.get_publisher_names_and_types_by_node("other", "/ns", no_demangle=True))
+    assert dict(node.get_publisher_names_and_types_by_node("other", "/ns"))["/ns/number"] == [
+        "std_msgs/msg/Int32"
+    ]
+    assert node.get_subscriber_names_and_types_by_node("other", "/ns") == [
+        ("/chatter", ["std_msgs/msg/String"])
+    ]
+    assert dict(node.get_service_names_and_types_by_node("other", "/ns"))["/ns/serve"] == [
+        "std_srvs/srv/Trigger"
+    ]
+    assert node.get_client_names_and_types_by_node("other", "/ns") == [
+        ("/ns/ask", ["std_srvs/srv/Trigger"])
+    ]
+    assert "rt/ns/number" in dict(
+        node.get_publisher_names_and_types_by_node("other", "/ns", no_demangle=True)
+    )
 
 
 @pytest.mark.parametrize("kind", ["publisher", "subscriber", "service", "client"])
@@ -110,7 +122,9 @@ def test_a_node_that_is_not_there(node, kind):
 
 
 def test_counts(node, other, wait_for):
-    wait_for(lambda: node.count_publishers("/ns/number") == 1 and node.count_subscribers("chatter") == 1)
+    wait_for(
+        lambda: node.count_publishers("/ns/number") == 1 and node.count_subscribers("chatter") == 1
+    )
     wait_for(lambda: node.count_services("/ns/serve") == 1 and node.count_clients("/ns/ask") == 1)
     assert node.count_publishers("chatter") == 0
     assert node.count_services("/ns/ask") == 0
@@ -127,11 +141,18 @@ def test_endpoint_infos(node, other, wait_for):
 
     wait_for(claimed)
     (info,) = node.get_publishers_info_by_topic("/ns/number")
-    assert (info.node_name, info.node_namespace, info.topic_type) == ("other", "/ns", "std_msgs/msg/Int32")
+    assert (info.node_name, info.node_namespace, info.topic_type) == (
+        "other",
+        "/ns",
+        "std_msgs/msg/Int32",
+    )
     assert info.endpoint_type == TopicEndpointTypeEnum.PUBLISHER
     assert info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
     assert len(info.endpoint_gid) == 16
-    assert str(info.topic_type_hash) == "RIHS01_b6578ded3c58c626cfe8d1a6fb6e04f706f97e9f03d2727c9ff4e74b1cef0deb"
+    assert (
+        str(info.topic_type_hash)
+        == "RIHS01_b6578ded3c58c626cfe8d1a6fb6e04f706f97e9f03d2727c9ff4e74b1cef0deb"
+    )
     wait_for(lambda: len(node.get_subscriptions_info_by_topic("/chatter")) == 1)
     assert len(node.get_publishers_info_by_topic("rt/ns/number", no_mangle=True)) == 1
     assert node.get_subscriptions_info_by_topic("/ns/number") == []
@@ -140,4 +161,6 @@ def test_endpoint_infos(node, other, wait_for):
 def test_what_goes_is_forgotten(node, other, wait_for):
     wait_for(lambda: node.count_publishers("/ns/number") == 1)
     other.destroy_node()
-    wait_for(lambda: node.count_publishers("/ns/number") == 0 and "other" not in node.get_node_names())
+    wait_for(
+        lambda: node.count_publishers("/ns/number") == 0 and "other" not in node.get_node_names()
+    )

@@ -8,7 +8,12 @@ from hypothesis import strategies as st
 
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from rclpy.parameter import Parameter, get_parameter_value, parameter_dict_from_yaml_file, parameter_value_to_python
+from rclpy.parameter import (
+    Parameter,
+    get_parameter_value,
+    parameter_dict_from_yaml_file,
+    parameter_value_to_python,
+)
 from turtlewire import msg
 
 Type = Parameter.Type
@@ -42,7 +47,9 @@ def test_types_are_found_and_messages_hold_them(value, type_):
     wire = msg.deserialize(ParameterMsg, msg.serialize(parameter.to_parameter_msg()))
     back = Parameter.from_parameter_msg(wire)
     assert (back.name, back.type_) == ("p", type_)
-    assert (back.value is None and value is None) or (list(back.value) == list(value) if hasattr(value, "__len__") else back.value == value)
+    assert (back.value is None and value is None) or (
+        list(back.value) == list(value) if hasattr(value, "__len__") else back.value == value
+    )
 
 
 @pytest.mark.parametrize(
@@ -64,7 +71,9 @@ def test_values_without_a_type(value, text):
 def test_type_and_value_have_to_agree(type_, pair):
     value, found = pair
     empty = value == [] and type_.name.endswith("_ARRAY")
-    int_like = (found is Type.BOOL and type_ is Type.INTEGER) or (found is Type.BOOL_ARRAY and type_ is Type.INTEGER_ARRAY)
+    int_like = (found is Type.BOOL and type_ is Type.INTEGER) or (
+        found is Type.BOOL_ARRAY and type_ is Type.INTEGER_ARRAY
+    )
     if type_ is found or empty or int_like:  # Python's bool is an int
         assert Parameter("p", type_, value).type_ is type_
     else:
@@ -74,7 +83,8 @@ def test_type_and_value_have_to_agree(type_, pair):
 
 def test_other_errors():
     with pytest.raises(
-        TypeError, match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance of '<enum 'Type'>'$"
+        TypeError,
+        match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance of '<enum 'Type'>'$",
     ):
         Parameter("p", 4, "x")
     with pytest.raises(RuntimeError, match=r"^unexpected parameter type 99$"):
@@ -133,7 +143,10 @@ def as_python(messages):
 
 
 def test_a_parameter_file(parameter_file):
-    assert as_python(parameter_dict_from_yaml_file(parameter_file, target_nodes=["node"])) == {"shared": "node", "a.b.c": "7"}
+    assert as_python(parameter_dict_from_yaml_file(parameter_file, target_nodes=["node"])) == {
+        "shared": "node",
+        "a.b.c": "7",
+    }
     assert as_python(parameter_dict_from_yaml_file(parameter_file, True, ["node"], "ns.")) == {
         "ns.shared": "node",
         "ns.only_wild": 1,
@@ -143,7 +156,9 @@ def test_a_parameter_file(parameter_file):
 
 
 def test_bad_parameter_files(parameter_file, tmp_path):
-    with pytest.raises(RuntimeError, match=r"^Param file does not contain parameters for nope,only for nodes: "):
+    with pytest.raises(
+        RuntimeError, match=r"^Param file does not contain parameters for nope,only for nodes: "
+    ):
         parameter_dict_from_yaml_file(parameter_file, target_nodes=["nope"])
     for text, error in (
         ("/**: {ros__parameters: {}}", "Param file does not contain selected parameters"),

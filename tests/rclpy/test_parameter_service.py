@@ -76,28 +76,46 @@ def test_get(world, client):
 
 def test_types_lists_descriptions(world, client):
     world.server.declare_parameter("group.a", 1, ParameterDescriptor(description="text"))
-    assert list(world.result(client.get_parameter_types(["group.a", "use_sim_time"])).types) == [2, 1]
+    assert list(world.result(client.get_parameter_types(["group.a", "use_sim_time"])).types) == [
+        2,
+        1,
+    ]
     assert list(world.result(client.get_parameter_types(["group.a", "nope"])).types) == []
     listed = world.result(client.list_parameters(["group"], 0)).result
     assert (listed.names, listed.prefixes) == (["group.a"], ["group"])
-    assert sorted(world.result(client.list_parameters()).result.names) == ["group.a", "start_type_description_service", "use_sim_time"]
+    assert sorted(world.result(client.list_parameters()).result.names) == [
+        "group.a",
+        "start_type_description_service",
+        "use_sim_time",
+    ]
     described = world.result(client.describe_parameters(["group.a", "nope"])).descriptors
-    assert [(each.name, each.type, each.description) for each in described] == [("group.a", 2, "text"), ("", 0, "")]
+    assert [(each.name, each.type, each.description) for each in described] == [
+        ("group.a", 2, "text"),
+        ("", 0, ""),
+    ]
 
 
 def test_set(world, client):
     world.server.declare_parameters("", [("a", 1), ("b", 1)])
     done = []
     results = world.result(
-        client.set_parameters([Parameter("a", value=2), Parameter("b", value="x").to_parameter_msg()], callback=done.append)
+        client.set_parameters(
+            [Parameter("a", value=2), Parameter("b", value="x").to_parameter_msg()],
+            callback=done.append,
+        )
     ).results
     assert [(each.successful, each.reason) for each in results] == [
         (True, ""),
         (False, "Wrong parameter type, expected 'Type.INTEGER' got 'Type.STRING'"),
     ]
     world.spin_until(lambda: len(done) == 1)
-    result = world.result(client.set_parameters_atomically([Parameter("a", value=3), Parameter("nope", value=1)])).result
-    assert (result.successful, result.reason) == (False, "Invalid access to undeclared parameter(s): []")
+    result = world.result(
+        client.set_parameters_atomically([Parameter("a", value=3), Parameter("nope", value=1)])
+    ).result
+    assert (result.successful, result.reason) == (
+        False,
+        "Invalid access to undeclared parameter(s): []",
+    )
     assert world.server.get_parameter("a").value == 2
 
 
@@ -114,14 +132,21 @@ def test_load_files(world, client, tmp_path):
     world.server.declare_parameters("", [("a", 1), ("b.c", 1.0)])
     path = tmp_path / "f.yaml"
     path.write_text("server:\n  ros__parameters:\n    a: 5\n    b: {c: 2.5}\n")
-    assert [each.successful for each in world.result(client.load_parameter_file(str(path))).results] == [True, True]
-    assert (world.server.get_parameter("a").value, world.server.get_parameter("b.c").value) == (5, 2.5)
+    assert [
+        each.successful for each in world.result(client.load_parameter_file(str(path))).results
+    ] == [True, True]
+    assert (world.server.get_parameter("a").value, world.server.get_parameter("b.c").value) == (
+        5,
+        2.5,
+    )
     assert world.result(client.load_parameter_file_atomically(str(path))).result.successful
 
 
 def test_an_unknown_type_number_is_answered_with_an_error(world):
     """What a broken peer might send: the node says no, and lives."""
-    request = SetParameters.Request(parameters=[ParameterMsg(name="use_sim_time", value=ParameterValue(type=77))])
+    request = SetParameters.Request(
+        parameters=[ParameterMsg(name="use_sim_time", value=ParameterValue(type=77))]
+    )
     (result,) = world.ask(SetParameters, "server/set_parameters", request).results
     assert not result.successful
     assert "77" in result.reason
@@ -131,7 +156,9 @@ def test_parameter_events(world):
     handler = ParameterEventHandler(world.asker)
     calls = []
     world.server.declare_parameter("a", 0)
-    one = handler.add_parameter_callback("a", "server", lambda parameter: calls.append(("a", parameter.value.integer_value)))
+    one = handler.add_parameter_callback(
+        "a", "server", lambda parameter: calls.append(("a", parameter.value.integer_value))
+    )
     handler.add_parameter_callback("a", "/other", lambda parameter: calls.append("other node"))
     everything = handler.add_parameter_event_callback(lambda event: calls.append(event.node))
     world.server.set_parameters([Parameter("a", value=1)])
@@ -144,7 +171,10 @@ def test_parameter_events(world):
     world.server.set_parameters([Parameter("a", value=2)])
     world.spin_until(lambda: done)
     assert calls == []
-    for remove, handle in ((handler.remove_parameter_callback, one), (handler.remove_parameter_event_callback, everything)):
+    for remove, handle in (
+        (handler.remove_parameter_callback, one),
+        (handler.remove_parameter_event_callback, everything),
+    ):
         with pytest.raises(RuntimeError, match=r"^Callback doesn't exist$"):
             remove(handle)
     handler.destroy()
@@ -153,22 +183,35 @@ def test_parameter_events(world):
 def test_logger_levels(world):
     log_levels.reset()
     try:
-        request = SetLoggerLevels.Request(levels=[LoggerLevel(name="ns.server", level=10), LoggerLevel(name="x", level=11)])
+        request = SetLoggerLevels.Request(
+            levels=[LoggerLevel(name="ns.server", level=10), LoggerLevel(name="x", level=11)]
+        )
         results = world.ask(SetLoggerLevels, "server/set_logger_levels", request).results
         assert [each.successful for each in results] == [True, False]
-        response = world.ask(GetLoggerLevels, "server/get_logger_levels", GetLoggerLevels.Request(names=["ns.server", "x"]))
-        assert [(each.name, each.level) for each in response.levels] == [("ns.server", 10), ("x", 0)]
+        response = world.ask(
+            GetLoggerLevels,
+            "server/get_logger_levels",
+            GetLoggerLevels.Request(names=["ns.server", "x"]),
+        )
+        assert [(each.name, each.level) for each in response.levels] == [
+            ("ns.server", 10),
+            ("x", 0),
+        ]
     finally:
         log_levels.reset()
 
 
 @pytest.mark.parametrize("type_name", ["geometry_msgs/msg/TransformStamped", "turtlesim/srv/Spawn"])
 def test_type_descriptions(world, type_name):
-    request = GetTypeDescription.Request(type_name=type_name, type_hash=msg.type_hash(type_name), include_type_sources=True)
+    request = GetTypeDescription.Request(
+        type_name=type_name, type_hash=msg.type_hash(type_name), include_type_sources=True
+    )
     response = world.ask(GetTypeDescription, "server/get_type_description", request)
     assert response.successful
     assert response.type_description.type_description.type_name == type_name
-    described = {each.type_name: each for each in response.type_description.referenced_type_descriptions}
+    described = {
+        each.type_name: each for each in response.type_description.referenced_type_descriptions
+    }
     assert list(described) == sorted(described)
     fields = json.loads((GOLDEN / "wire" / "interface_fields.json").read_text())
     for name, description in described.items():
@@ -181,8 +224,16 @@ def test_type_descriptions(world, type_name):
 def test_unknown_type_descriptions(world):
     for type_name, type_hash, why in (
         ("geometry_msgs/msg/Twist", "nonsense", "Failed to parse type hash"),
-        ("geometry_msgs/msg/Twist", msg.type_hash("geometry_msgs/msg/Pose"), "Type not currently in use by this node"),
-        ("no_msgs/msg/Nope", msg.type_hash("geometry_msgs/msg/Pose"), "Type not currently in use by this node"),
+        (
+            "geometry_msgs/msg/Twist",
+            msg.type_hash("geometry_msgs/msg/Pose"),
+            "Type not currently in use by this node",
+        ),
+        (
+            "no_msgs/msg/Nope",
+            msg.type_hash("geometry_msgs/msg/Pose"),
+            "Type not currently in use by this node",
+        ),
     ):
         request = GetTypeDescription.Request(type_name=type_name, type_hash=type_hash)
         response = world.ask(GetTypeDescription, "server/get_type_description", request)
@@ -190,7 +241,17 @@ def test_unknown_type_descriptions(world):
 
 
 def test_overrides_of_the_command_line_and_the_constructor(context):
-    words = ["--ros-args", "-r", "__node:=renamed", "-p", "renamed:a:=5", "-p", "b:=6", "-p", "c:=[1, 2]"]
+    words = [
+        "--ros-args",
+        "-r",
+        "__node:=renamed",
+        "-p",
+        "renamed:a:=5",
+        "-p",
+        "b:=6",
+        "-p",
+        "c:=[1, 2]",
+    ]
     node = Node(
         "original",
         context=context,
@@ -198,12 +259,20 @@ def test_overrides_of_the_command_line_and_the_constructor(context):
         parameter_overrides=[Parameter("b", value=60)],
         automatically_declare_parameters_from_overrides=True,
     )
-    assert {name: node.get_parameter(name).value for name in "abc"} == {"a": 5, "b": 60, "c": [1, 2]}
+    assert {name: node.get_parameter(name).value for name in "abc"} == {
+        "a": 5,
+        "b": 60,
+        "c": [1, 2],
+    }
     node.destroy_node()
 
 
 def test_the_type_description_service_can_be_left_out(context):
-    node = Node("quiet", context=context, cli_args=["--ros-args", "-p", "start_type_description_service:=false"])
+    node = Node(
+        "quiet",
+        context=context,
+        cli_args=["--ros-args", "-p", "start_type_description_service:=false"],
+    )
     assert node.get_parameter("start_type_description_service").value is False
     names = [name for name, _ in node.get_service_names_and_types_by_node("quiet", "/")]
     assert "/quiet/get_parameters" in names

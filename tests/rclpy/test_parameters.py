@@ -7,7 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterValue, SetParametersResult
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    ParameterValue,
+    SetParametersResult,
+)
 from rclpy import exceptions
 from rclpy.parameter import Parameter
 from rclpy.parameters import NodeParameters
@@ -35,7 +41,10 @@ class Recorder:
     def names(self):
         """New, changed and deleted names of each event so far."""
         return [
-            tuple([each.name for each in getattr(event, f"{kind}_parameters")] for kind in ("new", "changed", "deleted"))
+            tuple(
+                [each.name for each in getattr(event, f"{kind}_parameters")]
+                for kind in ("new", "changed", "deleted")
+            )
             for event in self.events
         ]
 
@@ -77,26 +86,44 @@ def test_declaring_and_reading(parameters):
 
 def test_several_declarations_with_a_namespace(parameters):
     descriptor = ParameterDescriptor(description="d")
-    made = parameters.declare_parameters("ns", [("a", 1), ("b.c", "x", descriptor), ("d", Type.DOUBLE)])
-    assert [(each.name, each.value) for each in made] == [("ns.a", 1), ("ns.b.c", "x"), ("ns.d", None)]
+    made = parameters.declare_parameters(
+        "ns", [("a", 1), ("b.c", "x", descriptor), ("d", Type.DOUBLE)]
+    )
+    assert [(each.name, each.value) for each in made] == [
+        ("ns.a", 1),
+        ("ns.b.c", "x"),
+        ("ns.d", None),
+    ]
     below = parameters.get_parameters_by_prefix("ns")
-    assert {name: parameter.value for name, parameter in below.items()} == {"a": 1, "b.c": "x", "d": None}
+    assert {name: parameter.value for name, parameter in below.items()} == {
+        "a": 1,
+        "b.c": "x",
+        "d": None,
+    }
     assert set(parameters.get_parameters_by_prefix("")) == {"ns.a", "ns.b.c", "ns.d"}
 
 
 def test_a_type_alone_has_to_be_set_before_it_is_read(parameters):
     assert parameters.declare_parameter("a", Type.DOUBLE).type_ is Type.NOT_SET
-    with pytest.raises(exceptions.ParameterUninitializedException, match=r"^The parameter is not initialized: a$"):
+    with pytest.raises(
+        exceptions.ParameterUninitializedException, match=r"^The parameter is not initialized: a$"
+    ):
         parameters.get_parameter("a")
     assert parameters.get_parameter_or("a", Parameter("a", value=7)).value == 7
     assert parameters.get_parameter_or("a").type_ is Type.NOT_SET
-    assert reason(parameters, "a", 1) == "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.INTEGER'"
+    assert (
+        reason(parameters, "a", 1)
+        == "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.INTEGER'"
+    )
     assert reason(parameters, "a", 1.5) == ""
     assert values(parameters, "a") == [1.5]
 
 
 def test_a_name_alone_is_deprecated_and_dynamic(parameters):
-    with pytest.warns(UserWarning, match="when declaring parameter named 'a', declaring a parameter only providing its name is deprecated"):
+    with pytest.warns(
+        UserWarning,
+        match="when declaring parameter named 'a', declaring a parameter only providing its name is deprecated",
+    ):
         assert parameters.declare_parameter("a").type_ is Type.NOT_SET
     assert [reason(parameters, "a", value) for value in (1, "x", None)] == ["", "", ""]
     assert not parameters.has_parameter("a")
@@ -111,10 +138,26 @@ def test_a_name_alone_is_deprecated_and_dynamic(parameters):
             "Invalid parameter tuple length at index 0 in parameters list: .* between 1 and 3",
         ),
         ([()], TypeError, "Invalid parameter tuple length at index 0"),
-        ([("a", 1), (5, 1)], TypeError, "First element 5 at index 1 in parameters list is not a str."),
-        ([("a", 1, "x")], TypeError, "Third element x at index 0 in parameters list is not a ParameterDescriptor."),
-        ([("a", Type.NOT_SET)], ValueError, "Cannot declare parameter a statically to be of type NOT_SET"),
-        ([("a", Type.BOOL, ParameterDescriptor(dynamic_typing=True))], ValueError, "is not allowed when the parameter type is specified"),
+        (
+            [("a", 1), (5, 1)],
+            TypeError,
+            "First element 5 at index 1 in parameters list is not a str.",
+        ),
+        (
+            [("a", 1, "x")],
+            TypeError,
+            "Third element x at index 0 in parameters list is not a ParameterDescriptor.",
+        ),
+        (
+            [("a", Type.NOT_SET)],
+            ValueError,
+            "Cannot declare parameter a statically to be of type NOT_SET",
+        ),
+        (
+            [("a", Type.BOOL, ParameterDescriptor(dynamic_typing=True))],
+            ValueError,
+            "is not allowed when the parameter type is specified",
+        ),
         ([("", 1)], exceptions.InvalidParameterException, "^Invalid parameter name: $"),
         ([("a", {})], TypeError, "The given value is not one of the allowed types '{}'."),
     ],
@@ -148,7 +191,10 @@ def test_an_override_of_another_type():
     parameters = Recorder({"a": 2}).parameters
     with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
         parameters.declare_parameter("a", "turtle1")
-    assert str(caught.value) == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'"
+    assert (
+        str(caught.value)
+        == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'"
+    )
     assert caught.value.hint == "YAML reads a string in quotes: -p a:='\"2\"'"
     with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
         parameters.declare_parameter("a", 1.0)
@@ -186,8 +232,15 @@ def test_undeclared_parameters(parameters):
     with pytest.raises(exceptions.ParameterNotDeclaredException) as caught:
         parameters.get_parameter("turtle_name")
     assert str(caught.value) == "Invalid access to undeclared parameter(s): turtle_name"
-    assert caught.value.hint == "Parameter 'turtle_name' of /ns/n is not declared: did you mean 'turtlename'?"
-    for call in (parameters.get_parameter_type, parameters.describe_parameter, parameters.undeclare_parameter):
+    assert (
+        caught.value.hint
+        == "Parameter 'turtle_name' of /ns/n is not declared: did you mean 'turtlename'?"
+    )
+    for call in (
+        parameters.get_parameter_type,
+        parameters.describe_parameter,
+        parameters.undeclare_parameter,
+    ):
         with pytest.raises(exceptions.ParameterNotDeclaredException):
             call("nope")
     with pytest.raises(exceptions.ParameterNotDeclaredException):
@@ -227,18 +280,31 @@ def test_each_parameter_is_set_by_itself(parameters):
 
 def test_all_or_none(parameters):
     parameters.declare_parameters("", [("a", 1), ("b", 1)])
-    result = parameters.set_parameters_atomically([Parameter("a", value=2), Parameter("b", value="x")])
-    assert result == SetParametersResult(successful=False, reason="Wrong parameter type, expected 'Type.INTEGER' got 'Type.STRING'")
+    result = parameters.set_parameters_atomically(
+        [Parameter("a", value=2), Parameter("b", value="x")]
+    )
+    assert result == SetParametersResult(
+        successful=False, reason="Wrong parameter type, expected 'Type.INTEGER' got 'Type.STRING'"
+    )
     assert values(parameters, "a", "b") == [1, 1]
-    assert parameters.set_parameters_atomically([Parameter("a", value=2), Parameter("b", value=3)]) == OK
+    assert (
+        parameters.set_parameters_atomically([Parameter("a", value=2), Parameter("b", value=3)])
+        == OK
+    )
     assert values(parameters, "a", "b") == [2, 3]
 
 
 def test_read_only(parameters):
     parameters.declare_parameter("a", 1, ParameterDescriptor(read_only=True))
     assert reason(parameters, "a", 2) == "Trying to set a read-only parameter: a."
-    for call in (lambda: parameters.undeclare_parameter("a"), lambda: parameters.set_descriptor("a", ParameterDescriptor())):
-        with pytest.raises(exceptions.ParameterImmutableException, match=r"^Attempted to modify read-only parameter: a$"):
+    for call in (
+        lambda: parameters.undeclare_parameter("a"),
+        lambda: parameters.set_descriptor("a", ParameterDescriptor()),
+    ):
+        with pytest.raises(
+            exceptions.ParameterImmutableException,
+            match=r"^Attempted to modify read-only parameter: a$",
+        ):
             call()
 
 
@@ -272,7 +338,10 @@ def test_integer_ranges(parameters, value, text):
         (1.0000001, ""),
         (0.1 + 0.2, ""),
         (1.1, "Parameter a out of range. Min: 0.0, Max: 1.0, value: 1.1"),
-        (0.25, "The parameter value for a is not a valid step. Min: 0.0, max: 1.0, value: 0.25, step: 0.1"),
+        (
+            0.25,
+            "The parameter value for a is not a valid step. Min: 0.0, max: 1.0, value: 0.25, step: 0.1",
+        ),
         (float("nan"), "Parameter a out of range. Min: 0.0, Max: 1.0, value: nan"),
     ],
 )
@@ -289,7 +358,12 @@ def test_events(recorder):
     parameters.set_parameters_atomically([Parameter("a", value=2), Parameter("c", value=True)])
     parameters.set_parameters([Parameter("a", value="refused")])
     parameters.undeclare_parameter("a")
-    assert recorder.names() == [(["a"], [], []), (["b"], [], []), (["c"], [], []), (["c"], ["a"], [])]
+    assert recorder.names() == [
+        (["a"], [], []),
+        (["b"], [], []),
+        (["c"], [], []),
+        (["c"], ["a"], []),
+    ]
     last = recorder.events[-1]
     assert (last.node, last.stamp.sec, last.stamp.nanosec) == ("/ns/n", 3, 4)
     assert last.changed_parameters[0].value.integer_value == 2
@@ -302,7 +376,11 @@ def test_a_single_declaration_makes_the_event_of_a_real_node():
     from turtlewire import msg
 
     samples = json.loads((GOLDEN.parent / "wire" / "demo_topics.json").read_text())
-    (golden, *_) = [each for each in samples if each["topic"] == "rt/parameter_events" and each["values"]["node"] == "/ns1/bare_node"]
+    (golden, *_) = [
+        each
+        for each in samples
+        if each["topic"] == "rt/parameter_events" and each["values"]["node"] == "/ns1/bare_node"
+    ]
     events = []
     stamp = golden["values"]["stamp"]
     parameters = NodeParameters(
@@ -359,8 +437,12 @@ def test_callbacks_run_in_order(recorder):
 def test_a_callback_refuses(recorder):
     parameters = recorder.parameters
     asked = []
-    parameters.add_on_set_parameters_callback(lambda parameter_list: asked.append(parameter_list) or OK)
-    parameters.add_on_set_parameters_callback(lambda _: SetParametersResult(successful=False, reason="not today"))
+    parameters.add_on_set_parameters_callback(
+        lambda parameter_list: asked.append(parameter_list) or OK
+    )
+    parameters.add_on_set_parameters_callback(
+        lambda _: SetParametersResult(successful=False, reason="not today")
+    )
     with pytest.raises(exceptions.InvalidParameterValueException, match="not today"):
         parameters.declare_parameter("a", 1)
     assert not parameters.has_parameter("a")
@@ -370,7 +452,9 @@ def test_a_callback_refuses(recorder):
 
 def test_a_callback_without_an_answer_is_told(parameters):
     parameters.add_on_set_parameters_callback(lambda _: None)
-    with pytest.raises(TypeError, match="it has to return a SetParametersResult, but returned None"):
+    with pytest.raises(
+        TypeError, match="it has to return a SetParametersResult, but returned None"
+    ):
         parameters.declare_parameter("a", 1)
 
 
@@ -384,7 +468,9 @@ def test_a_refusal_without_a_reason_is_a_refusal(parameters):
 def test_a_pre_set_callback_empties_the_list(parameters):
     parameters.declare_parameter("a", 1)
     parameters.add_pre_set_parameters_callback(lambda _: [])
-    assert reason(parameters, "a", 2).startswith("parameter list cannot be empty, this might be due to pre_set_parameters_callback")
+    assert reason(parameters, "a", 2).startswith(
+        "parameter list cannot be empty, this might be due to pre_set_parameters_callback"
+    )
 
 
 def test_a_callback_may_set_other_parameters(parameters):
@@ -405,7 +491,10 @@ def test_descriptions(parameters):
     parameters.declare_parameter("b", 1, ParameterDescriptor(dynamic_typing=True))
     parameters.set_parameters([Parameter("b", value="x")])
     described = parameters.describe_parameters(["a", "b"])
-    assert [(each.name, each.type, each.description) for each in described] == [("a", 2, "text"), ("b", 4, "")]
+    assert [(each.name, each.type, each.description) for each in described] == [
+        ("a", 2, "text"),
+        ("b", 4, ""),
+    ]
 
 
 def test_another_descriptor(parameters):
@@ -413,7 +502,12 @@ def test_another_descriptor(parameters):
     narrow = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10)])
     with pytest.raises(exceptions.InvalidParameterValueException, match="Parameter a out of range"):
         parameters.set_descriptor("a", narrow)
-    assert parameters.set_descriptor("a", narrow, ParameterValue(type=2, integer_value=5)).integer_value == 5
+    assert (
+        parameters.set_descriptor(
+            "a", narrow, ParameterValue(type=2, integer_value=5)
+        ).integer_value
+        == 5
+    )
     assert reason(parameters, "a", 11) == "Parameter a out of range. Min: 0, Max: 10, value: 11"
 
 
@@ -436,7 +530,8 @@ def test_lists(parameters, prefixes, depth, names, found_prefixes):
 
 
 @pytest.mark.parametrize(
-    ("prefixes", "depth", "error"), [("a", 0, TypeError), ([1], 0, TypeError), ([], "0", TypeError), ([], -1, ValueError)]
+    ("prefixes", "depth", "error"),
+    [("a", 0, TypeError), ([1], 0, TypeError), ([], "0", TypeError), ([], -1, ValueError)],
 )
 def test_bad_lists(parameters, prefixes, depth, error):
     with pytest.raises(error):

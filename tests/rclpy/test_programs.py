@@ -122,7 +122,9 @@ main()
 def test_publisher_and_subscriber(program):
     subscriber, publisher = program(SUBSCRIBER), program(PUBLISHER)
     heard = [subscriber.read_line() for _ in range(3)]
-    numbers = [int(line.removeprefix('I heard: "Hello World: ').removesuffix('"')) for line in heard]
+    numbers = [
+        int(line.removeprefix('I heard: "Hello World: ').removesuffix('"')) for line in heard
+    ]
     assert numbers == list(range(numbers[0], numbers[0] + 3))
     for each in (publisher, subscriber):
         each.send_signal(signal.SIGINT)
@@ -147,7 +149,9 @@ def test_service_and_client(program):
 
 def test_remapping_on_the_command_line(program):
     subscriber = program(SUBSCRIBER, "--ros-args", "-r", "topic:=/elsewhere", "-r", "__node:=ears")
-    publisher = program(PUBLISHER, "--ros-args", "--remap", "topic:=elsewhere", "--log-level", "warn")
+    publisher = program(
+        PUBLISHER, "--ros-args", "--remap", "topic:=elsewhere", "--log-level", "warn"
+    )
     assert subscriber.read_line().startswith('I heard: "Hello World: ')
     for each in (publisher, subscriber):
         each.send_signal(signal.SIGTERM)

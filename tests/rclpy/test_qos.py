@@ -20,7 +20,11 @@ from rclpy.qos import (
 )
 from turtlewire.wire import qos as wire_qos
 
-S, R, B = ReliabilityPolicy.SYSTEM_DEFAULT, ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+S, R, B = (
+    ReliabilityPolicy.SYSTEM_DEFAULT,
+    ReliabilityPolicy.RELIABLE,
+    ReliabilityPolicy.BEST_EFFORT,
+)
 
 
 def profile(**changes):
@@ -30,7 +34,11 @@ def profile(**changes):
 def test_an_int_depth_alone_is_the_default_profile():
     made = QoSProfile(depth=10)
     assert made == QoSPresetProfiles.DEFAULT.value
-    assert (made.history, made.reliability, made.durability) == (HistoryPolicy.KEEP_LAST, R, DurabilityPolicy.VOLATILE)
+    assert (made.history, made.reliability, made.durability) == (
+        HistoryPolicy.KEEP_LAST,
+        R,
+        DurabilityPolicy.VOLATILE,
+    )
     assert made.to_wire() == wire_qos.QoS()
 
 
@@ -50,7 +58,12 @@ def test_an_int_depth_alone_is_the_default_profile():
 )
 def test_presets(preset, history, depth, reliability, durability):
     made = QoSPresetProfiles.get_from_short_key(preset)
-    assert (made.history.name, made.depth, made.reliability.name, made.durability.name) == (history, depth, reliability, durability)
+    assert (made.history.name, made.depth, made.reliability.name, made.durability.name) == (
+        history,
+        depth,
+        reliability,
+        durability,
+    )
     assert preset in QoSPresetProfiles.short_keys()
     assert QoSProfile.from_wire(made.to_wire()) == made
 
@@ -60,15 +73,26 @@ def test_short_keys():
     assert ReliabilityPolicy.get_from_short_key("best_effort") == ReliabilityPolicy.BEST_EFFORT
     assert DurabilityPolicy.TRANSIENT_LOCAL.short_key == "transient_local"
     assert LivelinessPolicy.MANUAL_BY_TOPIC == 3
-    assert qos_policy_name_from_kind(QoSPolicyKind.RELIABILITY) == qos_policy_name_from_kind(16) == "RELIABILITY"
+    assert (
+        qos_policy_name_from_kind(QoSPolicyKind.RELIABILITY)
+        == qos_policy_name_from_kind(16)
+        == "RELIABILITY"
+    )
 
 
 def test_durations_and_numbers_reach_the_wire():
     made = profile(
-        deadline=Duration(seconds=1), lifespan=Duration(seconds=2), liveliness_lease_duration=Infinite, avoid_ros_namespace_conventions=True
+        deadline=Duration(seconds=1),
+        lifespan=Duration(seconds=2),
+        liveliness_lease_duration=Infinite,
+        avoid_ros_namespace_conventions=True,
     )
     wire = made.to_wire()
-    assert (wire.deadline_ns, wire.lifespan_ns, wire.liveliness_lease_ns) == (10**9, 2 * 10**9, wire_qos.INFINITE_NS)
+    assert (wire.deadline_ns, wire.lifespan_ns, wire.liveliness_lease_ns) == (
+        10**9,
+        2 * 10**9,
+        wire_qos.INFINITE_NS,
+    )
     assert wire.avoid_ros_namespace_conventions
     assert qos_profile_best_available.to_wire().reliability is wire_qos.Reliability.BEST_AVAILABLE
 
@@ -76,10 +100,16 @@ def test_durations_and_numbers_reach_the_wire():
 def test_incomplete_profiles():
     with pytest.raises(InvalidQoSProfileException) as caught:
         QoSProfile(reliability=R)
-    assert caught.value.args == ("Invalid QoSProfile", "History and/or depth settings are required.")
+    assert caught.value.args == (
+        "Invalid QoSProfile",
+        "History and/or depth settings are required.",
+    )
     with pytest.raises(InvalidQoSProfileException) as caught:
         QoSProfile(history=HistoryPolicy.KEEP_LAST)
-    assert caught.value.args == ("Invalid QoSProfile", "History set to KEEP_LAST without a depth setting.")
+    assert caught.value.args == (
+        "Invalid QoSProfile",
+        "History set to KEEP_LAST without a depth setting.",
+    )
     assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
 
 
@@ -92,7 +122,9 @@ def test_wrong_values():
         QoSProfile(depth=1, relibility=R)
     with pytest.raises(ValueError):
         QoSProfile(depth=1, reliability=99)
-    with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"):
+    with pytest.warns(
+        UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"
+    ):
         QoSProfile(depth=0)
 
 
@@ -110,14 +142,24 @@ def test_text():
         ({}, {"reliability": B}, "OK", ""),
         ({"durability": DurabilityPolicy.TRANSIENT_LOCAL}, {}, "OK", ""),
         ({"deadline": Duration(seconds=1)}, {"deadline": Duration(seconds=2)}, "OK", ""),
-        ({"reliability": B}, {}, "ERROR", "ERROR: Best effort publisher and reliable subscription;"),
+        (
+            {"reliability": B},
+            {},
+            "ERROR",
+            "ERROR: Best effort publisher and reliable subscription;",
+        ),
         (
             {},
             {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
             "ERROR",
             "ERROR: Volatile publisher and transient local subscription;",
         ),
-        ({}, {"deadline": Duration(seconds=1)}, "ERROR", "ERROR: Subscription has a deadline, but publisher does not;"),
+        (
+            {},
+            {"deadline": Duration(seconds=1)},
+            "ERROR",
+            "ERROR: Subscription has a deadline, but publisher does not;",
+        ),
         ({"deadline": Infinite}, {"deadline": Infinite}, "OK", ""),
         (
             {"deadline": Duration(seconds=2)},
@@ -143,8 +185,18 @@ def test_text():
             "ERROR",
             "ERROR: Best effort publisher and reliable subscription;ERROR: Volatile publisher and transient local subscription;",
         ),
-        ({"reliability": S}, {}, "WARNING", "WARNING: Reliable subscription, but publisher is system default;"),
-        ({"reliability": B}, {"reliability": S}, "WARNING", "WARNING: Best effort publisher, but subscription is system default;"),
+        (
+            {"reliability": S},
+            {},
+            "WARNING",
+            "WARNING: Reliable subscription, but publisher is system default;",
+        ),
+        (
+            {"reliability": B},
+            {"reliability": S},
+            "WARNING",
+            "WARNING: Best effort publisher, but subscription is system default;",
+        ),
         ({"reliability": S}, {"reliability": B}, "OK", ""),
     ],
 )
@@ -157,4 +209,6 @@ def test_compatibility(publisher, subscription, level, reason):
 def test_two_system_defaults_are_left_open():
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
     assert level is QoSCompatibility.WARNING
-    assert reason.startswith("WARNING: Publisher reliability is system default and subscription reliability is system default;")
+    assert reason.startswith(
+        "WARNING: Publisher reliability is system default and subscription reliability is system default;"
+    )

@@ -60,7 +60,10 @@ def test_responses_find_their_requests(node, executor, context):
     clients = [node.create_client(AddTwoInts, "add") for _ in range(2)]
     for client in clients:
         assert client.wait_for_service(timeout_sec=10)
-    futures = [(number, clients[number % 2].call_async(AddTwoInts.Request(a=number, b=100))) for number in range(8)]
+    futures = [
+        (number, clients[number % 2].call_async(AddTwoInts.Request(a=number, b=100)))
+        for number in range(8)
+    ]
     for number, future in futures:
         executor.spin_until_future_complete(future, timeout_sec=10)
         assert future.result().sum == number + 100
@@ -92,7 +95,9 @@ def test_done_callbacks_of_a_response_run_on_the_executor(node, executor, spin_u
     client = node.create_client(AddTwoInts, "add")
     assert client.wait_for_service(timeout_sec=10)
     sums = []
-    client.call_async(AddTwoInts.Request(a=1, b=2)).add_done_callback(lambda future: sums.append(future.result().sum))
+    client.call_async(AddTwoInts.Request(a=1, b=2)).add_done_callback(
+        lambda future: sums.append(future.result().sum)
+    )
     spin_until(lambda: sums)
     assert sums == [3]
 
@@ -169,8 +174,14 @@ def test_quality_of_service_and_destruction(node):
     assert client.qos_profile == profile
     assert node.destroy_client(client)
     assert not node.destroy_client(client)
-    for use in (client.service_is_ready, lambda: client.call_async(AddTwoInts.Request()), lambda: client.service_name):
-        with pytest.raises(InvalidHandle, match="cannot use Destroyable because destruction was requested"):
+    for use in (
+        client.service_is_ready,
+        lambda: client.call_async(AddTwoInts.Request()),
+        lambda: client.service_name,
+    ):
+        with pytest.raises(
+            InvalidHandle, match="cannot use Destroyable because destruction was requested"
+        ):
             use()
 
 
@@ -188,23 +199,39 @@ def test_introspection(node, executor, context, spin_until):
     service = node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
     events = []
-    subscription = node.create_subscription(AddTwoInts.Event, "add/_service_event", events.append, 10)
+    subscription = node.create_subscription(
+        AddTwoInts.Event, "add/_service_event", events.append, 10
+    )
     clock = node.get_clock()
-    client.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.METADATA)
-    service.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
+    client.configure_introspection(
+        clock, qos_profile_system_default, ServiceIntrospectionState.METADATA
+    )
+    service.configure_introspection(
+        clock, qos_profile_system_default, ServiceIntrospectionState.CONTENTS
+    )
     assert context._wait_for_graph(lambda: subscription.get_publisher_count() == 2, 10_000_000_000)
     assert client.wait_for_service(timeout_sec=10)
-    assert context._wait_for_graph(lambda: all(each._events.wire.subscription_count() for each in (client, service)), 10_000_000_000)
+    assert context._wait_for_graph(
+        lambda: all(each._events.wire.subscription_count() for each in (client, service)),
+        10_000_000_000,
+    )
     ask(executor, client, 5, 6)
     spin_until(lambda: len(events) == 4)
     kinds = {event.info.event_type: event for event in events}
     assert sorted(kinds) == [0, 1, 2, 3]
-    assert [len(kinds[kind].request) + len(kinds[kind].response) for kind in range(4)] == [0, 1, 1, 0]
+    assert [len(kinds[kind].request) + len(kinds[kind].response) for kind in range(4)] == [
+        0,
+        1,
+        1,
+        0,
+    ]
     assert kinds[1].request[0].a == 5
     assert kinds[2].response[0].sum == 11
     assert len({bytes(event.info.client_gid) for event in events}) == 1
     assert len({event.info.sequence_number for event in events}) == 1
-    service.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.OFF)
+    service.configure_introspection(
+        clock, qos_profile_system_default, ServiceIntrospectionState.OFF
+    )
     client.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.OFF)
     assert context._wait_for_graph(lambda: subscription.get_publisher_count() == 0, 10_000_000_000)
 

@@ -78,7 +78,9 @@ def test_sigterm_leaves_spin_as_an_external_shutdown(start, middleware):
 
 
 def test_sigterm_that_is_not_caught_ends_the_process_with_a_traceback(start):
-    program = start("import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')\nrclpy.spin(node)")
+    program = start(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')\nrclpy.spin(node)"
+    )
     program.send_signal(signal.SIGTERM)
     status, _, errors = program.finish()
     assert status == 1
@@ -185,7 +187,14 @@ def test_ctrl_c_in_the_middle_of_a_callback(start):
     assert program.finish() == (0, "interrupted\n", "")
 
 
-@pytest.mark.parametrize("waiting", ["client.wait_for_service()", "node.wait_for_node('/nobody', -1)", "client.call(Trigger.Request())"])
+@pytest.mark.parametrize(
+    "waiting",
+    [
+        "client.wait_for_service()",
+        "node.wait_for_node('/nobody', -1)",
+        "client.call(Trigger.Request())",
+    ],
+)
 def test_signals_end_waits_that_are_no_spin(start, waiting):
     source = f"""
         import rclpy
@@ -206,7 +215,11 @@ def test_signals_end_waits_that_are_no_spin(start, waiting):
     assert program.finish() == (0, "KeyboardInterrupt\n", "")
     program = start(source)
     program.send_signal(signal.SIGTERM)
-    assert program.finish() == (0, "ExternalShutdownException\n" if "call(" in waiting else "False\n", "")
+    assert program.finish() == (
+        0,
+        "ExternalShutdownException\n" if "call(" in waiting else "False\n",
+        "",
+    )
 
 
 def test_ctrl_c_that_is_not_caught_ends_without_a_traceback(start):
@@ -312,7 +325,10 @@ def test_a_forked_child_does_not_shut_its_parent_down(start):
 
 
 def test_a_program_that_never_shuts_down_ends(start):
-    program = start("import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')", "rmw_cyclonedds_cpp")
+    program = start(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')",
+        "rmw_cyclonedds_cpp",
+    )
     assert program.finish() == (0, "", "")
 
 

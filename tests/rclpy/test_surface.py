@@ -1,6 +1,7 @@
 """The public surface of ROS 2 Jazzy's rclpy, name by name: modules, functions, classes, methods, parameters, defaults, constants, errors.
 
-A table says what is there in ROS 2. Ours may take more keywords, with defaults; it may not lack one, or have another default.
+A table says what is there in ROS 2. Ours may take more keywords, with defaults; it may not lack
+one, or have another default.
 """
 
 # ruff: noqa: E501 - a row of a table is a line
@@ -25,7 +26,8 @@ from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-# `module` or `module.Class`, and below it what it has, each with its parameters; `self` and `cls` are left out.
+# `module` or `module.Class`, and below it what it has, each with its parameters; `self` and `cls`
+# are left out.
 FUNCTIONS = """
 rclpy
   init(*, args=None, context=None, domain_id=None, signal_handler_options=None)
@@ -464,7 +466,8 @@ rclpy.exceptions
   ROSInterruptException(*args)
 """
 
-# What a class has as a property, a class attribute or an attribute of its instances; `=` marks those that can be set.
+# What a class has as a property, a class attribute or an attribute of its instances; `=` marks
+# those that can be set.
 PROPERTIES = """
 rclpy.node.Node: publishers subscriptions clients services timers guards waitables executor= context default_callback_group handle PARAM_REL_TOL
 rclpy.publisher.Publisher: topic_name logger_name handle
@@ -600,7 +603,9 @@ def functions():
         if not line.startswith(" "):
             place = line
             continue
-        name, parameters, elsewhere = re.fullmatch(r"  (\w+)\((.*)\)(?: from (\S+))?", line).groups()
+        name, parameters, elsewhere = re.fullmatch(
+            r"  (\w+)\((.*)\)(?: from (\S+))?", line
+        ).groups()
         yield pytest.param(place, name, parameters, elsewhere, id=f"{place}.{name}")
 
 
@@ -615,7 +620,11 @@ class Namespace(dict):
         for module in ("rclpy.qos", "rclpy.publisher", "rclpy.signals", "rclpy.action.server"):
             if hasattr(find(module), name):
                 return getattr(find(module), name)
-        return getattr(__builtins__, name) if not isinstance(__builtins__, dict) else __builtins__[name]
+        return (
+            getattr(__builtins__, name)
+            if not isinstance(__builtins__, dict)
+            else __builtins__[name]
+        )
 
 
 def wanted_signature(parameters):
@@ -657,7 +666,9 @@ def test_how_much_is_in_the_tables():
     assert len(rows(ERRORS)) == 33
 
 
-@pytest.mark.parametrize(("owner", "names"), rows(PROPERTIES), ids=[owner for owner, _ in rows(PROPERTIES)])
+@pytest.mark.parametrize(
+    ("owner", "names"), rows(PROPERTIES), ids=[owner for owner, _ in rows(PROPERTIES)]
+)
 def test_properties(owner, names):
     for name in names.split():
         attribute = inspect.getattr_static(find(owner), name.rstrip("="))
@@ -665,7 +676,9 @@ def test_properties(owner, names):
             assert not isinstance(attribute, property) or attribute.fset is not None, name
 
 
-@pytest.mark.parametrize(("owner", "members"), rows(CONSTANTS), ids=[owner for owner, _ in rows(CONSTANTS)])
+@pytest.mark.parametrize(
+    ("owner", "members"), rows(CONSTANTS), ids=[owner for owner, _ in rows(CONSTANTS)]
+)
 def test_constants(owner, members):
     for name, number in (member.split("=") for member in members.split()):
         value = getattr(find(owner), name)
@@ -689,8 +702,17 @@ def test_aliases(alias):
 def test_qos_presets(row):
     name, history, depth, reliability, durability = row.split()
     profile = getattr(rclpy.qos, f"qos_profile_{name}")
-    assert profile == rclpy.qos.QoSPresetProfiles[name.upper()].value == rclpy.qos.QoSPresetProfiles.get_from_short_key(name)
-    found = (profile.history.name, str(profile.depth), profile.reliability.name, profile.durability.name)
+    assert (
+        profile
+        == rclpy.qos.QoSPresetProfiles[name.upper()].value
+        == rclpy.qos.QoSPresetProfiles.get_from_short_key(name)
+    )
+    found = (
+        profile.history.name,
+        str(profile.depth),
+        profile.reliability.name,
+        profile.durability.name,
+    )
     assert found == (history, depth, reliability, durability)
 
 
@@ -702,12 +724,18 @@ def test_what_every_made_thing_has(node):
 
     made = {
         node.create_publisher(String, "t", 1): "msg_type topic qos_profile event_handlers",
-        node.create_subscription(String, "t", print, 1): "msg_type topic callback callback_group raw qos_profile event_handlers",
+        node.create_subscription(
+            String, "t", print, 1
+        ): "msg_type topic callback callback_group raw qos_profile event_handlers",
         node.create_client(Empty, "s"): "srv_type srv_name qos_profile callback_group",
-        node.create_service(Empty, "s", print): "srv_type srv_name callback callback_group qos_profile",
+        node.create_service(
+            Empty, "s", print
+        ): "srv_type srv_name callback callback_group qos_profile",
         node.create_timer(1, print): "callback callback_group",
         node.create_guard_condition(print): "callback callback_group",
-        JumpThreshold(min_forward=None, min_backward=None): "min_forward min_backward on_clock_change",
+        JumpThreshold(
+            min_forward=None, min_backward=None
+        ): "min_forward min_backward on_clock_change",
     }
     for thing, names in made.items():
         for name in names.split():
@@ -740,11 +768,25 @@ def test_a_subscription_says_that_nothing_is_filtered(node):
     from std_msgs.msg import String
 
     options = ContentFilterOptions(filter_expression="data = %0", expression_parameters=["'x'"])
-    assert node.create_subscription(String, "t", print, 1, content_filter_options=options).is_cft_enabled is False
+    assert (
+        node.create_subscription(
+            String, "t", print, 1, content_filter_options=options
+        ).is_cft_enabled
+        is False
+    )
 
 
 # Private attributes that ROS 2's nodes have as well; programs know better than to take these names.
-OF_ROS_2 = {"_callbacks", "_clock", "_context", "_logger", "_managed_entities", "_parameter_service", "_parameters", "_state_machine"}
+OF_ROS_2 = {
+    "_callbacks",
+    "_clock",
+    "_context",
+    "_logger",
+    "_managed_entities",
+    "_parameter_service",
+    "_parameters",
+    "_state_machine",
+}
 OF_ROS_2 |= {"_time_source", "_type_description_service"}
 
 
@@ -752,17 +794,35 @@ OF_ROS_2 |= {"_time_source", "_type_description_service"}
 def test_a_program_may_have_attributes_of_its_own(context, kind):
     """Whoever derives from a node may call an attribute or a method as he likes: `_name`, `_graph`, `_executor`, `_register`."""
     node = kind("tested", context=context, enable_logger_service=True)
-    private = {name for name in (*vars(node), *dir(kind)) if name.startswith("_") and not name.startswith(("__", "_rclpy"))}
-    assert {name for name in private - OF_ROS_2 if not name.startswith(("_Node__", "_LifecycleNodeMixin__"))} == set()
+    private = {
+        name
+        for name in (*vars(node), *dir(kind))
+        if name.startswith("_") and not name.startswith(("__", "_rclpy"))
+    }
+    assert {
+        name
+        for name in private - OF_ROS_2
+        if not name.startswith(("_Node__", "_LifecycleNodeMixin__"))
+    } == set()
     public = {name for name in dir(Node) if not name.startswith("_")}
-    listed = {name for place, name, *_ in (row.values for row in functions()) if place == "rclpy.node.Node"}
-    assert public - listed == set(dict(rows(PROPERTIES))["rclpy.node.Node"].replace("=", "").split())
+    listed = {
+        name
+        for place, name, *_ in (row.values for row in functions())
+        if place == "rclpy.node.Node"
+    }
+    assert public - listed == set(
+        dict(rows(PROPERTIES))["rclpy.node.Node"].replace("=", "").split()
+    )
     node.destroy_node()
 
 
 def test_node_is_a_facade():
     """Each method of a node is one line onto the part that does the work."""
-    (node_class,) = [each for each in ast.parse(Path(rclpy.node.__file__).read_text()).body if getattr(each, "name", "") == "Node"]
+    (node_class,) = [
+        each
+        for each in ast.parse(Path(rclpy.node.__file__).read_text()).body
+        if getattr(each, "name", "") == "Node"
+    ]
     longer = set()
     for method in (each for each in node_class.body if isinstance(each, ast.FunctionDef)):
         work = [each for each in method.body if not isinstance(each, ast.ImportFrom)]

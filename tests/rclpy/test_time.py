@@ -34,7 +34,14 @@ def test_adding_and_subtracting_a_duration_are_inverse(stamp, span):
 @given(stamps, stamps)
 def test_times_compare_and_differ_as_their_nanoseconds(one, other):
     first, second = Time(nanoseconds=one), Time(nanoseconds=other)
-    assert (first < second, first <= second, first == second, first != second, first >= second, first > second) == (
+    assert (
+        first < second,
+        first <= second,
+        first == second,
+        first != second,
+        first >= second,
+        first > second,
+    ) == (
         one < other,
         one <= other,
         one == other,
@@ -48,7 +55,14 @@ def test_times_compare_and_differ_as_their_nanoseconds(one, other):
 @given(spans, spans)
 def test_durations_compare_as_their_nanoseconds(one, other):
     first, second = Duration(nanoseconds=one), Duration(nanoseconds=other)
-    assert (first < second, first <= second, first == second, first != second, first >= second, first > second) == (
+    assert (
+        first < second,
+        first <= second,
+        first == second,
+        first != second,
+        first >= second,
+        first > second,
+    ) == (
         one < other,
         one <= other,
         one == other,
@@ -84,8 +98,16 @@ def test_float_seconds_are_rounded_towards_zero():
     [
         ({"seconds": -1}, ValueError, "Seconds value must not be negative"),
         ({"nanoseconds": -1}, ValueError, "Nanoseconds value must not be negative"),
-        ({"nanoseconds": 2**63}, OverflowError, "Total nanoseconds value is too large to store in C time point."),
-        ({"seconds": 10**10}, OverflowError, "Total nanoseconds value is too large to store in C time point."),
+        (
+            {"nanoseconds": 2**63},
+            OverflowError,
+            "Total nanoseconds value is too large to store in C time point.",
+        ),
+        (
+            {"seconds": 10**10},
+            OverflowError,
+            "Total nanoseconds value is too large to store in C time point.",
+        ),
         ({"clock_type": "SYSTEM_TIME"}, TypeError, "Clock type must be a ClockType enum"),
     ],
 )
@@ -97,7 +119,9 @@ def test_bad_times(keywords, error, text):
 
 def test_bad_durations():
     for nanoseconds in (2**63, -(2**63) - 1):
-        with pytest.raises(OverflowError, match=r"^Total nanoseconds value is too large to store in C duration\.$"):
+        with pytest.raises(
+            OverflowError, match=r"^Total nanoseconds value is too large to store in C duration\.$"
+        ):
             Duration(nanoseconds=nanoseconds)
 
 
@@ -118,7 +142,12 @@ def test_clock_types_do_not_mix():
 def test_other_types():
     assert Time() != 0
     assert Duration() != 0
-    for operation in (lambda: Time() + 1, lambda: Time() - 1, lambda: Time() < 1, lambda: Duration() < 1):
+    for operation in (
+        lambda: Time() + 1,
+        lambda: Time() - 1,
+        lambda: Time() < 1,
+        lambda: Duration() < 1,
+    ):
         with pytest.raises(TypeError):
             operation()
     with pytest.raises(TypeError, match=r"^Must pass a builtin_interfaces.msg.Time object$"):
@@ -128,7 +157,10 @@ def test_other_types():
 
 
 def test_texts():
-    assert repr(Time(seconds=1, clock_type=ClockType.ROS_TIME)) == "Time(nanoseconds=1000000000, clock_type=ROS_TIME)"
+    assert (
+        repr(Time(seconds=1, clock_type=ClockType.ROS_TIME))
+        == "Time(nanoseconds=1000000000, clock_type=ROS_TIME)"
+    )
     assert repr(Duration(seconds=1)) == "Duration(nanoseconds=1000000000)"
     assert str(Duration(nanoseconds=5)) == "5 nanoseconds"
     assert str(Infinite) == "Infinite"

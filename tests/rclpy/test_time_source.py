@@ -46,7 +46,10 @@ def test_the_clock_follows_while_the_parameter_is_true(node, executor, simulator
     assert use_sim_time(node, True).successful
     assert node.get_clock().now() == Time(clock_type=ClockType.ROS_TIME)
     (subscription,) = clock_subscriptions(node)
-    assert (subscription.qos_profile.depth, subscription.qos_profile.reliability) == (1, ReliabilityPolicy.BEST_EFFORT)
+    assert (subscription.qos_profile.depth, subscription.qos_profile.reliability) == (
+        1,
+        ReliabilityPolicy.BEST_EFFORT,
+    )
     for seconds in (5, 7, 3):
         publish(simulator, seconds)
         executor.spin_once(timeout_sec=10)
@@ -70,8 +73,16 @@ def test_nothing_but_a_bool(node):
 
 def test_a_dynamic_parameter_of_another_type(context, capfd):
     words = ["--ros-args", "-p", "use_sim_time:=yes please"]
-    node = Node("wrong", context=context, cli_args=words, automatically_declare_parameters_from_overrides=True)
-    assert "Invalid type for parameter 'use_sim_time' <Type.STRING: 4> should be bool" in capfd.readouterr().err
+    node = Node(
+        "wrong",
+        context=context,
+        cli_args=words,
+        automatically_declare_parameters_from_overrides=True,
+    )
+    assert (
+        "Invalid type for parameter 'use_sim_time' <Type.STRING: 4> should be bool"
+        in capfd.readouterr().err
+    )
     (result,) = node.set_parameters([Parameter("use_sim_time", value=2)])
     assert result.reason == "use_sim_time parameter set to something besides a bool"
     node.destroy_node()

@@ -135,10 +135,14 @@ def test_a_period_must_not_be_negative(node):
         node.create_timer(-1.0, None)
 
 
-@pytest.mark.parametrize("clock_type", [ClockType.STEADY_TIME, ClockType.SYSTEM_TIME, ClockType.ROS_TIME])
+@pytest.mark.parametrize(
+    "clock_type", [ClockType.STEADY_TIME, ClockType.SYSTEM_TIME, ClockType.ROS_TIME]
+)
 def test_a_timer_on_a_real_clock_ends_the_wait_of_the_executor(node, executor, clock_type):
     called = []
-    node.create_timer(0.02, lambda: called.append(time.monotonic()), clock=Clock(clock_type=clock_type))
+    node.create_timer(
+        0.02, lambda: called.append(time.monotonic()), clock=Clock(clock_type=clock_type)
+    )
     start = time.monotonic()
     while len(called) < 3:
         executor.spin_once(timeout_sec=10)
@@ -195,7 +199,10 @@ def test_a_destroyed_rate_does_not_sleep(node):
 def test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever(node, executor):
     rate = node.create_rate(100)
     node.create_timer(0.001, rate.sleep)
-    with pytest.raises(RuntimeError, match="Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"):
+    with pytest.raises(
+        RuntimeError,
+        match="Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up",
+    ):
         executor.spin_once(timeout_sec=10)
 
 

@@ -13,7 +13,13 @@ from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_profile_sensor_data,
+)
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.subscription import Subscription
 from rclpy.wait_for_message import wait_for_message
@@ -82,8 +88,18 @@ def test_message_info(context, node, spin_until):
     spin_until(lambda: got)
     data, info = got[0]
     assert data == 4
-    assert set(info) == {"source_timestamp", "received_timestamp", "publication_sequence_number", "reception_sequence_number"}
-    assert before - 1_000_000 <= info["source_timestamp"] <= info["received_timestamp"] + 1_000_000 <= time.time_ns() + 2_000_000
+    assert set(info) == {
+        "source_timestamp",
+        "received_timestamp",
+        "publication_sequence_number",
+        "reception_sequence_number",
+    }
+    assert (
+        before - 1_000_000
+        <= info["source_timestamp"]
+        <= info["received_timestamp"] + 1_000_000
+        <= time.time_ns() + 2_000_000
+    )
 
 
 class Callbacks:
@@ -135,7 +151,9 @@ def test_how_many_arguments_a_callback_takes(node, callback, arguments):
 
 @pytest.mark.parametrize("callback", [lambda: None, lambda a, b, c: None])
 def test_a_callback_with_another_number_of_arguments_is_refused(node, callback):
-    with pytest.raises(RuntimeError, match="callback should be either be callable with one argument"):
+    with pytest.raises(
+        RuntimeError, match="callback should be either be callable with one argument"
+    ):
         node.create_subscription(Int32, "number", callback, 10)
 
 
@@ -164,11 +182,16 @@ def test_depth_keeps_the_newest(context, node, executor):
 
 def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
     encoded = []
-    monkeypatch.setattr("rclpy.publisher.serialize", lambda message: encoded.append(message) or b"\x00\x01\x00\x00\x01\x00\x00\x00")
+    monkeypatch.setattr(
+        "rclpy.publisher.serialize",
+        lambda message: encoded.append(message) or b"\x00\x01\x00\x00\x01\x00\x00\x00",
+    )
     volatile = node.create_publisher(Int32, "volatile", 10)
     volatile.publish(Int32(data=1))
     assert encoded == []
-    latched = node.create_publisher(Int32, "latched", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    latched = node.create_publisher(
+        Int32, "latched", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    )
     latched.publish(Int32(data=1))
     assert len(encoded) == 1
     node.create_subscription(Int32, "volatile", lambda _: None, 10)
@@ -180,7 +203,9 @@ def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
 def test_what_cannot_be_published(context, node):
     publisher = node.create_publisher(Int32, "number", 10)
     for wrong in (String(), "text", 3, None, Int32):
-        with pytest.raises(TypeError, match=r"^Expected <class 'std_msgs.msg._int32.Int32'>, got <class"):
+        with pytest.raises(
+            TypeError, match=r"^Expected <class 'std_msgs.msg._int32.Int32'>, got <class"
+        ):
             publisher.publish(wrong)
     node.create_subscription(Int32, "number", lambda _: None, 10)
     matched(context, publisher)
@@ -197,17 +222,25 @@ def test_quality_of_service_is_a_profile_or_a_depth(node, wrong):
 
 
 def test_depths(node):
-    assert node.create_publisher(Int32, "number", 7).qos_profile == QoSProfile(depth=7, history=HistoryPolicy.KEEP_LAST)
+    assert node.create_publisher(Int32, "number", 7).qos_profile == QoSProfile(
+        depth=7, history=HistoryPolicy.KEEP_LAST
+    )
     with pytest.raises(ValueError, match=r"^history depth must be greater than or equal to zero$"):
         node.create_publisher(Int32, "number", -1)
 
 
 def test_types_are_checked(node):
-    with pytest.raises(AttributeError, match=r"This might be a ROS 1 message type but it should be a ROS 2 message type"):
+    with pytest.raises(
+        AttributeError,
+        match=r"This might be a ROS 1 message type but it should be a ROS 2 message type",
+    ):
         node.create_publisher(int, "number", 10)
     with pytest.raises(AttributeError):
         node.create_subscription("std_msgs/msg/Int32", "number", lambda _: None, 10)
-    with pytest.raises(RuntimeError, match="The message type provided is not valid, this might be a service or action"):
+    with pytest.raises(
+        RuntimeError,
+        match="The message type provided is not valid, this might be a service or action",
+    ):
         node.create_publisher(Trigger, "number", 10)
 
 
@@ -215,7 +248,10 @@ def test_types_are_checked(node):
     ("name", "text"),
     [
         ("", "topic name must not be empty string:\n  ''\n   ^"),
-        ("a?b", "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}':\n  'a?b'\n    ^"),
+        (
+            "a?b",
+            "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}':\n  'a?b'\n    ^",
+        ),
         ("{wrong}", "unknown substitution"),
     ],
 )
@@ -234,8 +270,14 @@ def test_destruction(node):
     assert not node.destroy_publisher(publisher)
     assert node.destroy_subscription(subscription)
     assert not node.destroy_subscription(subscription)
-    for use in (lambda: publisher.publish(Int32()), publisher.get_subscription_count, lambda: subscription.topic_name):
-        with pytest.raises(InvalidHandle, match=r"^cannot use Destroyable because destruction was requested$"):
+    for use in (
+        lambda: publisher.publish(Int32()),
+        publisher.get_subscription_count,
+        lambda: subscription.topic_name,
+    ):
+        with pytest.raises(
+            InvalidHandle, match=r"^cannot use Destroyable because destruction was requested$"
+        ):
             use()
     assert publisher not in list(node.publishers)
     assert subscription not in list(node.subscriptions)
@@ -243,7 +285,9 @@ def test_destruction(node):
 
 def test_incompatible_ends_do_not_match_and_both_are_warned(context, node, executor, capfd):
     got = []
-    node.create_subscription(Int32, "number", got.append, QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE))
+    node.create_subscription(
+        Int32, "number", got.append, QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
+    )
     publisher = node.create_publisher(Int32, "number", qos_profile_sensor_data)
     deadline = time.monotonic() + 60
     seen = ""
@@ -254,7 +298,9 @@ def test_incompatible_ends_do_not_match_and_both_are_warned(context, node, execu
     publisher.publish(Int32())
     executor.spin_once(timeout_sec=0)
     assert got == []
-    assert "[tested]: New publisher discovered on topic '/number', offering incompatible QoS." in seen
+    assert (
+        "[tested]: New publisher discovered on topic '/number', offering incompatible QoS." in seen
+    )
     assert "Last incompatible policy: RELIABILITY" in seen
 
 
@@ -296,10 +342,15 @@ def test_wait_for_all_acked(context, node):
 
 
 def test_wait_for_message(context, node):
-    publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    publisher = node.create_publisher(
+        Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    )
     publisher.publish(Int32(data=6))
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=10) == (True, Int32(data=6))
+    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=10) == (
+        True,
+        Int32(data=6),
+    )
     start = time.monotonic()
     assert wait_for_message(Int32, node, "silence", time_to_wait=0.05) == (False, None)
     assert time.monotonic() - start >= 0.05
@@ -307,11 +358,15 @@ def test_wait_for_message(context, node):
 
 
 def test_wait_for_message_in_a_callback(context, node):
-    publisher = node.create_publisher(Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+    publisher = node.create_publisher(
+        Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    )
     publisher.publish(Int32(data=6))
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     results = []
-    node.create_guard_condition(lambda: results.append(wait_for_message(Int32, node, "number", qos_profile=latched))).trigger()
+    node.create_guard_condition(
+        lambda: results.append(wait_for_message(Int32, node, "number", qos_profile=latched))
+    ).trigger()
     with SingleThreadedExecutor(context=context) as executor:
         executor.add_node(node)
         executor.spin_once(timeout_sec=10)

@@ -80,7 +80,24 @@ def test_a_strict_type_checker_accepts_programs_and_finds_mistakes(tmp_path):
     (tmp_path / "user.py").write_text(PROGRAM)
     (tmp_path / "wrong.py").write_text(MISTAKES)
     environment = {**os.environ, "MYPYPATH": f"{ROOT / 'src'}:{ROOT / 'ros'}"}
-    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "user.py", "wrong.py"]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, cwd=tmp_path, timeout=110)
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--cache-dir",
+        str(tmp_path / "cache"),
+        "user.py",
+        "wrong.py",
+    ]
+    done = subprocess.run(
+        command,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+        timeout=110,
+    )
     errors = [line.partition(" ")[0] for line in done.stdout.splitlines() if ": error: " in line]
     assert errors == ["wrong.py:5:", "wrong.py:6:", "wrong.py:7:"], done.stdout

@@ -19,7 +19,9 @@ class Composed(Waitable):
         super().__init__(group or node.default_callback_group)
         self.guard = GuardCondition(None, None, node.context)
         self.timer = Timer(None, None, 10_000_000, Clock(), context=node.context, autostart=False)
-        self.subscription = node._rclpy_endpoints.make_subscription(Int32, "number", lambda _: None, 10, None)
+        self.subscription = node._rclpy_endpoints.make_subscription(
+            Int32, "number", lambda _: None, 10, None
+        )
         self.executed = []
         self.came = None
 
@@ -60,7 +62,12 @@ def test_each_part_makes_it_ready(node, composed, spin_until):
     spin_until(lambda: len(composed.executed) == 2)
     composed.timer.reset()
     spin_until(lambda: len(composed.executed) == 4)
-    assert composed.executed == [("guard_condition", None), ("subscription", 5), ("timer", None), ("timer", None)]
+    assert composed.executed == [
+        ("guard_condition", None),
+        ("subscription", 5),
+        ("timer", None),
+        ("timer", None),
+    ]
     assert list(node.waitables) == [composed]
 
 

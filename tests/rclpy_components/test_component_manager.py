@@ -93,12 +93,21 @@ def call(manager):
 
 
 def load(call, name="Talker", **fields):
-    return call(LoadNode, "load_node", package_name="test", plugin_name=f"{MODULE}.{name}", **fields)
+    return call(
+        LoadNode, "load_node", package_name="test", plugin_name=f"{MODULE}.{name}", **fields
+    )
 
 
 def test_a_component_gets_what_the_request_says(call):
     parameters = [Parameter("text", value="5").to_parameter_msg()]
-    response = load(call, node_name="loud", node_namespace="/ns", remap_rules=["chatter:=talk"], parameters=parameters, log_level=10)
+    response = load(
+        call,
+        node_name="loud",
+        node_namespace="/ns",
+        remap_rules=["chatter:=talk"],
+        parameters=parameters,
+        log_level=10,
+    )
     assert response.success, response.error_message
     assert response.full_node_name == "/ns/loud"
     (node,) = CREATED

@@ -26,7 +26,14 @@ def offered(line):
         "COMP_TYPE": "9",
     }
     script = f'exec "{sys.executable}" -c "{program}" 8>&{writing} 9>/dev/null'
-    subprocess.run(["bash", "-c", script], env=environment, pass_fds=[writing], check=False, capture_output=True, timeout=60)
+    subprocess.run(
+        ["bash", "-c", script],
+        env=environment,
+        pass_fds=[writing],
+        check=False,
+        capture_output=True,
+        timeout=60,
+    )
     os.close(writing)
     with os.fdopen(reading) as answers:
         return {word.strip() for word in answers.read().split("\n")} - {""}
@@ -50,7 +57,9 @@ def test_names_of_the_graph():
     context = open_context()
     try:
         node = context.create_node("some_node")
-        node.create_publisher("/some/topic", TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64), QoS())
+        node.create_publisher(
+            "/some/topic", TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64), QoS()
+        )
         assert offered("ros2 topic echo /some") == {"/some/topic"}
         assert offered("ros2 topic pub /some/topic ") >= {"std_msgs/msg/String"}
         assert offered("ros2 node info /so") == {"/some_node"}

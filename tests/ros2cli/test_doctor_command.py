@@ -13,7 +13,9 @@ from turtlewire.wire.qos import QoS
 
 def test_an_empty_domain_is_a_problem(capsys):
     assert main(["doctor", "--report-failed"]) == 1
-    assert capsys.readouterr().out.startswith(f"PROBLEM: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host.\n")
+    assert capsys.readouterr().out.startswith(
+        f"PROBLEM: No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host.\n"
+    )
 
 
 def test_its_other_name(capsys):
@@ -48,4 +50,8 @@ def test_the_report_has_facts(capsys):
         "   TOPIC LIST",
     ]
     assert f"domain            : {os.environ['ROS_DOMAIN_ID']}" in lines
-    assert lines[-3:] == ["topic            : /chatter", "publisher count  : 1", "subscriber count : 0"]
+    assert lines[-3:] == [
+        "topic            : /chatter",
+        "publisher count  : 1",
+        "subscriber count : 0",
+    ]

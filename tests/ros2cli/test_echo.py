@@ -9,7 +9,9 @@ from turtlewire.msg import get_message
 
 
 def test_fields_by_names_and_indices():
-    message = get_message("tf2_msgs/msg/TFMessage")(transforms=[get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="a")])
+    message = get_message("tf2_msgs/msg/TFMessage")(
+        transforms=[get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="a")]
+    )
     assert _field(message, "transforms[0].child_frame_id") == "a"
     assert _field(message, None) is message
 

@@ -52,7 +52,9 @@ def test_all_captures_are_read():
     assert sum(len(case.stdout) + len(case.stderr) > 0 for block in BLOCKS for case in block) > 190
 
 
-@pytest.mark.parametrize("first", [65, 91, 122, 146], ids=["usage", "packages", "errors", "ros_args"])
+@pytest.mark.parametrize(
+    "first", [65, 91, 122, 146], ids=["usage", "packages", "errors", "ros_args"]
+)
 def test_commands_without_nodes(first):
     last = {65: 90, 91: 121, 122: 145, 146: 173}[first]
     block = [case for case in BLOCKS[0] if first <= case.number <= last]

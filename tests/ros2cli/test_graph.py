@@ -27,22 +27,41 @@ def graph(context):
 
     node = context.create_node("sim")
     node.create_publisher("/pose", kind("turtlesim/msg/Pose"), QoS())
-    node.create_publisher("/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS())
-    node.create_service("/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS())
-    node.create_service("/turn/_action/send_goal", kind("a/action/B_SendGoal_Request"), kind("a/action/B_SendGoal_Response"), QoS())
+    node.create_publisher(
+        "/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS()
+    )
+    node.create_service(
+        "/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS()
+    )
+    node.create_service(
+        "/turn/_action/send_goal",
+        kind("a/action/B_SendGoal_Request"),
+        kind("a/action/B_SendGoal_Response"),
+        QoS(),
+    )
     other = context.create_node("listener", "/robot")
     other.create_subscription("/pose", kind("turtlesim/msg/Pose"), QoS())
-    other.create_subscription("/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS())
-    other.create_client("/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS())
+    other.create_subscription(
+        "/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS()
+    )
+    other.create_client(
+        "/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS()
+    )
     context.create_node("_hidden")
     return context.graph
 
 
 def test_topics_and_services_hide_those_with_an_underscore(graph):
     assert ask.topics(graph) == [("/pose", ["turtlesim/msg/Pose"])]
-    assert [name for name, _ in ask.topics(graph, hidden=True)] == ["/pose", "/turn/_action/feedback"]
+    assert [name for name, _ in ask.topics(graph, hidden=True)] == [
+        "/pose",
+        "/turn/_action/feedback",
+    ]
     assert ask.services(graph) == [("/spawn", ["turtlesim/srv/Spawn"])]
-    assert [name for name, _ in ask.services(graph, hidden=True)] == ["/spawn", "/turn/_action/send_goal"]
+    assert [name for name, _ in ask.services(graph, hidden=True)] == [
+        "/spawn",
+        "/turn/_action/send_goal",
+    ]
 
 
 def test_nodes(graph):
@@ -63,9 +82,17 @@ def test_what_a_node_has(graph):
 
 def test_actions(graph):
     assert ask.actions(graph) == [("/turn", ["turtlesim/action/RotateAbsolute"])]
-    assert ask.action_servers(graph, "/sim") == ask.action_clients(graph, "/robot/listener") == ask.actions(graph)
-    assert ask.action_nodes(graph, "/turn", "publisher") == [("/sim", ["turtlesim/action/RotateAbsolute"])]
-    assert ask.action_nodes(graph, "/turn", "subscription") == [("/robot/listener", ["turtlesim/action/RotateAbsolute"])]
+    assert (
+        ask.action_servers(graph, "/sim")
+        == ask.action_clients(graph, "/robot/listener")
+        == ask.actions(graph)
+    )
+    assert ask.action_nodes(graph, "/turn", "publisher") == [
+        ("/sim", ["turtlesim/action/RotateAbsolute"])
+    ]
+    assert ask.action_nodes(graph, "/turn", "subscription") == [
+        ("/robot/listener", ["turtlesim/action/RotateAbsolute"])
+    ]
 
 
 def test_a_complete_graph_is_not_waited_for(graph):

@@ -15,7 +15,10 @@ def parsed(*words):
 def test_a_path_comes_with_its_arguments(tmp_path):
     file = tmp_path / "a.launch.py"
     file.touch()
-    assert launch._file_and_arguments(parsed(str(file), "x:=1", "y:=2")) == (str(file), ["x:=1", "y:=2"])
+    assert launch._file_and_arguments(parsed(str(file), "x:=1", "y:=2")) == (
+        str(file),
+        ["x:=1", "y:=2"],
+    )
     assert launch._file_and_arguments(parsed(str(file))) == (str(file), [])
 
 
@@ -27,12 +30,19 @@ def test_a_file_of_a_package_is_found_below_its_share_folder(tmp_path, monkeypat
     (index / "p").touch()
     (share / "a.launch.py").touch()
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    assert launch._file_and_arguments(parsed("p", "a.launch.py", "x:=1")) == (str(share / "a.launch.py"), ["x:=1"])
-    with pytest.raises(RuntimeError, match=r"was not found in the share directory[\s\S]*Did you mean: a.launch.py"):
+    assert launch._file_and_arguments(parsed("p", "a.launch.py", "x:=1")) == (
+        str(share / "a.launch.py"),
+        ["x:=1"],
+    )
+    with pytest.raises(
+        RuntimeError, match=r"was not found in the share directory[\s\S]*Did you mean: a.launch.py"
+    ):
         launch._file_and_arguments(parsed("p", "b.launch.py"))
     (tmp_path / "share/p/other").mkdir()
     (tmp_path / "share/p/other/a.launch.py").touch()
-    with pytest.raises(RuntimeError, match=r"was found more than once in the share directory of package 'p': \['"):
+    with pytest.raises(
+        RuntimeError, match=r"was found more than once in the share directory of package 'p': \['"
+    ):
         launch._file_and_arguments(parsed("p", "a.launch.py"))
 
 
@@ -42,7 +52,9 @@ def test_the_last_of_equal_arguments_counts():
 
 @pytest.mark.parametrize("word", ["x", "x=1", ":=1", "x:="])
 def test_malformed_arguments(word):
-    with pytest.raises(RuntimeError, match=r"^malformed launch argument '.*', expected format '<name>:=<value>'$"):
+    with pytest.raises(
+        RuntimeError, match=r"^malformed launch argument '.*', expected format '<name>:=<value>'$"
+    ):
         launch._parsed_arguments([word])
 
 
@@ -53,6 +65,11 @@ def test_a_path_that_is_not_there(capsys):
 
 def test_a_file_without_arguments_says_so(tmp_path, capsys):
     file = tmp_path / "a.launch.py"
-    file.write_text("from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n")
+    file.write_text(
+        "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+    )
     assert main(["launch", str(file), "-s"]) == 0
-    assert capsys.readouterr().out == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
+    assert (
+        capsys.readouterr().out
+        == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
+    )

@@ -36,7 +36,13 @@ def managed():
 def ros2(*words):
     """Run in a process of its own, as rclpy's default context belongs to a process."""
     program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
-    result = subprocess.run([sys.executable, "-c", program, *words], capture_output=True, text=True, check=False, timeout=100)
+    result = subprocess.run(
+        [sys.executable, "-c", program, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+    )
     return result.returncode, result.stdout, result.stderr
 
 
@@ -47,7 +53,11 @@ def test_a_managed_node_is_listed_and_changes_its_state(managed):
     status, shown, _ = ros2("lifecycle", "list", "/managed")
     assert status == 0
     assert shown.startswith("- configure [1]\n\tStart: unconfigured\n\tGoal: configuring\n")
-    assert ros2("lifecycle", "set", "/managed", "configure") == (0, "Transitioning successful\n", "")
+    assert ros2("lifecycle", "set", "/managed", "configure") == (
+        0,
+        "Transitioning successful\n",
+        "",
+    )
     assert ros2("lifecycle", "get", "managed") == (0, "inactive [2]\n", "")
     status, _, told = ros2("lifecycle", "set", "/managed", "configure")
     assert status == 1

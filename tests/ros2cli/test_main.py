@@ -27,7 +27,14 @@ def test_every_command_and_verb_can_be_loaded(capsys):
         parser = make_parser([command])
         assert f"ros2 {command}" in text
         choices = next(action for action in parser._actions if action.choices)
-        verbs = next((action.choices for action in choices.choices[command]._actions if action.choices and action.nargs == "A..."), {})
+        verbs = next(
+            (
+                action.choices
+                for action in choices.choices[command]._actions
+                if action.choices and action.nargs == "A..."
+            ),
+            {},
+        )
         for verb in verbs:
             with pytest.raises(SystemExit) as end:
                 main([command, verb, "--help"])
@@ -57,7 +64,9 @@ def test_an_unknown_verb_is_refused(capsys):
         (KeyError("x"), 1, "KeyError: 'x'\n"),
     ],
 )
-def test_what_a_verb_raises_becomes_one_line_and_a_status(monkeypatch, capsys, raised, status, told):
+def test_what_a_verb_raises_becomes_one_line_and_a_status(
+    monkeypatch, capsys, raised, status, told
+):
     import ros2cli.commands.pkg.list as verb
 
     def fail(_args):
@@ -92,7 +101,9 @@ except SystemExit:
 heavy = {{"numpy", "asyncio", "rclpy", "rich", "yaml", "launch", "turtlewire.msg"}} & set(sys.modules)
 print("loaded:", sorted(heavy))
 """
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    result = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
     assert result.stdout.splitlines()[-1] == "loaded: []"
 
 
@@ -103,7 +114,9 @@ from ros2cli.main import main
 status = main(["topic", "list"])
 print("status", status, sorted({"numpy", "asyncio", "rclpy", "turtlewire.msg"} & set(sys.modules)))
 """
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    result = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
     assert result.stdout.splitlines() == ["/parameter_events", "/rosout", "status 0 []"]
 
 
@@ -153,7 +166,9 @@ def test_words_of_a_completion_are_taken_from_the_shell(monkeypatch):
     assert ros2cli_main._words_to_complete() == ["topic", "ec"]
 
 
-@pytest.mark.parametrize("where", ["ros2cli.main.make_parser", "turtlewire_ros.guard.foreign_package"])
+@pytest.mark.parametrize(
+    "where", ["ros2cli.main.make_parser", "turtlewire_ros.guard.foreign_package"]
+)
 def test_an_early_interrupt_leaves_no_traceback(monkeypatch, where):
     from turtlewire_ros import guard
 

@@ -8,7 +8,11 @@ import pytest
 
 from ros2cli.main import main
 
-ROS2 = (sys.executable, "-c", "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))")
+ROS2 = (
+    sys.executable,
+    "-c",
+    "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))",
+)
 
 
 def test_a_datagram_arrives(run, capsys):
@@ -23,7 +27,11 @@ def test_a_datagram_arrives(run, capsys):
 @pytest.mark.parametrize(
     ("option", "value", "told"),
     [
-        ("--group", "127.0.0.1", "'127.0.0.1' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255"),
+        (
+            "--group",
+            "127.0.0.1",
+            "'127.0.0.1' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255",
+        ),
         ("--group", "nope", "'nope' is no IPv4 multicast group"),
         ("--port", "70000", "'70000' is no UDP port; those are 1 to 65535"),
     ],

@@ -15,10 +15,33 @@ def create(*words):
 
 
 def test_a_package_with_a_node(tmp_path, capsys):
-    assert create("--build-type", "ament_python", "--node-name", "talk", "p", "--destination-directory", str(tmp_path)) == 0
+    assert (
+        create(
+            "--build-type",
+            "ament_python",
+            "--node-name",
+            "talk",
+            "p",
+            "--destination-directory",
+            str(tmp_path),
+        )
+        == 0
+    )
     assert capsys.readouterr().out.startswith("going to create a new package\npackage name: p\n")
-    made = sorted(path.relative_to(tmp_path / "p").as_posix() for path in (tmp_path / "p").rglob("*") if path.is_file())
-    assert made == ["p/__init__.py", "p/talk.py", "package.xml", "resource/p", "setup.cfg", "setup.py", "test/test_import.py"]
+    made = sorted(
+        path.relative_to(tmp_path / "p").as_posix()
+        for path in (tmp_path / "p").rglob("*")
+        if path.is_file()
+    )
+    assert made == [
+        "p/__init__.py",
+        "p/talk.py",
+        "package.xml",
+        "resource/p",
+        "setup.cfg",
+        "setup.py",
+        "test/test_import.py",
+    ]
     assert "'talk = p.talk:main'" in (tmp_path / "p/setup.py").read_text()
     namespace = {}
     exec((tmp_path / "p/p/talk.py").read_text(), namespace)
@@ -27,8 +50,28 @@ def test_a_package_with_a_node(tmp_path, capsys):
 
 
 def test_texts_are_escaped(tmp_path):
-    words = ["--description", "a <b> & 'c' \"d\"", "--license", "Apache-2.0", "--maintainer-name", 'O"Neill', "--maintainer-email", 'x"@y']
-    assert create("p", *words, "--dependencies", "rclpy", "tf2_ros", "--destination-directory", str(tmp_path)) == 0
+    words = [
+        "--description",
+        "a <b> & 'c' \"d\"",
+        "--license",
+        "Apache-2.0",
+        "--maintainer-name",
+        'O"Neill',
+        "--maintainer-email",
+        'x"@y',
+    ]
+    assert (
+        create(
+            "p",
+            *words,
+            "--dependencies",
+            "rclpy",
+            "tf2_ros",
+            "--destination-directory",
+            str(tmp_path),
+        )
+        == 0
+    )
     root = ElementTree.parse(tmp_path / "p/package.xml").getroot()
     assert root.findtext("description") == "a <b> & 'c' \"d\""
     assert root.find("maintainer").attrib == {"email": 'x"@y'}

@@ -31,7 +31,10 @@ def package(tmp_path, monkeypatch):
 def test_arguments_are_passed_and_the_status_comes_back(package, capfd):
     package("show", '#!/bin/sh\necho got "$@"\nexit 3\n')
     assert main(["run", "p", "show", "--ros-args", "-r", "a:=b"]) == 3
-    assert capfd.readouterr().out == "got --ros-args -r a:=b\n[ros2run]: Process exited with failure 3\n"
+    assert (
+        capfd.readouterr().out
+        == "got --ros-args -r a:=b\n[ros2run]: Process exited with failure 3\n"
+    )
 
 
 def test_a_signal_is_named(package, capfd):
@@ -43,7 +46,11 @@ def test_a_signal_is_named(package, capfd):
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_whoever_ends_it_ends_the_executable(run, package, number):
     package("stay", "#!/bin/sh\necho ready\nexec sleep 1000\n")
-    program = run(sys.executable, "-c", "import sys; from ros2cli.main import main; sys.exit(main(['run', 'p', 'stay']))")
+    program = run(
+        sys.executable,
+        "-c",
+        "import sys; from ros2cli.main import main; sys.exit(main(['run', 'p', 'stay']))",
+    )
     program.wait_for("ready")
     program.process.send_signal(number)
     assert program.wait() != 0
@@ -60,8 +67,16 @@ def test_python_scripts_run_on_this_interpreter(package, capfd):
 @pytest.mark.parametrize(
     ("option", "value", "error"),
     [
-        ("-r", "foo", "Couldn't parse remap rule: '-r foo'. Error: Expected lexeme type (19) not found, search ended at index 3"),
-        ("--params-file", "/nope.yaml", "Couldn't parse params file: '--params-file /nope.yaml'. Error: Error opening YAML file"),
+        (
+            "-r",
+            "foo",
+            "Couldn't parse remap rule: '-r foo'. Error: Expected lexeme type (19) not found, search ended at index 3",
+        ),
+        (
+            "--params-file",
+            "/nope.yaml",
+            "Couldn't parse params file: '--params-file /nope.yaml'. Error: Error opening YAML file",
+        ),
         (
             "--params-file",
             "broken.yaml",
@@ -72,7 +87,9 @@ def test_python_scripts_run_on_this_interpreter(package, capfd):
         ),
     ],
 )
-def test_a_bad_command_line_of_a_node_is_told_in_one_line(tmp_path, monkeypatch, capfd, option, value, error):
+def test_a_bad_command_line_of_a_node_is_told_in_one_line(
+    tmp_path, monkeypatch, capfd, option, value, error
+):
     (tmp_path / "broken.yaml").write_text("/**:\n  ros__parameters:\n    a: [1, b]\n")
     monkeypatch.chdir(tmp_path)
     assert main(["run", "tf2_ros", "static_transform_publisher", "--ros-args", option, value]) == 1

@@ -10,7 +10,11 @@ from rclpy.qos import qos_profile_services_default
 from rclpy.service_introspection import ServiceIntrospectionState
 from ros2cli.main import main
 
-ROS2 = (sys.executable, "-c", "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))")
+ROS2 = (
+    sys.executable,
+    "-c",
+    "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))",
+)
 
 
 def add(request, response):
@@ -22,15 +26,24 @@ def test_events_of_a_call(run):
     with rclpy.init(args=[]) as context:
         node = rclpy.create_node("adder")
         service = node.create_service(AddTwoInts, "add", add)
-        service.configure_introspection(node.get_clock(), qos_profile_services_default, ServiceIntrospectionState.CONTENTS)
+        service.configure_introspection(
+            node.get_clock(), qos_profile_services_default, ServiceIntrospectionState.CONTENTS
+        )
         client = node.create_client(AddTwoInts, "add")
         echo = run(*ROS2, "service", "echo", "/add")
-        assert context._wait_for_graph(lambda: service._events.wire.subscription_count() == 1, 30_000_000_000)
-        rclpy.spin_until_future_complete(node, client.call_async(AddTwoInts.Request(a=5, b=6)), timeout_sec=30)
+        assert context._wait_for_graph(
+            lambda: service._events.wire.subscription_count() == 1, 30_000_000_000
+        )
+        rclpy.spin_until_future_complete(
+            node, client.call_async(AddTwoInts.Request(a=5, b=6)), timeout_sec=30
+        )
         echo.wait_for("^---$", count=2)
         lines = echo.text.splitlines()
     assert lines[:2] == ["info:", "  event_type: REQUEST_RECEIVED"]
-    assert [line for line in lines if "event_type" in line] == ["  event_type: REQUEST_RECEIVED", "  event_type: RESPONSE_SENT"]
+    assert [line for line in lines if "event_type" in line] == [
+        "  event_type: REQUEST_RECEIVED",
+        "  event_type: RESPONSE_SENT",
+    ]
     received, sent = (part.rstrip("\n") for part in echo.text.removesuffix("---").split("---\n"))
     assert received.endswith("request:\n- a: 5\n  b: 6\nresponse: []")
     assert sent.endswith("request: []\nresponse:\n- sum: 11")
@@ -38,7 +51,9 @@ def test_events_of_a_call(run):
 
 def test_without_introspection_there_is_a_word_of_advice(run):
     echo = run(*ROS2, "service", "echo", "/nothing", "example_interfaces/srv/AddTwoInts")
-    echo.wait_for("^No publishers on topic '/nothing/_service_event'; is service introspection on the client or server enabled\\?$")
+    echo.wait_for(
+        "^No publishers on topic '/nothing/_service_event'; is service introspection on the client or server enabled\\?$"
+    )
 
 
 def test_what_cannot_be_echoed_is_refused(run, capsys):

@@ -19,7 +19,11 @@ def errors(capsys, *words):
     except SystemExit as end:
         status = end.code
     assert status in (1, 2)
-    return [line for line in capsys.readouterr().err.splitlines() if not line.startswith(("usage:", "      "))]
+    return [
+        line
+        for line in capsys.readouterr().err.splitlines()
+        if not line.startswith(("usage:", "      "))
+    ]
 
 
 @pytest.mark.parametrize(
@@ -53,7 +57,9 @@ def test_names_that_are_known_without_nodes(capsys, line, message, near):
 def test_commands_that_are_not_here(capsys, command):
     told, hint = errors(capsys, command, "list")
     assert f"invalid choice: '{command}'" in told
-    assert hint.startswith(("There are no bags here yet", "Containers of nodes are for launch files here"))
+    assert hint.startswith(
+        ("There are no bags here yet", "Containers of nodes are for launch files here")
+    )
 
 
 def test_what_is_like_nothing_gets_no_hint(capsys):
@@ -65,7 +71,9 @@ def test_what_is_like_nothing_gets_no_hint(capsys):
 def pose_publisher():
     context = open_context()
     node = context.create_node("turtlesim")
-    node.create_publisher("/turtle1/pose", TypeId("turtlesim/msg/Pose", "RIHS01_" + "0" * 64), QoS())
+    node.create_publisher(
+        "/turtle1/pose", TypeId("turtlesim/msg/Pose", "RIHS01_" + "0" * 64), QoS()
+    )
     yield
     context.close()
 
@@ -73,11 +81,23 @@ def pose_publisher():
 @pytest.mark.usefixtures("pose_publisher")
 def test_names_of_the_graph(capsys):
     hint = "Did you mean: /turtle1/pose"
-    assert errors(capsys, "topic", "echo", "/turtel1/pose") == [hint, "Could not determine the type for the passed topic"]
+    assert errors(capsys, "topic", "echo", "/turtel1/pose") == [
+        hint,
+        "Could not determine the type for the passed topic",
+    ]
     assert errors(capsys, "topic", "type", "/turtel1/pose") == [hint]
-    assert errors(capsys, "topic", "info", "/turtel1/pose") == ["Unknown topic '/turtel1/pose'", hint]
-    assert errors(capsys, "node", "info", "/turtlsim") == ["Unable to find node '/turtlsim'", "Did you mean: /turtlesim"]
-    assert errors(capsys, "param", "get", "/turtlsim", "x") == ["Node not found", "Did you mean: /turtlesim"]
+    assert errors(capsys, "topic", "info", "/turtel1/pose") == [
+        "Unknown topic '/turtel1/pose'",
+        hint,
+    ]
+    assert errors(capsys, "node", "info", "/turtlsim") == [
+        "Unable to find node '/turtlsim'",
+        "Did you mean: /turtlesim",
+    ]
+    assert errors(capsys, "param", "get", "/turtlsim", "x") == [
+        "Node not found",
+        "Did you mean: /turtlesim",
+    ]
 
 
 def test_parameters_and_services(run, capsys):
@@ -89,7 +109,10 @@ def test_parameters_and_services(run, capsys):
     assert hint.startswith(near)
     assert main(["param", "set", "/turtlesim", "backgroud_r", "3"]) == 0
     message, hint = capsys.readouterr().err.splitlines()
-    assert message == "Setting parameter failed: parameter 'backgroud_r' cannot be set because it was not declared"
+    assert (
+        message
+        == "Setting parameter failed: parameter 'backgroud_r' cannot be set because it was not declared"
+    )
     assert hint.startswith(near)
     assert main(["param", "describe", "/turtlesim", "backgroud_r"]) == 0
     assert capsys.readouterr().err.startswith(near)
@@ -111,4 +134,7 @@ def test_launch_arguments(ros2_launch):
     launch = ros2_launch(LAUNCH, "targt_frame:=turtle3", "quite_another:=1")
     assert launch.wait() == 0
     warning = launch.text.splitlines()[2:]
-    assert warning == ["[WARNING] [launch]: the launch file declares no argument 'targt_frame'", "Did you mean: target_frame"]
+    assert warning == [
+        "[WARNING] [launch]: the launch file declares no argument 'targt_frame'",
+        "Did you mean: target_frame",
+    ]

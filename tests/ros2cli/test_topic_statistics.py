@@ -12,7 +12,10 @@ def test_the_rate_of_even_messages():
     intervals = Intervals(10)
     for index in range(4):
         intervals.add(index * 20_000_000)
-    assert intervals.report() == "average rate: 50.000\n\tmin: 0.020s max: 0.020s std dev: 0.00000s window: 4\n"
+    assert (
+        intervals.report()
+        == "average rate: 50.000\n\tmin: 0.020s max: 0.020s std dev: 0.00000s window: 4\n"
+    )
     assert intervals.report() == ""
 
 
@@ -42,7 +45,10 @@ def test_a_window_never_holds_more_than_was_asked_for(steps, window):
 def test_units_of_the_bandwidth_follow_the_rate():
     for size, expected in (
         (24, "240 B/s from 5 messages\n\tMessage size mean: 24 B min: 24 B max: 24 B\n"),
-        (2400, "24.00 KB/s from 5 messages\n\tMessage size mean: 2.40 KB min: 2.40 KB max: 2.40 KB\n"),
+        (
+            2400,
+            "24.00 KB/s from 5 messages\n\tMessage size mean: 2.40 KB min: 2.40 KB max: 2.40 KB\n",
+        ),
     ):
         sizes = Sizes(100)
         for index in range(5):
@@ -60,5 +66,8 @@ def test_delays():
     delays = Delays(3)
     for delay in (9.0, 0.1, 0.2, 0.3):
         delays.add(delay)
-    assert delays.report() == "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.08165s window: 3\n"
+    assert (
+        delays.report()
+        == "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.08165s window: 3\n"
+    )
     assert delays.report() == ""

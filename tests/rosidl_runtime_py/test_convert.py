@@ -10,13 +10,24 @@ import numpy as np
 import pytest
 import yaml
 
-from rosidl_runtime_py import message_to_csv, message_to_ordereddict, message_to_yaml, set_message_fields
+from rosidl_runtime_py import (
+    message_to_csv,
+    message_to_ordereddict,
+    message_to_yaml,
+    set_message_fields,
+)
 from rosidl_runtime_py.utilities import get_message
 from turtlewire import msg
 
 GOLDEN = Path(__file__).parent.parent / "golden"
-CASES = {case["name"]: case for case in json.loads((GOLDEN / "wire" / "cdr_cases.json").read_text())}
-OPTIONS = {"--flow-style": {"flow_style": True}, "--no-arr": {"no_arr": True}, "--full-length": {"truncate_length": None}}
+CASES = {
+    case["name"]: case for case in json.loads((GOLDEN / "wire" / "cdr_cases.json").read_text())
+}
+OPTIONS = {
+    "--flow-style": {"flow_style": True},
+    "--no-arr": {"no_arr": True},
+    "--full-length": {"truncate_length": None},
+}
 
 
 # Types of the captured messages whose bytes were not captured.
@@ -46,7 +57,11 @@ def _echoes(known=CASES):
             yield path.stem, found[1].split(), found[2], output
 
 
-@pytest.mark.parametrize(("options", "name", "printed"), [echo[1:] for echo in _echoes()], ids=[echo[0] for echo in _echoes()])
+@pytest.mark.parametrize(
+    ("options", "name", "printed"),
+    [echo[1:] for echo in _echoes()],
+    ids=[echo[0] for echo in _echoes()],
+)
 def test_echo_prints_what_ros_printed(options, name, printed):
     case = CASES[name]
     message = msg.deserialize(get_message(case["type"]), bytes.fromhex(case["bytes"]))
@@ -59,7 +74,11 @@ def test_echo_prints_what_ros_printed(options, name, printed):
         assert message_to_yaml(message, **arguments) + "---\n" == printed
 
 
-@pytest.mark.parametrize(("options", "name", "printed"), [echo[1:] for echo in _echoes(TYPES)], ids=[echo[0] for echo in _echoes(TYPES)])
+@pytest.mark.parametrize(
+    ("options", "name", "printed"),
+    [echo[1:] for echo in _echoes(TYPES)],
+    ids=[echo[0] for echo in _echoes(TYPES)],
+)
 def test_what_ros_printed_sets_a_message_that_prints_the_same(options, name, printed):
     if "--no-arr" in options:
         assert "data: '<sequence type: uint8, length: 48>'" in printed
@@ -69,7 +88,11 @@ def test_what_ros_printed_sets_a_message_that_prints_the_same(options, name, pri
     message = get_message(TYPES[name])()
     set_message_fields(message, yaml.safe_load(printed.removesuffix("---\n")))
     message = msg.deserialize(type(message), msg.serialize(message))
-    assert message_to_yaml(message, truncate_length=128, flow_style="--flow-style" in options) + "---\n" == printed
+    assert (
+        message_to_yaml(message, truncate_length=128, flow_style="--flow-style" in options)
+        + "---\n"
+        == printed
+    )
 
 
 def test_enough_captures_were_compared():
@@ -87,7 +110,10 @@ def test_long_sequences_and_strings_are_cut():
 
 def test_sequences_and_strings_can_be_left_out():
     message = get_message("shape_msgs/msg/SolidPrimitive")(dimensions=[1.0, 2.0])
-    assert message_to_ordereddict(message, no_arr=True)["dimensions"] == "<sequence type: double[3], length: 2>"
+    assert (
+        message_to_ordereddict(message, no_arr=True)["dimensions"]
+        == "<sequence type: double[3], length: 2>"
+    )
     path = get_message("nav_msgs/msg/Path")()
     assert message_to_csv(path, no_arr=True, no_str=True) == (
         "0,0,<string length: <0>>,<sequence type: geometry_msgs/msg/PoseStamped, length: 0>"

@@ -29,12 +29,42 @@ def test_what_echo_shows_sets_the_same_message_again():
 @pytest.mark.parametrize(
     ("type_", "values", "error", "text"),
     [
-        ("geometry_msgs/msg/Twist", {"linear": {"x": "abc"}}, ValueError, "could not convert string to float: 'abc'"),
-        ("turtlesim/msg/Pose", {"nope": 4.0}, AttributeError, "'Pose' object has no attribute 'nope'"),
-        ("geometry_msgs/msg/Twist", {"linear": 3}, TypeError, "Value '3' is expected to be a dictionary but is a int"),
-        ("geometry_msgs/msg/Twist", "hello", TypeError, "Value 'hello' is expected to be a dictionary but is a str"),
-        ("std_msgs/msg/Float64MultiArray", {"data": 3}, TypeError, "Value '3' is expected to be a list but is a int"),
-        ("std_msgs/msg/Int32", {"data": "1.5"}, ValueError, "invalid literal for int() with base 10: '1.5'"),
+        (
+            "geometry_msgs/msg/Twist",
+            {"linear": {"x": "abc"}},
+            ValueError,
+            "could not convert string to float: 'abc'",
+        ),
+        (
+            "turtlesim/msg/Pose",
+            {"nope": 4.0},
+            AttributeError,
+            "'Pose' object has no attribute 'nope'",
+        ),
+        (
+            "geometry_msgs/msg/Twist",
+            {"linear": 3},
+            TypeError,
+            "Value '3' is expected to be a dictionary but is a int",
+        ),
+        (
+            "geometry_msgs/msg/Twist",
+            "hello",
+            TypeError,
+            "Value 'hello' is expected to be a dictionary but is a str",
+        ),
+        (
+            "std_msgs/msg/Float64MultiArray",
+            {"data": 3},
+            TypeError,
+            "Value '3' is expected to be a list but is a int",
+        ),
+        (
+            "std_msgs/msg/Int32",
+            {"data": "1.5"},
+            ValueError,
+            "invalid literal for int() with base 10: '1.5'",
+        ),
     ],
 )
 def test_what_does_not_fit_is_named(type_, values, error, text):
@@ -74,7 +104,10 @@ def test_auto_and_now_await_the_time_of_publishing():
     transforms = get_message("tf2_msgs/msg/TFMessage")()
     values = {"transforms": [{"header": {"stamp": "now", "frame_id": "map"}}, {"header": "auto"}]}
     stamps = set_message_fields(transforms, values, expand_header_auto=True, expand_time_now=True)
-    assert [stamp is transform.header.stamp for stamp, transform in zip(stamps, transforms.transforms, strict=True)] == [True, True]
+    assert [
+        stamp is transform.header.stamp
+        for stamp, transform in zip(stamps, transforms.transforms, strict=True)
+    ] == [True, True]
     assert transforms.transforms[0].header.frame_id == "map"
 
 

@@ -8,7 +8,15 @@ import pytest
 
 import rosidl_runtime_py
 from geometry_msgs.msg import Twist
-from rosidl_runtime_py.utilities import get_action, get_interface, get_message, get_service, is_action, is_message, is_service
+from rosidl_runtime_py.utilities import (
+    get_action,
+    get_interface,
+    get_message,
+    get_service,
+    is_action,
+    is_message,
+    is_service,
+)
 from turtlesim.action import RotateAbsolute
 from turtlesim.srv import Spawn
 
@@ -24,11 +32,27 @@ def test_names_lead_to_the_classes_of_the_packages():
 @pytest.mark.parametrize(
     ("name", "error", "text"),
     [
-        ("geometry_msgs/msg/Nope", AttributeError, "module 'geometry_msgs.msg' has no attribute 'Nope'"),
+        (
+            "geometry_msgs/msg/Nope",
+            AttributeError,
+            "module 'geometry_msgs.msg' has no attribute 'Nope'",
+        ),
         ("nope_msgs/msg/X", ModuleNotFoundError, "No module named 'nope_msgs'"),
-        ("turtlesim/srv/Spawn", ValueError, "Expected the full name of a message, got 'turtlesim/srv/Spawn'"),
-        ("Twist", ValueError, "Expected the full name of an interface (package/msg/Name), got 'Twist'"),
-        ("a/b/../c", ValueError, "Expected the full name of an interface (package/msg/Name), got 'a/b/../c'"),
+        (
+            "turtlesim/srv/Spawn",
+            ValueError,
+            "Expected the full name of a message, got 'turtlesim/srv/Spawn'",
+        ),
+        (
+            "Twist",
+            ValueError,
+            "Expected the full name of an interface (package/msg/Name), got 'Twist'",
+        ),
+        (
+            "a/b/../c",
+            ValueError,
+            "Expected the full name of an interface (package/msg/Name), got 'a/b/../c'",
+        ),
     ],
 )
 def test_unknown_names_are_errors(name, error, text):
@@ -38,8 +62,12 @@ def test_unknown_names_are_errors(name, error, text):
 
 
 def test_interfaces_are_listed_by_package():
-    assert rosidl_runtime_py.get_interfaces(["std_srvs"]) == {"std_srvs": ["srv/Empty", "srv/SetBool", "srv/Trigger"]}
-    assert rosidl_runtime_py.get_message_interfaces(["turtlesim"]) == {"turtlesim": ["msg/Color", "msg/Pose"]}
+    assert rosidl_runtime_py.get_interfaces(["std_srvs"]) == {
+        "std_srvs": ["srv/Empty", "srv/SetBool", "srv/Trigger"]
+    }
+    assert rosidl_runtime_py.get_message_interfaces(["turtlesim"]) == {
+        "turtlesim": ["msg/Color", "msg/Pose"]
+    }
     assert rosidl_runtime_py.get_action_interfaces()["turtlesim"] == ["action/RotateAbsolute"]
     assert "geometry_msgs" not in rosidl_runtime_py.get_service_interfaces()
     assert "rcl_interfaces" in rosidl_runtime_py.get_interface_packages()

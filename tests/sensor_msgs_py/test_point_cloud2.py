@@ -21,7 +21,11 @@ MIXED = [
 ]
 
 
-@given(st_numpy.arrays(np.float32, st.tuples(st.integers(0, 5), st.just(3)), elements=st.floats(width=32)))
+@given(
+    st_numpy.arrays(
+        np.float32, st.tuples(st.integers(0, 5), st.just(3)), elements=st.floats(width=32)
+    )
+)
 def test_points_come_back_as_they_went_in(points):
     cloud = point_cloud2.create_cloud_xyz32(HEADER, points)
     cloud = msg.deserialize(PointCloud2, msg.serialize(cloud))
@@ -30,7 +34,13 @@ def test_points_come_back_as_they_went_in(points):
 
 def test_a_cloud_of_tuples():
     cloud = point_cloud2.create_cloud_xyz32(HEADER, [(1, 2, 3), (4, 5, 6)])
-    assert (cloud.header, cloud.height, cloud.width, cloud.point_step, cloud.row_step) == (HEADER, 1, 2, 12, 24)
+    assert (cloud.header, cloud.height, cloud.width, cloud.point_step, cloud.row_step) == (
+        HEADER,
+        1,
+        2,
+        12,
+        24,
+    )
     assert (cloud.is_dense, cloud.is_bigendian) == (False, False)
     assert [field.name for field in cloud.fields] == ["x", "y", "z"]
     assert point_cloud2.read_points_list(cloud, ["z", "x"]) == [(3.0, 1.0), (6.0, 4.0)]
@@ -56,7 +66,9 @@ def test_points_with_nan_are_skipped_unless_the_cloud_is_dense():
     cloud = point_cloud2.create_cloud_xyz32(HEADER, [(1, 2, 3), (np.nan, 5, 6), (7, 8, 9)])
     assert len(point_cloud2.read_points(cloud)) == 3
     assert point_cloud2.read_points_numpy(cloud, skip_nans=True)[:, 0].tolist() == [1.0, 7.0]
-    assert point_cloud2.read_points_numpy(cloud, skip_nans=True, uvs=[1]).tolist() == [[7.0, 8.0, 9.0]]
+    assert point_cloud2.read_points_numpy(cloud, skip_nans=True, uvs=[1]).tolist() == [
+        [7.0, 8.0, 9.0]
+    ]
     cloud.is_dense = True
     assert len(point_cloud2.read_points(cloud, skip_nans=True)) == 3
 
@@ -65,7 +77,9 @@ def test_clouds_with_rows_keep_their_shape():
     points = np.arange(12, dtype=np.float32).reshape(2, 2, 3)
     cloud = point_cloud2.create_cloud_xyz32(HEADER, points)
     assert (cloud.width, cloud.height) == (2, 2)
-    np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud, reshape_organized_cloud=True), points)
+    np.testing.assert_array_equal(
+        point_cloud2.read_points_numpy(cloud, reshape_organized_cloud=True), points
+    )
     assert point_cloud2.read_points(cloud).shape == (4,)
     with pytest.raises(AssertionError, match="Too many dimensions for organized cloud!"):
         point_cloud2.create_cloud_xyz32(HEADER, np.zeros((1, 1, 1, 3), dtype=np.float32))
@@ -76,10 +90,14 @@ def test_padding_between_rows_is_no_point():
     rows = np.frombuffer(cloud.data, np.uint8).reshape(2, 24)
     padded = np.hstack([rows, np.full((2, 5), 255, np.uint8)])
     cloud.height, cloud.width, cloud.row_step, cloud.data = 2, 2, 29, padded.tobytes()
-    np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud), np.arange(12.0).reshape(4, 3))
+    np.testing.assert_array_equal(
+        point_cloud2.read_points_numpy(cloud), np.arange(12.0).reshape(4, 3)
+    )
     assert point_cloud2.read_points_list(cloud, ["x"], uvs=[2]) == [(6.0,)]
     cloud.row_step = 0  # many writers leave it unset
-    np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud)[:2], np.arange(6.0).reshape(2, 3))
+    np.testing.assert_array_equal(
+        point_cloud2.read_points_numpy(cloud)[:2], np.arange(6.0).reshape(2, 3)
+    )
 
 
 def test_big_endian_clouds_are_swapped():
@@ -91,7 +109,9 @@ def test_big_endian_clouds_are_swapped():
 
 def test_mistakes_are_named():
     cloud = point_cloud2.create_cloud_xyz32(HEADER, [(1, 2, 3)])
-    with pytest.raises(AssertionError, match="Requests field is not in the fields of the point cloud"):
+    with pytest.raises(
+        AssertionError, match="Requests field is not in the fields of the point cloud"
+    ):
         point_cloud2.read_points(cloud, ["intensity"])
     with pytest.raises(AssertionError, match="do not match for all fields"):
         point_cloud2.create_cloud(HEADER, MIXED, np.zeros(1, dtype=[("x", "f8")]))

@@ -23,7 +23,13 @@ def cores() -> list[Any]:
     try:
         from turtlewire import _native
     except ModuleNotFoundError:
-        found.append(pytest.param(None, id="native", marks=pytest.mark.skip(reason="the compiled core is not built here")))
+        found.append(
+            pytest.param(
+                None,
+                id="native",
+                marks=pytest.mark.skip(reason="the compiled core is not built here"),
+            )
+        )
     else:
         found.append(pytest.param(_native, id="native"))
     return found
@@ -44,12 +50,13 @@ def buffer(core: Any) -> turtlewire.Buffer:
 class World:
     """A tree that grows and moves, and is asked in between.
 
-    Operations: ("set", parent, child, stamp, pose, static), ("clear",), ("lookup", target, source, stamp),
-    ("full", target, stamp, source, stamp, fixed), ("common", target, source).
+    Operations: ("set", parent, child, stamp, pose, static), ("clear",), ("lookup", target, source,
+    stamp), ("full", target, stamp, source, stamp, fixed), ("common", target, source).
 
     Args:
         seed: Decides everything.
-        wild: Whether frames change their kind, one stamp gets several values, gaps exceed the cache, and loops close.
+        wild: Whether frames change their kind, one stamp gets several values, gaps exceed the
+            cache, and loops close.
     """
 
     def __init__(self, seed: int, *, wild: bool) -> None:
@@ -57,7 +64,9 @@ class World:
         self.wild = wild
         self.names = [f"f{i}" for i in range(self.random.choice([1, 2, 3, 5, 8, 20, 60]))]
         self.static = {name: self.random.random() < 0.3 for name in self.names}
-        self.parents = {name: self.names[self.random.randrange(i)] for i, name in enumerate(self.names) if i}
+        self.parents = {
+            name: self.names[self.random.randrange(i)] for i, name in enumerate(self.names) if i
+        }
         self.now = 512 * self.random.randrange(1, 100)
         self.sent: dict[tuple[str, int], tuple[Any, ...]] = {}
         self.operations = list(self._operations())
@@ -87,7 +96,14 @@ class World:
         known = self.sent.get((child, stamp))
         if known and not (self.wild and r.random() < 0.7):
             return known
-        operation = ("set", self.parents[child], child, stamp * TICK, self._pose(), self.static[child])
+        operation = (
+            "set",
+            self.parents[child],
+            child,
+            stamp * TICK,
+            self._pose(),
+            self.static[child],
+        )
         if not self.static[child]:
             self.sent[child, stamp] = operation
         return operation
@@ -96,9 +112,14 @@ class World:
         r = self.random
         axis = [r.gauss(0, 1) for _ in range(3)]
         length = math.sqrt(sum(a * a for a in axis)) or 1.0
-        # No two of them lie between 1e-11 and 3e-8 apart, where tf2 holds the older one and we interpolate (docs/compatibility.md).
+        # No two of them lie between 1e-11 and 3e-8 apart, where tf2 holds the older one and we
+        # interpolate (docs/compatibility.md).
         half = r.choice([0.0, 1e-12, 1e-4, 0.1, 1.0, 3.1]) * r.uniform(0.01, 1) * r.choice([-1, 1])
-        return [r.uniform(-5, 5) for _ in range(3)] + [math.sin(half) * a / length for a in axis] + [math.cos(half)]
+        return (
+            [r.uniform(-5, 5) for _ in range(3)]
+            + [math.sin(half) * a / length for a in axis]
+            + [math.cos(half)]
+        )
 
     def _stamp(self) -> int:
         r = self.random
@@ -109,7 +130,9 @@ class World:
 
     def _question(self) -> tuple[Any, ...]:
         r = self.random
-        target, source, fixed = (r.choice([*self.names, "nobody"] if r.random() < 0.05 else self.names) for _ in range(3))
+        target, source, fixed = (
+            r.choice([*self.names, "nobody"] if r.random() < 0.05 else self.names) for _ in range(3)
+        )
         kind = r.random()
         if kind < 0.1:
             return ("common", target, source)

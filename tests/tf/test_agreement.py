@@ -37,7 +37,11 @@ def perform(buffer: turtlewire.Buffer, operation: tuple[Any, ...]) -> Any:
     try:
         if kind == "common":
             return buffer.latest_common_time(*arguments)
-        found = buffer.lookup_transform(*arguments) if kind == "lookup" else buffer.lookup_transform_full(*arguments)
+        found = (
+            buffer.lookup_transform(*arguments)
+            if kind == "lookup"
+            else buffer.lookup_transform_full(*arguments)
+        )
     except errors.TransformException as error:
         return error
     return [found.stamp_ns, *found.translation, *found.rotation]
@@ -45,8 +49,14 @@ def perform(buffer: turtlewire.Buffer, operation: tuple[Any, ...]) -> Any:
 
 def same_numbers(a: list[float], b: list[float], tolerance: float) -> bool:
     """Equal stamps and poses; a quaternion whose sign hangs on rounding may have either."""
-    near = [math.isclose(x, y, rel_tol=tolerance, abs_tol=tolerance) for x, y in zip(a[1:], b[1:], strict=True)]
-    turned = all(math.isclose(x, -y, rel_tol=tolerance, abs_tol=tolerance) for x, y in zip(a[4:], b[4:], strict=True))
+    near = [
+        math.isclose(x, y, rel_tol=tolerance, abs_tol=tolerance)
+        for x, y in zip(a[1:], b[1:], strict=True)
+    ]
+    turned = all(
+        math.isclose(x, -y, rel_tol=tolerance, abs_tol=tolerance)
+        for x, y in zip(a[4:], b[4:], strict=True)
+    )
     return a[0] == b[0] and all(near[:3]) and (all(near[3:]) or turned)
 
 
@@ -69,17 +79,28 @@ def test_cores_agree(make_world: Callable[..., Any], seed: int) -> None:
     assert fast.frame_strings() == clear.frame_strings()
     assert fast.all_frames_as_yaml(1e9) == clear.all_frames_as_yaml(1e9)
     assert fast.all_frames_as_dot(1e9) == clear.all_frames_as_dot(1e9)
-    assert [row[:7] for row in fast._describe_links()] == [row[:7] for row in clear._describe_links()]
+    assert [row[:7] for row in fast._describe_links()] == [
+        row[:7] for row in clear._describe_links()
+    ]
     assert fast._describe_refusals() == clear._describe_refusals()
 
 
 def compare_with_debian(make_world: Callable[..., Any], seeds: range) -> int:
     native = pytest.importorskip("turtlewire._native", reason="the compiled core is not built here")
-    if subprocess.run([DEBIAN, "-c", "import tf2_py, rospy"], capture_output=True, check=False).returncode != 0:
-        pytest.skip("Debian's python3-tf2 is not installed: apt install python3-tf2 python3-tf2-ros")
+    if (
+        subprocess.run(
+            [DEBIAN, "-c", "import tf2_py, rospy"], capture_output=True, check=False
+        ).returncode
+        != 0
+    ):
+        pytest.skip(
+            "Debian's python3-tf2 is not installed: apt install python3-tf2 python3-tf2-ros"
+        )
     worlds = [make_world(seed, wild=False) for seed in seeds]
     asked = json.dumps([world.operations for world in worlds])
-    run = subprocess.run([DEBIAN, str(ADAPTER)], input=asked, capture_output=True, check=True, text=True)
+    run = subprocess.run(
+        [DEBIAN, str(ADAPTER)], input=asked, capture_output=True, check=True, text=True
+    )
     expected = iter(json.loads(run.stdout))
     cases = 0
     for seed, world in zip(seeds, worlds, strict=True):
@@ -91,7 +112,12 @@ def compare_with_debian(make_world: Callable[..., Any], seeds: range) -> int:
             truth = next(expected)
             cases += 1
             if isinstance(truth, str):
-                assert truth in [kind.__name__ for kind in type(answer).__mro__], (seed, operation, truth, answer)
+                assert truth in [kind.__name__ for kind in type(answer).__mro__], (
+                    seed,
+                    operation,
+                    truth,
+                    answer,
+                )
             elif isinstance(truth, list):
                 assert isinstance(answer, list), (seed, operation, truth, answer)
                 assert same_numbers(answer, truth, 1e-9), (seed, operation, truth, answer)
@@ -112,12 +138,17 @@ def test_equals_debian_in_more_worlds(make_world: Callable[..., Any]) -> None:
 
 numbers = st.floats(-100, 100)
 angles = st.one_of(
-    st.floats(-math.pi, math.pi), st.floats(-1e-6, 1e-6), st.floats(math.pi - 1e-6, math.pi), st.sampled_from([0.0, math.pi, -math.pi])
+    st.floats(-math.pi, math.pi),
+    st.floats(-1e-6, 1e-6),
+    st.floats(math.pi - 1e-6, math.pi),
+    st.sampled_from([0.0, math.pi, -math.pi]),
 )
 
 
 @st.composite
-def poses(draw: Callable[[Any], Any]) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+def poses(
+    draw: Callable[[Any], Any],
+) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
     axis = [draw(st.floats(-1, 1)) for _ in range(3)]
     length = math.sqrt(sum(a * a for a in axis))
     assume(length > 1e-3)
@@ -132,16 +163,24 @@ class TestLaws:
         buffer = core.Buffer()
         buffer.set_transform("a", "b", 1, *one)
         buffer.set_transform("b", "c", 1, *other)
-        there, back = buffer.lookup_transform("a", "c").as_matrix(), buffer.lookup_transform("c", "a").as_matrix()
+        there, back = (
+            buffer.lookup_transform("a", "c").as_matrix(),
+            buffer.lookup_transform("c", "a").as_matrix(),
+        )
         assert there @ back == pytest.approx(np.eye(4), abs=1e-11)
-        assert buffer.lookup_transform("a", "c").inverse().as_matrix() == pytest.approx(back, abs=1e-11)
+        assert buffer.lookup_transform("a", "c").inverse().as_matrix() == pytest.approx(
+            back, abs=1e-11
+        )
 
     @given(poses(), poses())
     def test_neighbours_cancel(self, core: Any, one: Any, other: Any) -> None:
         buffer = core.Buffer()
         buffer.set_transform("a", "b", 1, *one)
         buffer.set_transform("b", "c", 1, *other)
-        product = buffer.lookup_transform("a", "b").as_matrix() @ buffer.lookup_transform("b", "c").as_matrix()
+        product = (
+            buffer.lookup_transform("a", "b").as_matrix()
+            @ buffer.lookup_transform("b", "c").as_matrix()
+        )
         assert buffer.lookup_transform("a", "c").as_matrix() == pytest.approx(product, abs=1e-11)
 
     @given(poses())
@@ -155,13 +194,17 @@ class TestLaws:
         assert math.hypot(*found.rotation) == pytest.approx(1.0, abs=1e-15)
 
     @given(poses(), poses(), st.integers(1, 999))
-    def test_interpolation_moves_at_one_speed(self, core: Any, one: Any, other: Any, part: int) -> None:
+    def test_interpolation_moves_at_one_speed(
+        self, core: Any, one: Any, other: Any, part: int
+    ) -> None:
         cosine = abs(sum(x * y for x, y in zip(one[1], other[1], strict=True)))
         assume(cosine > 1e-3)  # beyond half a turn apart the shorter way is a matter of rounding
         buffer = core.Buffer()
         buffer.set_transform("a", "b", 1000, *one)
         buffer.set_transform("a", "b", 2000, *other)
-        begin, middle, end = (buffer.lookup_transform("a", "b", t) for t in (1000, 1000 + part, 2000))
+        begin, middle, end = (
+            buffer.lookup_transform("a", "b", t) for t in (1000, 1000 + part, 2000)
+        )
 
         def angle(p: Any, q: Any) -> float:
             x, y, z, w = plain.poses.multiply(plain.poses.conjugate(p.rotation), q.rotation)

@@ -23,9 +23,19 @@ def chain(buffer: turtlewire.Buffer) -> turtlewire.Buffer:
     for i in range(200):
         a = 0.01 * i
         t = START + i * 5 * MS + (i % 7) * 1000
-        buffer.set_transform("map", "odom", t, (i, math.sin(a), 0), (0, 0, math.sin(a), math.cos(a)))
-        buffer.set_transform("odom", "base", t + 2 * MS, (0, math.cos(a), 1), (math.sin(2 * a), 0, 0, math.cos(2 * a)))
-        buffer.set_transform("lidar", "chip", t, (0, 0, a), (0, math.sin(30 * a), 0, math.cos(30 * a)))
+        buffer.set_transform(
+            "map", "odom", t, (i, math.sin(a), 0), (0, 0, math.sin(a), math.cos(a))
+        )
+        buffer.set_transform(
+            "odom",
+            "base",
+            t + 2 * MS,
+            (0, math.cos(a), 1),
+            (math.sin(2 * a), 0, 0, math.cos(2 * a)),
+        )
+        buffer.set_transform(
+            "lidar", "chip", t, (0, 0, a), (0, math.sin(30 * a), 0, math.cos(30 * a))
+        )
     buffer.set_transform("base", "camera", 0, (1, 2, 3), (0.48, 0.36, 0.0, 0.8), static=True)
     buffer.set_transform("base", "lidar", 0, (0, 0, 1), (0, 0, 1, 0), static=True)
     return buffer
@@ -35,7 +45,14 @@ def stamps(n: int, seed: int = 1) -> np.ndarray[Any, np.dtype[np.int64]]:
     return START + np.random.default_rng(seed).integers(5 * MS, 990 * MS, n)
 
 
-PAIRS = [("map", "camera"), ("camera", "map"), ("camera", "chip"), ("base", "lidar"), ("odom", "odom"), ("chip", "odom")]
+PAIRS = [
+    ("map", "camera"),
+    ("camera", "map"),
+    ("camera", "chip"),
+    ("base", "lidar"),
+    ("odom", "odom"),
+    ("chip", "odom"),
+]
 
 
 @pytest.mark.parametrize(("target", "source"), PAIRS)
@@ -53,7 +70,9 @@ def test_equals_single_lookups(chain: turtlewire.Buffer, target: str, source: st
 
 def test_zero_is_the_latest(chain: turtlewire.Buffer) -> None:
     poses = chain.lookup_batch("map", "camera", np.zeros(20, dtype=np.int64))
-    assert poses == pytest.approx(np.tile(np.asarray(chain.lookup_transform("map", "camera")), (20, 1)), abs=1e-12)
+    assert poses == pytest.approx(
+        np.tile(np.asarray(chain.lookup_transform("map", "camera")), (20, 1)), abs=1e-12
+    )
 
 
 def test_out_and_status(chain: turtlewire.Buffer) -> None:
@@ -103,7 +122,11 @@ def test_wrong_arrays(chain: turtlewire.Buffer, arguments: Any, error: type[Exce
 
 def test_stamps_of_other_kinds(chain: turtlewire.Buffer) -> None:
     expected = np.asarray(chain.lookup_transform("map", "odom", START + 5 * MS))
-    for times in ([START + 5 * MS], np.array([START + 5 * MS], dtype=np.uint64), np.array([START + 5 * MS, 0])[::2]):
+    for times in (
+        [START + 5 * MS],
+        np.array([START + 5 * MS], dtype=np.uint64),
+        np.array([START + 5 * MS, 0])[::2],
+    ):
         assert chain.lookup_batch("map", "odom", times)[0] == pytest.approx(expected)
 
 
@@ -139,7 +162,9 @@ def test_points(chain: turtlewire.Buffer, dtype: Any) -> None:
     moved = chain.transform_points("map", "camera", points, t)
     assert moved.dtype == dtype
     tolerance = 1e-4 if dtype == np.float32 else 1e-11
-    assert moved == pytest.approx((points @ matrix[:3, :3].T + matrix[:3, 3]).astype(dtype), abs=tolerance)
+    assert moved == pytest.approx(
+        (points @ matrix[:3, :3].T + matrix[:3, 3]).astype(dtype), abs=tolerance
+    )
     same = points.copy()
     assert chain.transform_points("map", "camera", same, t, out=same) is same
     assert np.array_equal(same, moved)
@@ -158,10 +183,13 @@ def test_points_that_overlap_their_output(chain: turtlewire.Buffer) -> None:
 def test_one_time_of_an_array(chain: turtlewire.Buffer) -> None:
     times, points = stamps(3), np.ones((2, 3))
     assert np.array_equal(
-        chain.transform_points("map", "camera", points, times[1]), chain.transform_points("map", "camera", points, int(times[1]))
+        chain.transform_points("map", "camera", points, times[1]),
+        chain.transform_points("map", "camera", points, int(times[1])),
     )
     assert chain.lookup_velocity("base", "map", times[1]).shape == (6,)
-    assert chain.lookup_transform("map", "camera", times[1]) == chain.lookup_transform("map", "camera", int(times[1]))
+    assert chain.lookup_transform("map", "camera", times[1]) == chain.lookup_transform(
+        "map", "camera", int(times[1])
+    )
 
 
 def test_a_target_time_needs_a_fixed_frame(chain: turtlewire.Buffer) -> None:
@@ -177,7 +205,9 @@ def test_points_at_their_own_times(chain: turtlewire.Buffer) -> None:
         for p, t in zip(points, times, strict=True)
     ]
     assert moved == pytest.approx(np.array(expected), abs=1e-11)
-    deskewed = chain.transform_points("camera", "camera", points, times, fixed_frame="map", target_stamp_ns=START + 900 * MS)
+    deskewed = chain.transform_points(
+        "camera", "camera", points, times, fixed_frame="map", target_stamp_ns=START + 900 * MS
+    )
     last = chain.lookup_transform("camera", "map", START + 900 * MS).as_matrix()
     assert deskewed == pytest.approx(moved @ last[:3, :3].T + last[:3, 3], abs=1e-11)
     status = np.empty(130, dtype=np.uint8)
@@ -198,9 +228,18 @@ class TestVelocity:
         for i in range(2001):
             t = i * 0.001
             stamp = START + i * MS
-            buffer.set_transform("world", "disc", stamp, (3 * t, 0, 0), (0, 0, math.sin(t), math.cos(t)))
+            buffer.set_transform(
+                "world", "disc", stamp, (3 * t, 0, 0), (0, 0, math.sin(t), math.cos(t))
+            )
         buffer.set_transform("disc", "rim", 0, (1, 0, 0), (0, 0, 0, 1), static=True)
-        buffer.set_transform("world", "tilted", 0, (5, 5, 5), (math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4)), static=True)
+        buffer.set_transform(
+            "world",
+            "tilted",
+            0,
+            (5, 5, 5),
+            (math.sin(math.pi / 4), 0, 0, math.cos(math.pi / 4)),
+            static=True,
+        )
         return buffer
 
     def test_of_the_body(self, disc: turtlewire.Buffer) -> None:
@@ -210,15 +249,23 @@ class TestVelocity:
     def test_of_a_point(self, disc: turtlewire.Buffer) -> None:
         t = START + 1000 * MS
         expected = [3 - 2 * math.sin(2), 2 * math.cos(2), 0, 0, 0, 2]
-        assert disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, point=(1, 0, 0)) == pytest.approx(expected, abs=1e-5)
-        assert disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, point_frame="rim") == pytest.approx(expected, abs=1e-5)
-        assert disc.lookup_velocity("rim", "world", t, interval_ns=2 * MS) == pytest.approx(expected, abs=1e-5)
+        assert disc.lookup_velocity(
+            "disc", "world", t, interval_ns=2 * MS, point=(1, 0, 0)
+        ) == pytest.approx(expected, abs=1e-5)
+        assert disc.lookup_velocity(
+            "disc", "world", t, interval_ns=2 * MS, point_frame="rim"
+        ) == pytest.approx(expected, abs=1e-5)
+        assert disc.lookup_velocity("rim", "world", t, interval_ns=2 * MS) == pytest.approx(
+            expected, abs=1e-5
+        )
 
     def test_in_other_axes(self, disc: turtlewire.Buffer) -> None:
         t = START + 500 * MS
         body = disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, reference_frame="disc")
         assert body == pytest.approx([3 * math.cos(1), -3 * math.sin(1), 0, 0, 0, 2], abs=1e-5)
-        tilted = disc.lookup_velocity("disc", "world", t, interval_ns=2 * MS, reference_frame="tilted")
+        tilted = disc.lookup_velocity(
+            "disc", "world", t, interval_ns=2 * MS, reference_frame="tilted"
+        )
         assert tilted == pytest.approx([3, 0, 0, 0, 2, 0], abs=1e-9)
 
     def test_the_other_way_round(self, disc: turtlewire.Buffer) -> None:
@@ -228,7 +275,10 @@ class TestVelocity:
     def test_many_and_latest(self, disc: turtlewire.Buffer) -> None:
         times = START + np.arange(100, 1900, 10) * MS
         many = disc.lookup_velocity("disc", "world", times, interval_ns=2 * MS, point=(1, 0, 0))
-        singles = [disc.lookup_velocity("disc", "world", int(t), interval_ns=2 * MS, point=(1, 0, 0)) for t in times]
+        singles = [
+            disc.lookup_velocity("disc", "world", int(t), interval_ns=2 * MS, point=(1, 0, 0))
+            for t in times
+        ]
         assert many == pytest.approx(np.array(singles), abs=1e-9)
         assert disc.lookup_velocity("disc", "world") == pytest.approx([3, 0, 0, 0, 0, 2], abs=1e-9)
 

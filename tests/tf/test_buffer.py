@@ -76,11 +76,23 @@ class TestLookup:
         assert (found.translation, found.stamp_ns) == ((-10.0, 0.0, 0.0), 2 * SECOND)
         assert buffer.can_transform_full("car", 2 * SECOND, "car", SECOND, "map")
         assert not buffer.can_transform_full("car", 3 * SECOND, "car", SECOND, "map")
-        assert "into the future" in buffer.can_transform_full_reason("car", 3 * SECOND, "car", SECOND, "map")
+        assert "into the future" in buffer.can_transform_full_reason(
+            "car", 3 * SECOND, "car", SECOND, "map"
+        )
 
     def test_keywords(self, buffer: turtlewire.Buffer) -> None:
-        buffer.set_transform(parent_frame="a", child_frame="b", stamp_ns=1, translation=(1, 2, 3), rotation=NO_TURN, static=True)
-        assert buffer.lookup_transform(target_frame="a", source_frame="b", stamp_ns=7, timeout_ns=0).x == 1.0
+        buffer.set_transform(
+            parent_frame="a",
+            child_frame="b",
+            stamp_ns=1,
+            translation=(1, 2, 3),
+            rotation=NO_TURN,
+            static=True,
+        )
+        assert (
+            buffer.lookup_transform(target_frame="a", source_frame="b", stamp_ns=7, timeout_ns=0).x
+            == 1.0
+        )
         with pytest.raises(TypeError, match="unexpected keyword"):
             buffer.lookup_transform("a", "b", stamp=7)  # type: ignore[call-arg]
         with pytest.raises(TypeError):
@@ -90,7 +102,9 @@ class TestLookup:
         for i in range(600):  # more pairs than are kept by identity
             buffer.set_transform("root", f"leaf{i}", 1, (i, 0, 0), NO_TURN, static=True)
         for _ in range(3):
-            assert [buffer.lookup_transform("root", f"leaf{i}").x for i in range(600)] == [float(i) for i in range(600)]
+            assert [buffer.lookup_transform("root", f"leaf{i}").x for i in range(600)] == [
+                float(i) for i in range(600)
+            ]
 
     def test_follows_a_changing_tree(self, buffer: turtlewire.Buffer) -> None:
         buffer.set_transform("a", "b", 1, (1, 0, 0), NO_TURN, static=True)
@@ -119,10 +133,24 @@ class TestErrors:
         with pytest.raises(errors.TransformException, match="passed to get_latest_common_time"):
             buffer.latest_common_time("a", "nobody")
 
-    @pytest.mark.parametrize("arguments", [(1, "b"), ("a", None), ("a", "b", "now"), ("a", "b", 1.5), ("a", "b", 0, 0.1), ("a", "\ud800")])
+    @pytest.mark.parametrize(
+        "arguments",
+        [
+            (1, "b"),
+            ("a", None),
+            ("a", "b", "now"),
+            ("a", "b", 1.5),
+            ("a", "b", 0, 0.1),
+            ("a", "\ud800"),
+        ],
+    )
     def test_wrong_types(self, buffer: turtlewire.Buffer, arguments: tuple[Any, ...]) -> None:
         buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
-        for question in (buffer.lookup_transform, buffer.can_transform, buffer.can_transform_reason):
+        for question in (
+            buffer.lookup_transform,
+            buffer.can_transform,
+            buffer.can_transform_reason,
+        ):
             with pytest.raises((TypeError, UnicodeEncodeError)):
                 question(*arguments)
 
@@ -139,8 +167,16 @@ class TestErrors:
             ({"rotation": (0, 0, 0, 0, 1)}, ValueError),
         ],
     )
-    def test_wrong_samples(self, buffer: turtlewire.Buffer, changed: dict[str, Any], error: type[Exception]) -> None:
-        sample = {"parent_frame": "a", "child_frame": "b", "stamp_ns": 1, "translation": (1, 2, 3), "rotation": NO_TURN}
+    def test_wrong_samples(
+        self, buffer: turtlewire.Buffer, changed: dict[str, Any], error: type[Exception]
+    ) -> None:
+        sample = {
+            "parent_frame": "a",
+            "child_frame": "b",
+            "stamp_ns": 1,
+            "translation": (1, 2, 3),
+            "rotation": NO_TURN,
+        }
         with pytest.raises(error):
             buffer.set_transform(**{**sample, **changed})  # type: ignore[arg-type]
         assert buffer.frame_strings() == []
@@ -176,23 +212,59 @@ class TestRefusals:
                 NO_TURN,
                 'TF_SELF_TRANSFORM: Ignoring transform from authority "me" with frame_id and  child_frame_id "a"',
             ),
-            ("a", "", (0, 0, 0), NO_TURN, 'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "me" because child_frame_id not set '),
-            ("/", "b", (0, 0, 0), NO_TURN, 'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "b"  from authority "me"'),
-            ("a", "b", (math.nan, 0, 0), NO_TURN, 'TF_NAN_INPUT: Ignoring transform for child_frame_id "b" from authority "me"'),
-            ("a", "b", (1, 2, 3), (0, 0, 0, 0), "(1.000000 2.000000 3.000000) (0.000000 0.000000 0.000000 0.000000)"),
+            (
+                "a",
+                "",
+                (0, 0, 0),
+                NO_TURN,
+                'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "me" because child_frame_id not set ',
+            ),
+            (
+                "/",
+                "b",
+                (0, 0, 0),
+                NO_TURN,
+                'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "b"  from authority "me"',
+            ),
+            (
+                "a",
+                "b",
+                (math.nan, 0, 0),
+                NO_TURN,
+                'TF_NAN_INPUT: Ignoring transform for child_frame_id "b" from authority "me"',
+            ),
+            (
+                "a",
+                "b",
+                (1, 2, 3),
+                (0, 0, 0, 0),
+                "(1.000000 2.000000 3.000000) (0.000000 0.000000 0.000000 0.000000)",
+            ),
             ("NO_PARENT", "b", (0, 0, 0), NO_TURN, "NO_PARENT"),
             ("a", "x" * 5000, (0, 0, 0), NO_TURN, "4096 bytes"),
             ("a", "x\0y", (0, 0, 0), NO_TURN, "NUL"),
         ],
     )
-    def test_reason(self, buffer: turtlewire.Buffer, parent: str, child: str, translation: Any, rotation: Any, reason: str) -> None:
-        assert reason in buffer.set_transform(parent, child, 1, translation, rotation, authority="me")
+    def test_reason(
+        self,
+        buffer: turtlewire.Buffer,
+        parent: str,
+        child: str,
+        translation: Any,
+        rotation: Any,
+        reason: str,
+    ) -> None:
+        assert reason in buffer.set_transform(
+            parent, child, 1, translation, rotation, authority="me"
+        )
         assert buffer.frame_strings() == []
 
     def test_old_data(self, buffer: turtlewire.Buffer) -> None:
         assert buffer.set_transform("a", "b", 100 * SECOND, (0, 0, 0), NO_TURN) == ""
         assert buffer.set_transform("a", "b", 90 * SECOND, (0, 0, 0), NO_TURN) == ""
-        assert buffer.set_transform("a", "b", 90 * SECOND - 1, (0, 0, 0), NO_TURN, authority="me") == (
+        assert buffer.set_transform(
+            "a", "b", 90 * SECOND - 1, (0, 0, 0), NO_TURN, authority="me"
+        ) == (
             "TF_OLD_DATA ignoring data from the past for frame b at time 90.000000 according to authority me\n"
             "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
         )
@@ -200,29 +272,48 @@ class TestRefusals:
 
 class TestIngest:
     def test_message(self, buffer: turtlewire.Buffer) -> None:
-        data = tf_message(("a", "b", SECOND, (1, 2, 3, *NO_TURN)), ("b", "cc", SECOND, (1, 1, 1, *QUARTER)))
+        data = tf_message(
+            ("a", "b", SECOND, (1, 2, 3, *NO_TURN)), ("b", "cc", SECOND, (1, 1, 1, *QUARTER))
+        )
         assert buffer.ingest(data) == 2
         assert buffer.lookup_transform("a", "cc").translation == (2.0, 3.0, 4.0)
         assert buffer.ingest(memoryview(bytearray(data))) == 2
         assert "default_authority" in buffer.all_frames_as_yaml()
 
     def test_static_and_authority(self, buffer: turtlewire.Buffer) -> None:
-        assert buffer.ingest(tf_message(("a", "b", SECOND, (1, 2, 3, *NO_TURN))), static=True, authority="robot") == 1
+        assert (
+            buffer.ingest(
+                tf_message(("a", "b", SECOND, (1, 2, 3, *NO_TURN))), static=True, authority="robot"
+            )
+            == 1
+        )
         assert buffer.lookup_transform("a", "b", 77).stamp_ns == 77
         assert "broadcaster: 'robot'" in buffer.all_frames_as_yaml()
 
     def test_big_endian(self, buffer: turtlewire.Buffer) -> None:
-        body = struct.pack(">IiI", 1, 1, 5) + struct.pack(">I4s", 2, b"a") + struct.pack(">I4s", 2, b"b") + b"\0" * 4
+        body = (
+            struct.pack(">IiI", 1, 1, 5)
+            + struct.pack(">I4s", 2, b"a")
+            + struct.pack(">I4s", 2, b"b")
+            + b"\0" * 4
+        )
         data = b"\0\0\0\0" + body + struct.pack(">7d", 1, 2, 3, 0, 0, 0, 1)
         assert buffer.ingest(data) == 1
         assert buffer.lookup_transform("a", "b", SECOND + 5).translation == (1.0, 2.0, 3.0)
 
     def test_refused_among_good(self, buffer: turtlewire.Buffer) -> None:
-        data = tf_message(("a", "b", 1, (0, 0, 0, *NO_TURN)), ("a", "a", 1, (0, 0, 0, *NO_TURN)), ("a", "c", 1, (0, 0, 0, 0, 0, 0, 0)))
+        data = tf_message(
+            ("a", "b", 1, (0, 0, 0, *NO_TURN)),
+            ("a", "a", 1, (0, 0, 0, *NO_TURN)),
+            ("a", "c", 1, (0, 0, 0, 0, 0, 0, 0)),
+        )
         assert buffer.ingest(data) == 1
 
     def test_every_truncation_is_an_error(self, buffer: turtlewire.Buffer) -> None:
-        data = tf_message(("parent", "child", SECOND, (1, 2, 3, *NO_TURN)), ("child", "grand", SECOND, (1, 2, 3, *NO_TURN)))
+        data = tf_message(
+            ("parent", "child", SECOND, (1, 2, 3, *NO_TURN)),
+            ("child", "grand", SECOND, (1, 2, 3, *NO_TURN)),
+        )
         for size in range(len(data)):
             with pytest.raises(errors.CdrError):
                 buffer.ingest(data[:size])
@@ -274,7 +365,9 @@ class TestCache:
             late = i ^ 1  # neighbours change places
             buffer.set_transform("a", "b", late * step, (late, 0, 0), NO_TURN)
         for i in range(905, 999):
-            assert buffer.lookup_transform("a", "b", i * step + step // 2).x == pytest.approx(i + 0.5)
+            assert buffer.lookup_transform("a", "b", i * step + step // 2).x == pytest.approx(
+                i + 0.5
+            )
         assert not buffer.can_transform("a", "b", 890 * step)
 
     def test_flood_of_one_stamp(self, buffer: turtlewire.Buffer) -> None:
@@ -283,7 +376,9 @@ class TestCache:
         assert buffer.lookup_transform("a", "b", SECOND).x == 2999.0
         assert "rate: 30000000.000" in buffer.all_frames_as_yaml()
         buffer.set_transform("a", "b", 2 * SECOND, (7, 0, 0), NO_TURN)
-        assert buffer.lookup_transform("a", "b", SECOND).x == 0.0  # at the oldest stamp tf2 answers with the first
+        assert (
+            buffer.lookup_transform("a", "b", SECOND).x == 0.0
+        )  # at the oldest stamp tf2 answers with the first
 
     def test_unlimited(self, core: Any) -> None:
         buffer = core.Buffer(2**63 - 1)
@@ -299,15 +394,22 @@ class TestTransform:
         assert (t.qx, t.qy, t.qz, t.qw) == t.rotation == QUARTER
         assert t == core.Transform("a", "b", 5, (1, 2, 3), QUARTER)
         assert t != core.Transform("a", "c", 5, (1, 2, 3), QUARTER)
-        assert repr(t) == f"Transform(frame_id='a', child_frame_id='b', stamp_ns=5, translation=(1.0, 2.0, 3.0), rotation={QUARTER!r})"
+        assert (
+            repr(t)
+            == f"Transform(frame_id='a', child_frame_id='b', stamp_ns=5, translation=(1.0, 2.0, 3.0), rotation={QUARTER!r})"
+        )
         assert t.inverse().inverse().translation == near((1, 2, 3))
         with pytest.raises(AttributeError):
             t.x = 3.0
         with pytest.raises(TypeError):
             hash(t)
 
-    def test_pickle(self, core: Any, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr("turtlewire.Transform", core.Transform)  # as in a process that runs on this core
+    def test_pickle(
+        self, core: Any, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(
+            "turtlewire.Transform", core.Transform
+        )  # as in a process that runs on this core
         buffer.set_transform("a", "b", 1, (1, 2, 3), QUARTER)
         found = buffer.lookup_transform("a", "b")
         assert pickle.loads(pickle.dumps(found)) == found
@@ -354,15 +456,21 @@ class TestWaiting:
         assert time.monotonic() - start < 600
 
     @pytest.mark.parametrize("full", [False, True])
-    def test_the_latest_time_never_leaves_the_cache(self, buffer: turtlewire.Buffer, full: bool) -> None:
+    def test_the_latest_time_never_leaves_the_cache(
+        self, buffer: turtlewire.Buffer, full: bool
+    ) -> None:
         """A link that has stood still for longer than the cache may go on."""
         for t in range(90, 101):
             buffer.set_transform("a", "b", t * SECOND, (1, 0, 0), NO_TURN)
         buffer.set_transform("b", "c", 50 * SECOND, (1, 0, 0), NO_TURN)
-        goes_on = threading.Timer(0.05, lambda: buffer.set_transform("b", "c", 100 * SECOND, (2, 0, 0), NO_TURN))
+        goes_on = threading.Timer(
+            0.05, lambda: buffer.set_transform("b", "c", 100 * SECOND, (2, 0, 0), NO_TURN)
+        )
         goes_on.start()
         if full:
-            assert buffer.lookup_transform_full("a", 0, "c", 0, "a", timeout_ns=60 * SECOND).x == 3.0
+            assert (
+                buffer.lookup_transform_full("a", 0, "c", 0, "a", timeout_ns=60 * SECOND).x == 3.0
+            )
         else:
             assert buffer.lookup_transform("a", "c", timeout_ns=60 * SECOND).x == 3.0
         goes_on.join()
@@ -370,7 +478,11 @@ class TestWaiting:
     def test_many_waiters(self, buffer: turtlewire.Buffer) -> None:
         results: list[float] = []
         waiters = [
-            threading.Thread(target=lambda t=t: results.append(buffer.lookup_transform("a", "b", t * SECOND, 60 * SECOND).x))  # type: ignore[misc]
+            threading.Thread(
+                target=lambda t=t: results.append(
+                    buffer.lookup_transform("a", "b", t * SECOND, 60 * SECOND).x
+                )
+            )  # type: ignore[misc]
             for t in range(1, 9)
         ]
         for waiter in waiters:
@@ -393,7 +505,9 @@ class TestWaiting:
             "    print('interrupted')\n"
         )
         environment = {**os.environ, "TURTLEWIRE_CORE": core_name}
-        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, env=environment) as child:
+        with subprocess.Popen(
+            [sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, env=environment
+        ) as child:
             assert child.stdout is not None
             assert child.stdout.readline() == "ready\n"
             asked = time.monotonic()
@@ -416,7 +530,12 @@ class TestThreads:
         stop, faults = threading.Event(), []
 
         def message(i: int) -> bytes:
-            return tf_message(*[(parent, child, i * SECOND // 1000, (i, i, i, *NO_TURN)) for parent, child in links])
+            return tf_message(
+                *[
+                    (parent, child, i * SECOND // 1000, (i, i, i, *NO_TURN))
+                    for parent, child in links
+                ]
+            )
 
         def read(i: int) -> None:
             try:
@@ -425,7 +544,9 @@ class TestThreads:
                     assert found.x == found.y == found.z == pytest.approx(found.stamp_ns / 1e6)
                     stamps = found.stamp_ns - np.arange(20, dtype=np.int64) * 100_000
                     status = np.empty(20, dtype=np.uint8)
-                    poses = buffer.lookup_batch("base", f"link{i}", stamps, status=status)[status == 0]
+                    poses = buffer.lookup_batch("base", f"link{i}", stamps, status=status)[
+                        status == 0
+                    ]
                     assert np.allclose(poses[:, 0], stamps[status == 0] / 1e6)
                     buffer.can_transform(f"link{i}", "link99", found.stamp_ns)
                     buffer.all_frames_as_string()
@@ -457,7 +578,9 @@ class TestListeners:
         buffer.set_transform("a", "b", 3, (0, 0, 0), NO_TURN)
         assert len(seen) == 2
 
-    def test_fault_of_a_listener_is_reported(self, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_fault_of_a_listener_is_reported(
+        self, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
         faults: list[Any] = []
         monkeypatch.setattr(sys, "unraisablehook", lambda details: faults.append(details.exc_type))
         buffer.add_change_listener(lambda: 1 / 0)  # type: ignore[arg-type, return-value]
@@ -477,30 +600,46 @@ class TestChoiceOfCore:
     def run(self, code: str, **environment: str) -> subprocess.CompletedProcess[str]:
         clean = {k: v for k, v in os.environ.items() if not k.startswith("TURTLEWIRE_")}
         return subprocess.run(
-            [sys.executable, "-c", code], env=clean | environment, capture_output=True, text=True, timeout=60, check=False
+            [sys.executable, "-c", code],
+            env=clean | environment,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
         )
 
     def test_python_on_request(self) -> None:
-        run = self.run("import turtlewire.tf.buffer as b; print(b.CORE, b.Buffer.__module__)", TURTLEWIRE_CORE="python")
+        run = self.run(
+            "import turtlewire.tf.buffer as b; print(b.CORE, b.Buffer.__module__)",
+            TURTLEWIRE_CORE="python",
+        )
         assert (run.stdout, run.stderr) == ("python turtlewire\n", "")
 
     def test_wrong_request(self) -> None:
-        assert "can be 'native' or 'python'" in self.run("import turtlewire; turtlewire.Buffer", TURTLEWIRE_CORE="fast").stderr
+        assert (
+            "can be 'native' or 'python'"
+            in self.run("import turtlewire; turtlewire.Buffer", TURTLEWIRE_CORE="fast").stderr
+        )
 
     MISSING = "import sys; sys.modules['turtlewire._native'] = None\n"
 
     def test_missing_native_is_said(self) -> None:
-        run = self.run(self.MISSING + "import turtlewire; print(turtlewire.Buffer().frame_strings())")
+        run = self.run(
+            self.MISSING + "import turtlewire; print(turtlewire.Buffer().frame_strings())"
+        )
         assert run.stdout == "[]\n"
         assert run.stderr.count("\n") == 1
         assert "g++" in run.stderr
 
     def test_missing_native_can_be_an_error(self) -> None:
-        run = self.run(self.MISSING + "import turtlewire; turtlewire.Buffer", TURTLEWIRE_REQUIRE_NATIVE="1")
-        assert "ImportError: the compiled core of turtlewire is required here, but it is not built" in run.stderr
+        run = self.run(
+            self.MISSING + "import turtlewire; turtlewire.Buffer", TURTLEWIRE_REQUIRE_NATIVE="1"
+        )
+        assert (
+            "ImportError: the compiled core of turtlewire is required here, but it is not built"
+            in run.stderr
+        )
 
     def test_import_is_light(self) -> None:
-        code = (
-            "import sys, turtlewire; turtlewire.Buffer().set_transform('a', 'b', 1, (0, 0, 0), (0, 0, 0, 1)); print('numpy' in sys.modules)"
-        )
+        code = "import sys, turtlewire; turtlewire.Buffer().set_transform('a', 'b', 1, (0, 0, 0), (0, 0, 0, 1)); print('numpy' in sys.modules)"
         assert self.run(code).stdout == "False\n"

@@ -27,14 +27,21 @@ def rotations():
 
 def test_matrices_are_scipys(rotations):
     quaternions = rotations.as_quat()
-    assert conversions.matrix_from_quaternion(quaternions) == pytest.approx(rotations.as_matrix(), abs=1e-14)
-    assert conversions.matrix_from_quaternion(3.0 * quaternions) == pytest.approx(rotations.as_matrix(), abs=1e-14)
+    assert conversions.matrix_from_quaternion(quaternions) == pytest.approx(
+        rotations.as_matrix(), abs=1e-14
+    )
+    assert conversions.matrix_from_quaternion(3.0 * quaternions) == pytest.approx(
+        rotations.as_matrix(), abs=1e-14
+    )
     found = conversions.quaternion_from_matrix(rotations.as_matrix())
     assert same_rotations(found, quaternions)
     assert (found[:, 3] >= 0).all()
 
 
-@pytest.mark.parametrize("quaternion", [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1), (0.6, 0.8, 0, 0), (0, 1e-9, 1, 1e-9)])
+@pytest.mark.parametrize(
+    "quaternion",
+    [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1), (0.6, 0.8, 0, 0), (0, 1e-9, 1, 1e-9)],
+)
 def test_half_turns_keep_their_digits(quaternion):
     found = conversions.quaternion_from_matrix(conversions.matrix_from_quaternion(quaternion))
     assert np.abs(found) == pytest.approx(np.abs(quaternion), abs=1e-15)
@@ -50,7 +57,9 @@ def test_euler_angles_are_scipys(rotations, axes):
     angles = conversions.euler_from_quaternion(rotations.as_quat(), axes)
     assert angles == pytest.approx(rotations.as_euler(scipy_axes(axes)), abs=1e-12)
     assert same_rotations(conversions.quaternion_from_euler(angles, axes), rotations.as_quat())
-    assert same_rotations(tf_transformations.quaternion_from_euler(*angles[0], axes), rotations.as_quat()[0])
+    assert same_rotations(
+        tf_transformations.quaternion_from_euler(*angles[0], axes), rotations.as_quat()[0]
+    )
 
 
 @pytest.mark.parametrize("axes", conversions.AXES)
@@ -62,7 +71,9 @@ def test_in_gimbal_lock_one_angle_is_zero_and_the_rotation_is_right(axes, upper)
     angles = conversions.euler_from_quaternion(quaternion, axes)
     assert angles[2 if axes[0] == "s" else 0] == 0.0
     assert angles[1] == pytest.approx(middle, abs=1e-7)
-    assert np.abs(quaternion @ conversions.quaternion_from_euler(angles, axes)) == pytest.approx(1.0, abs=1e-12)
+    assert np.abs(quaternion @ conversions.quaternion_from_euler(angles, axes)) == pytest.approx(
+        1.0, abs=1e-12
+    )
 
 
 angles = st.floats(-10, 10)
@@ -72,14 +83,18 @@ angles = st.floats(-10, 10)
 def test_any_angles_come_back_as_the_same_rotation_in_range(first, second, third, axes):
     quaternion = conversions.quaternion_from_euler((first, second, third), axes)
     a, b, c = found = conversions.euler_from_quaternion(quaternion, axes)
-    assert np.abs(quaternion @ conversions.quaternion_from_euler(found, axes)) == pytest.approx(1.0, abs=1e-12)
+    assert np.abs(quaternion @ conversions.quaternion_from_euler(found, axes)) == pytest.approx(
+        1.0, abs=1e-12
+    )
     assert -math.pi < a <= math.pi
     assert -math.pi < c <= math.pi
     assert (0 <= b <= math.pi) if axes[1] == axes[3] else (-math.pi / 2 <= b <= math.pi / 2)
 
 
 def test_poses_of_any_shape(rotations):
-    poses = np.concatenate((np.arange(1500.0).reshape(500, 3), rotations.as_quat()), axis=1).reshape(5, 20, 5, 7)
+    poses = np.concatenate(
+        (np.arange(1500.0).reshape(500, 3), rotations.as_quat()), axis=1
+    ).reshape(5, 20, 5, 7)
     matrices = conversions.matrix_from_pose(poses)
     assert matrices.shape == (5, 20, 5, 4, 4)
     assert matrices[1, 2, 3, 3].tolist() == [0, 0, 0, 1]
@@ -106,7 +121,9 @@ def test_mistakes_are_told():
         conversions.matrix_from_quaternion((0, 0, 1))
     with pytest.raises(ValueError, match="of length 0"):
         conversions.matrix_from_quaternion((0, 0, 0, 0))
-    with pytest.raises(ValueError, match=r"homogeneous matrices have the shape \(\.\.\., 4, 4\), got \(3, 3\)"):
+    with pytest.raises(
+        ValueError, match=r"homogeneous matrices have the shape \(\.\.\., 4, 4\), got \(3, 3\)"
+    ):
         conversions.pose_from_matrix(np.eye(3))
     with pytest.raises(ValueError, match=r"axes is 'xyz'; it can be one of sxyx, sxyz, "):
         conversions.quaternion_from_euler((0, 0, 0), "xyz")

@@ -25,7 +25,12 @@ def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
         buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, authority="odometry")
     buffer.set_transform("base", "camera", 5, (0, 0, 0), STILL, static=True, authority="me")
     base, camera = inspection.links(buffer)
-    assert (base.child_frame, base.parent_frame, base.static, base.samples) == ("base", "map", False, 11)
+    assert (base.child_frame, base.parent_frame, base.static, base.samples) == (
+        "base",
+        "map",
+        False,
+        11,
+    )
     assert (base.rate_hz, base.age_ns(12 * SECOND + 1)) == (1.0, 2 * SECOND)
     assert base.senders == (("odometry", "map", 11, 10 * SECOND + 1),)
     assert (camera.static, camera.rate_hz, camera.age_ns(99)) == (True, 0.0, 0)
@@ -34,7 +39,14 @@ def test_links_and_senders(buffer: turtlewire.Buffer) -> None:
 
 def test_two_publishers(buffer: turtlewire.Buffer) -> None:
     for t in range(10):
-        buffer.set_transform("map", "base", t * SECOND + 1, (0, 0, 0), STILL, authority="odometry" if t % 2 else "slam")
+        buffer.set_transform(
+            "map",
+            "base",
+            t * SECOND + 1,
+            (0, 0, 0),
+            STILL,
+            authority="odometry" if t % 2 else "slam",
+        )
     (conflict,) = inspection.conflicts(buffer)
     assert (conflict.kind, conflict.child_frame) == ("two publishers", "base")
     assert "'odometry' and 'slam'" in conflict.text
@@ -43,7 +55,9 @@ def test_two_publishers(buffer: turtlewire.Buffer) -> None:
 def test_two_parents_but_not_a_hand_over(buffer: turtlewire.Buffer) -> None:
     for t in range(10):
         buffer.set_transform("left" if t % 2 else "right", "part", t * SECOND + 1, (0, 0, 0), STILL)
-        buffer.set_transform("table" if t < 5 else "gripper", "cup", t * SECOND + 1, (0, 0, 0), STILL)
+        buffer.set_transform(
+            "table" if t < 5 else "gripper", "cup", t * SECOND + 1, (0, 0, 0), STILL
+        )
     (conflict,) = inspection.conflicts(buffer)
     assert (conflict.kind, conflict.child_frame) == ("two parents", "part")
 
@@ -77,7 +91,11 @@ def test_malformed_messages_are_counted(buffer: turtlewire.Buffer) -> None:
     for data in (b"", b"\x00\x01\x00\x00\xff\xff\xff\xff"):
         with pytest.raises(errors.CdrError):
             buffer.ingest(data, authority="broken")
-    assert inspection.malformed(buffer) == (2, "4294967295 transforms are announced, which do not fit into 8 bytes", "broken")
+    assert inspection.malformed(buffer) == (
+        2,
+        "4294967295 transforms are announced, which do not fit into 8 bytes",
+        "broken",
+    )
 
 
 def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlewire.Buffer) -> None:
@@ -85,7 +103,10 @@ def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlew
     assert buffer.ingest(good.replace(b"#", b"\xff"), authority="broken") == 2
     assert buffer.frame_strings() == ["base", "map", "arm"]
     refused = inspection.refusals(buffer)
-    assert {child: record.counts for child, record in refused.items()} == {"robo\ufffd": {"bad_name": 1}, "cart": {"bad_name": 1}}
+    assert {child: record.counts for child, record in refused.items()} == {
+        "robo\ufffd": {"bad_name": 1},
+        "cart": {"bad_name": 1},
+    }
     assert (
         refused["cart"].last
         == 'Ignoring transform from authority "broken": a frame id must be UTF-8 text without NUL, of at most 4096 bytes'
@@ -142,7 +163,9 @@ def test_remove_stale(buffer: turtlewire.Buffer) -> None:
 
 def test_extrapolation(buffer: turtlewire.Buffer) -> None:
     for t in (1, 2, 3):
-        buffer.set_transform("a", "b", t * SECOND, (10.0 * t, 0, 0), (0, 0, math.sin(0.1 * t), math.cos(0.1 * t)))
+        buffer.set_transform(
+            "a", "b", t * SECOND, (10.0 * t, 0, 0), (0, 0, math.sin(0.1 * t), math.cos(0.1 * t))
+        )
     after = buffer.extrapolate_transform("a", "b", 4 * SECOND, SECOND)
     assert after.translation == pytest.approx((40, 0, 0))
     assert after.rotation == pytest.approx((0, 0, math.sin(0.4), math.cos(0.4)))
@@ -164,8 +187,15 @@ def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
     buffer.set_transform("base", "lamp", 9 * SECOND, (0, 0, 1), STILL)
     buffer.set_transform("arm", "hand", 0, (0, 0, 1), STILL, static=True)
     found, stamps = buffer.lookup_latest("map", "hand")
-    assert (found.translation, found.stamp_ns, stamps) == ((10.0, 1.0, 1.0), 3 * SECOND, {"arm": 3 * SECOND, "base": 10 * SECOND})
-    assert buffer.lookup_latest("lamp", "hand")[1] == {"arm": 3 * SECOND, "lamp": 9 * SECOND}  # not of the links above base
+    assert (found.translation, found.stamp_ns, stamps) == (
+        (10.0, 1.0, 1.0),
+        3 * SECOND,
+        {"arm": 3 * SECOND, "base": 10 * SECOND},
+    )
+    assert buffer.lookup_latest("lamp", "hand")[1] == {
+        "arm": 3 * SECOND,
+        "lamp": 9 * SECOND,
+    }  # not of the links above base
     assert buffer.lookup_latest("map", "base", max_age_ns=SECOND, now_ns=11 * SECOND)[0].x == 10.0
     with pytest.raises(errors.ForwardExtrapolationException) as caught:
         buffer.lookup_latest("map", "hand", max_age_ns=SECOND, now_ns=11 * SECOND)
@@ -193,7 +223,14 @@ def test_whole_history(buffer: turtlewire.Buffer) -> None:
 
 def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
     for t in range(1, 6):
-        buffer.set_transform("a" if t < 3 else "z", "b", t * SECOND, (t, 0, 0), (0, 0, math.sin(t), math.cos(t)), authority="robot")
+        buffer.set_transform(
+            "a" if t < 3 else "z",
+            "b",
+            t * SECOND,
+            (t, 0, 0),
+            (0, 0, math.sin(t), math.cos(t)),
+            authority="robot",
+        )
     buffer.set_transform("b", "c", 0, (1, 2, 3), (0.5, 0.5, 0.5, 0.5), static=True, authority="me")
     path = tmp_path / "tree.saved"
     inspection.save(buffer, path)
@@ -208,7 +245,9 @@ def test_save_and_load(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
         )
 
 
-def test_save_while_a_frame_is_removed(buffer: turtlewire.Buffer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_save_while_a_frame_is_removed(
+    buffer: turtlewire.Buffer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     buffer.set_transform("map", "base", SECOND, (1, 2, 3), STILL)
     buffer.set_transform("map", "cup", SECOND, (1, 2, 3), STILL)
     listed = inspection.links(buffer)
@@ -219,7 +258,13 @@ def test_save_while_a_frame_is_removed(buffer: turtlewire.Buffer, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    "damage", [lambda data: b"", lambda data: data[:-30], lambda data: b"x" * 200, lambda data: data[:300] + b"\0" * 40 + data[340:]]
+    "damage",
+    [
+        lambda data: b"",
+        lambda data: data[:-30],
+        lambda data: b"x" * 200,
+        lambda data: data[:300] + b"\0" * 40 + data[340:],
+    ],
 )
 def test_load_something_else(buffer: turtlewire.Buffer, tmp_path: Path, damage: Any) -> None:
     for t in range(1, 6):

@@ -14,7 +14,9 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import History
 
-pytestmark = pytest.mark.skipif(core.CORE != "native", reason="the plain-Python core has no short way")
+pytestmark = pytest.mark.skipif(
+    core.CORE != "native", reason="the plain-Python core has no short way"
+)
 
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 KEEP_ALL = QOS._replace(history=History.KEEP_ALL)
@@ -33,7 +35,9 @@ class Flow:
 
     def __init__(self, monkeypatch):
         self.by_python = 0
-        self.sender, self.receiver = (wire.open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2))
+        self.sender, self.receiver = (
+            wire.open_context(middleware="rmw_cyclonedds_cpp") for _ in range(2)
+        )
         self.publisher = self.sender.create_node("talker").create_publisher("/tf", TYPE, KEEP_ALL)
         self.node = self.receiver.create_node("listener")
         self._stamps = itertools.count(1)
@@ -49,7 +53,9 @@ class Flow:
         return TransformListener(store, self.node, context=self.receiver, qos=KEEP_ALL, **choices)
 
     def wait_for_match(self, count=1):
-        assert self.sender.graph.wait_for(lambda: self.publisher.subscription_count() == count, LONG_NS)
+        assert self.sender.graph.wait_for(
+            lambda: self.publisher.subscription_count() == count, LONG_NS
+        )
 
     def send(self, buffer):
         """Send one transform and wait until it is in the buffer."""
@@ -115,11 +121,16 @@ def test_what_comes_while_python_is_busy_with_the_first_message_does_not_need_it
 
 def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
     buffer = Buffer(None)
-    publishers = [flow.sender.create_node(f"talker{i}").create_publisher("/tf", TYPE, KEEP_ALL) for i in range(3)]
+    publishers = [
+        flow.sender.create_node(f"talker{i}").create_publisher("/tf", TYPE, KEEP_ALL)
+        for i in range(3)
+    ]
     count = 300
     with flow.listen(buffer):
         for publisher in publishers:
-            assert flow.sender.graph.wait_for(lambda publisher=publisher: publisher.subscription_count() == 1, LONG_NS)
+            assert flow.sender.graph.wait_for(
+                lambda publisher=publisher: publisher.subscription_count() == 1, LONG_NS
+            )
 
         def flood(number):
             for stamp_s in range(1, count + 1):
@@ -172,7 +183,9 @@ def test_a_malformed_message_between_good_ones_is_counted_with_its_sender(flow):
         flow.send(buffer)
         assert inspection.malformed(buffer).messages == 1
         flow.send_until_short(buffer)
-        assert flow.receiver.graph.wait_for(lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS)
+        assert flow.receiver.graph.wait_for(
+            lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS
+        )
 
 
 def test_stores_of_other_kinds_are_served_beside_buffers(flow):
@@ -197,7 +210,9 @@ def test_stores_of_other_kinds_are_served_beside_buffers(flow):
 
 
 def test_latched_transforms_take_part(flow):
-    static = flow.sender.create_node("walls").create_publisher("/tf_static", TYPE, STATIC_QOS._replace(depth=10))
+    static = flow.sender.create_node("walls").create_publisher(
+        "/tf_static", TYPE, STATIC_QOS._replace(depth=10)
+    )
     for number in range(10):
         static.publish(tf_bytes(1, f"wall{number}"))
     buffers = [Buffer() for _ in range(3)]
@@ -205,7 +220,10 @@ def test_latched_transforms_take_part(flow):
         with flow.listen(buffer):
             for number in range(10):
                 buffer.lookup_transform("world", f"wall{number}", 0, LONG_NS)
-        assert {link.senders[0].name for link in inspection.links(buffer)} <= {"/walls", static.gid.hex()}
+        assert {link.senders[0].name for link in inspection.links(buffer)} <= {
+            "/walls",
+            static.gid.hex(),
+        }
 
 
 def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):

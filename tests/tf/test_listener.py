@@ -35,13 +35,21 @@ class Domain:
         self.talker = self.sender.create_node("talker")
         self.node = self.receiver.create_node("listener")
         self.tf = self.talker.create_publisher("/tf", TYPE, QOS)
-        self.tf_static = self.talker.create_publisher("/tf_static", TYPE, STATIC_QOS._replace(depth=1))
+        self.tf_static = self.talker.create_publisher(
+            "/tf_static", TYPE, STATIC_QOS._replace(depth=1)
+        )
 
     def wait_for_subscriptions(self, publisher, count=1):
-        assert self.sender.graph.wait_for(lambda: publisher.subscription_count() == count, LONG_NS), publisher.subscription_count()
+        assert self.sender.graph.wait_for(
+            lambda: publisher.subscription_count() == count, LONG_NS
+        ), publisher.subscription_count()
 
     def subscriptions(self, topic="/tf"):
-        return [end for end in self.receiver.graph.endpoints() if (end.kind, end.topic) == ("subscription", topic)]
+        return [
+            end
+            for end in self.receiver.graph.endpoints()
+            if (end.kind, end.topic) == ("subscription", topic)
+        ]
 
 
 @pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
@@ -67,7 +75,12 @@ def test_no_message_object_is_made(domain, monkeypatch):
         raise AssertionError("the listener decoded a message")
 
     monkeypatch.setattr(msg, "deserialize", forbidden)
-    for name in (TYPE_NAME, "geometry_msgs/msg/TransformStamped", "geometry_msgs/msg/Transform", "std_msgs/msg/Header"):
+    for name in (
+        TYPE_NAME,
+        "geometry_msgs/msg/TransformStamped",
+        "geometry_msgs/msg/Transform",
+        "std_msgs/msg/Header",
+    ):
         monkeypatch.setattr(msg.get_message(name), "__init__", forbidden)
         monkeypatch.setattr(msg.get_message(name), "_from_cdr", forbidden)
     buffer = Buffer()
@@ -92,13 +105,17 @@ def test_static_transforms_reach_those_who_come_later(domain):
     first, second = Buffer(), Buffer()
     with TransformListener(first, domain.node, context=domain.receiver):
         assert first.lookup_transform("world", "wall", 0, LONG_NS).translation[0] == 1.0
-        with TransformListener(second, domain.node, context=domain.receiver):  # joins a subscription that has received it already
+        with TransformListener(
+            second, domain.node, context=domain.receiver
+        ):  # joins a subscription that has received it already
             assert second.lookup_transform("world", "wall", 0, LONG_NS).translation[0] == 1.0
 
 
 def test_buffers_of_a_context_share_the_subscription_and_nothing_else(domain):
     buffers = [Buffer() for _ in range(5)]
-    listeners = [TransformListener(buffer, domain.node, context=domain.receiver) for buffer in buffers]
+    listeners = [
+        TransformListener(buffer, domain.node, context=domain.receiver) for buffer in buffers
+    ]
     domain.wait_for_subscriptions(domain.tf)
     counts = [0, 0]
 
@@ -125,8 +142,12 @@ def test_other_topics_and_other_qualities_are_not_shared(domain):
     other = domain.talker.create_publisher("/robot1/tf", TYPE, QOS)
     with (
         TransformListener(buffers[0], domain.node, context=domain.receiver),
-        TransformListener(buffers[1], domain.node, context=domain.receiver, topic="/robot1/tf", static_topic=None),
-        TransformListener(buffers[2], domain.node, context=domain.receiver, qos=QoS(depth=1), static_topic=None),
+        TransformListener(
+            buffers[1], domain.node, context=domain.receiver, topic="/robot1/tf", static_topic=None
+        ),
+        TransformListener(
+            buffers[2], domain.node, context=domain.receiver, qos=QoS(depth=1), static_topic=None
+        ),
     ):
         domain.wait_for_subscriptions(domain.tf, 2)
         domain.wait_for_subscriptions(other, 1)
@@ -186,7 +207,9 @@ def test_malformed_bytes_are_reported_once_and_the_rest_goes_on(domain, capfd):
             publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
         publisher.publish(tf_bytes("world", "robot"))
         buffer.lookup_transform("world", "robot", 0, LONG_NS)
-        assert domain.receiver.graph.wait_for(lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS)
+        assert domain.receiver.graph.wait_for(
+            lambda: inspection.malformed(buffer).sender == "/talker", LONG_NS
+        )
     assert capfd.readouterr().err.count(f"a message on {topic} was lost") == 1
     assert inspection.malformed(buffer).messages == 3
     assert inspection.malformed(buffer).last.startswith("4294967295 transforms are announced")
@@ -206,7 +229,10 @@ def test_the_buffer_knows_who_publishes(domain):
             buffer.lookup_transform("world", frame, 0, LONG_NS)
 
         def senders():
-            return {link.child_frame: [sender.name for sender in link.senders] for link in inspection.links(buffer)}
+            return {
+                link.child_frame: [sender.name for sender in link.senders]
+                for link in inspection.links(buffer)
+            }
 
         known = {"wall": ["/talker"], "robot": ["/talker"], "cart": ["/robot1/other"]}
         assert domain.receiver.graph.wait_for(lambda: senders() == known, LONG_NS), senders()
@@ -224,14 +250,18 @@ def test_two_publishers_of_one_frame_are_told_apart(domain):
         assert domain.receiver.graph.wait_for(
             lambda: (
                 [conflict.text for conflict in inspection.conflicts(buffer)]
-                == ["'robot' is sent by '/other' and '/talker'; each frame should have one publisher."]
+                == [
+                    "'robot' is sent by '/other' and '/talker'; each frame should have one publisher."
+                ]
             ),
             LONG_NS,
         )
 
 
 def test_listeners_may_be_closed_after_their_context(domain):
-    first, second = (TransformListener(Buffer(), domain.node, context=domain.receiver) for _ in range(2))
+    first, second = (
+        TransformListener(Buffer(), domain.node, context=domain.receiver) for _ in range(2)
+    )
     domain.receiver.close()
     first.close()
     second.close()

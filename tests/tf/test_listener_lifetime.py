@@ -84,7 +84,20 @@ print("alive")
 @pytest.mark.slow
 def test_everything_may_end_while_messages_arrive():
     """Freed memory is filled with rubbish, so that its use shows."""
-    variables = os.environ | {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp", "PYTHONMALLOC": "malloc", "MALLOC_PERTURB_": "165"}
-    done = subprocess.run([sys.executable, "-c", PROGRAM], env=variables, capture_output=True, text=True, timeout=110, check=False)
+    variables = os.environ | {
+        "RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp",
+        "PYTHONMALLOC": "malloc",
+        "MALLOC_PERTURB_": "165",
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=110,
+        check=False,
+    )
     assert (done.returncode, done.stdout) == (0, "alive\n"), done.stderr[-2000:]
-    assert [line for line in done.stderr.splitlines() if "a message on /tf was lost" not in line] == []
+    assert [
+        line for line in done.stderr.splitlines() if "a message on /tf was lost" not in line
+    ] == []

@@ -27,7 +27,9 @@ def good_message() -> bytes:
 def mutate(good: bytes, chance: random.Random) -> bytes:
     data = bytearray(good)
     for _ in range(chance.randrange(1, 4)):
-        data[chance.randrange(len(data))] = chance.choice([0, 1, 0x7F, 0x80, 0xFF, chance.randrange(256)])
+        data[chance.randrange(len(data))] = chance.choice(
+            [0, 1, 0x7F, 0x80, 0xFF, chance.randrange(256)]
+        )
     del data[chance.choice([len(data), len(data), chance.randrange(len(data))]) :]
     return bytes(data)
 

@@ -60,12 +60,18 @@ def test_any_distance_fits(buffer, translation):
     root = ET.fromstring(buffer.lookup_transform("<map>", "a & b")._repr_html_())
     labels = list(root.iter(f"{SVG}text"))
     assert [label.text for label in labels] == ["<map>", "a & b"]
-    assert abs(float(labels[0].get("y")) - float(labels[1].get("y"))) > 10 or translation == (1e9, -1e9, 1e9)
+    assert abs(float(labels[0].get("y")) - float(labels[1].get("y"))) > 10 or translation == (
+        1e9,
+        -1e9,
+        1e9,
+    )
 
 
 def test_pictures_are_loaded_when_they_are_asked_for():
     program = "import sys, turtlewire; turtlewire.Buffer(); print('turtlewire.tf.notebook' in sys.modules, 'numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout.split() == ["False", "False"]
+    assert subprocess.run(
+        [sys.executable, "-c", program], check=True, capture_output=True, text=True
+    ).stdout.split() == ["False", "False"]
 
 
 def test_a_message_shows_what_a_transform_shows_in_a_notebook_alone():

@@ -23,7 +23,10 @@ class Graph(GraphView):
 
     def endpoints(self):
         self.asked += 1
-        return [EndpointInfo("publisher", "/tf", "t", "", node, gid, QoS()) for gid, node in self.known.items()]
+        return [
+            EndpointInfo("publisher", "/tf", "t", "", node, gid, QoS())
+            for gid, node in self.known.items()
+        ]
 
 
 def test_the_graph_is_asked_once_for_each_publisher_and_after_its_changes():

@@ -41,7 +41,12 @@ def test_nodes_of_a_row_stay_apart_and_in_order_and_parents_stand_over_the_middl
 
 
 def test_by_hand():
-    positions = tidy_positions(["a"], {"a": ["b", "c"], "b": [], "c": ["d"], "d": []}, {"a": 10, "b": 20, "c": 20, "d": 60}, 4)
+    positions = tidy_positions(
+        ["a"],
+        {"a": ["b", "c"], "b": [], "c": ["d"], "d": []},
+        {"a": 10, "b": 20, "c": 20, "d": 60},
+        4,
+    )
     assert positions == {"b": (10.0, 1), "c": (34.0, 1), "a": (22.0, 0), "d": (34.0, 2)}
 
 

@@ -12,7 +12,10 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def tree_of(*pairs, static=False, newest=2.0, oldest=1.0):
-    return FrameTree(Link(child, parent, "someone", static, 62.5, newest, oldest, newest - oldest) for parent, child in pairs)
+    return FrameTree(
+        Link(child, parent, "someone", static, 62.5, newest, oldest, newest - oldest)
+        for parent, child in pairs
+    )
 
 
 def texts(drawing):
@@ -37,8 +40,14 @@ def test_a_card_has_what_view_frames_shows():
 
 
 def test_a_static_transform_has_no_rate_and_a_single_one_neither():
-    assert texts(draw_tree(tree_of(("a", "b"), static=True)))[1:] == ["b", "Broadcaster: someone", "Static transform"]
-    assert "Average rate: unknown, one time only" in texts(draw_tree(tree_of(("a", "b"), newest=5.0, oldest=5.0)))
+    assert texts(draw_tree(tree_of(("a", "b"), static=True)))[1:] == [
+        "b",
+        "Broadcaster: someone",
+        "Static transform",
+    ]
+    assert "Average rate: unknown, one time only" in texts(
+        draw_tree(tree_of(("a", "b"), newest=5.0, oldest=5.0))
+    )
 
 
 def test_no_data_is_said():
@@ -56,7 +65,9 @@ def test_a_loop_is_told_and_drawn_in_red():
 
 @pytest.mark.parametrize("count", [1, 3, 40])
 def test_everything_is_on_the_page_and_no_card_covers_another(count):
-    pairs = [("base", f"sensor{i}") for i in range(count)] + [(f"sensor{i}", f"optical{i}") for i in range(0, count, 3)]
+    pairs = [("base", f"sensor{i}") for i in range(count)] + [
+        (f"sensor{i}", f"optical{i}") for i in range(0, count, 3)
+    ]
     drawing = draw_tree(tree_of(*pairs), ("Title",))
     cards = boxes(drawing)
     assert len(cards) == len(pairs) + 1
@@ -81,7 +92,11 @@ def test_svg_is_xml_whatever_the_frames_are_called():
 
 
 def test_svg_of_each_shape():
-    shapes = (Box(1, 2, 3, 4, "#111111"), Line(((0, 0), (5, 6)), "#222222", 2.0, dashed=True), Text(7, 8, "hi", 9, "#333333", bold=True))
+    shapes = (
+        Box(1, 2, 3, 4, "#111111"),
+        Line(((0, 0), (5, 6)), "#222222", 2.0, dashed=True),
+        Text(7, 8, "hi", 9, "#333333", bold=True),
+    )
     root = ET.fromstring(svg_from_drawing(Drawing(100, 50, shapes)))
     assert root.get("viewBox") == "0 0 100 50"
     rect, line, text = root

@@ -12,15 +12,23 @@ from geometry_msgs.msg import TransformStamped
 class World:
     """A transform as a message and as a SciPy rotation with a translation."""
 
-    def __init__(self, translation=(1.0, -2.0, 3.0), rotation=(0.0, 0.0, 0.0, 1.0), target="target", source="source"):
+    def __init__(
+        self,
+        translation=(1.0, -2.0, 3.0),
+        rotation=(0.0, 0.0, 0.0, 1.0),
+        target="target",
+        source="source",
+    ):
         self.rotation = Rotation.from_quat(rotation)
         self.translation = np.array(translation, dtype=float)
         self.message = TransformStamped(child_frame_id=source)
         self.message.header.frame_id = target
         self.message.header.stamp.sec, self.message.header.stamp.nanosec = 12, 345
-        self.message.transform.translation.x, self.message.transform.translation.y, self.message.transform.translation.z = map(
-            float, translation
-        )
+        (
+            self.message.transform.translation.x,
+            self.message.transform.translation.y,
+            self.message.transform.translation.z,
+        ) = map(float, translation)
         q = self.message.transform.rotation
         q.x, q.y, q.z, q.w = map(float, rotation)
 
@@ -29,7 +37,12 @@ class World:
 
     def inverse(self):
         back = self.rotation.inv()
-        return World(-back.apply(self.translation), back.as_quat(), target=self.message.child_frame_id, source=self.message.header.frame_id)
+        return World(
+            -back.apply(self.translation),
+            back.as_quat(),
+            target=self.message.child_frame_id,
+            source=self.message.header.frame_id,
+        )
 
 
 @pytest.fixture(scope="session")

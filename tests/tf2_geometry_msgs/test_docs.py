@@ -15,7 +15,9 @@ from tf2_tools import view_frames
 HOW_TO = Path(__file__).parents[2] / "docs" / "how-to"
 
 
-@pytest.mark.parametrize(("page", "examples"), [("transform_messages.md", 25), ("view_frames.md", 4)])
+@pytest.mark.parametrize(
+    ("page", "examples"), [("transform_messages.md", 25), ("view_frames.md", 4)]
+)
 def test_the_examples_do_what_the_page_says(page, examples):
     failed, tried = doctest.testfile(str(HOW_TO / page), module_relative=False)
     assert (failed, tried) == (0, examples)
@@ -32,6 +34,10 @@ def test_the_page_names_every_option_of_view_frames(capsys):
     page = (HOW_TO / "view_frames.md").read_text()
     with pytest.raises(SystemExit):
         view_frames.main(["view_frames", "--help"])
-    options = {word.strip("[],") for word in capsys.readouterr().out.split() if word.strip("[,").startswith("--")}
+    options = {
+        word.strip("[],")
+        for word in capsys.readouterr().out.split()
+        if word.strip("[,").startswith("--")
+    }
     assert len(options) == 6
     assert all(f"`{option}" in page or f", `{option}" in page for option in options - {"--help"})

@@ -70,7 +70,9 @@ def test_every_type_converts_to_itself():
 
 def test_no_type_passes_for_another(buffer):
     point = geometry.PointStamped()
-    with pytest.raises(tf2_ros.TypeException, match=r"how to convert .*PointStamped.* to .*PoseStamped"):
+    with pytest.raises(
+        tf2_ros.TypeException, match=r"how to convert .*PointStamped.* to .*PoseStamped"
+    ):
         tf2_ros.convert(point, geometry.PoseStamped)
     point.header.frame_id = "source"
     with pytest.raises(tf2_ros.TypeException):
@@ -85,10 +87,10 @@ def test_a_buffer_says_when_it_cannot(buffer):
 
 
 def test_importing_it_is_light():
-    program = (
-        "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
-    )
-    printed = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
+    program = "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
+    printed = subprocess.run(
+        [sys.executable, "-c", program], check=True, capture_output=True, text=True
+    ).stdout
     assert printed.split() == ["False", "True"]
 
 

@@ -50,10 +50,14 @@ def test_a_weight_at_the_tool_pulls_at_the_sensor(make_world):
 
 
 def test_turned_axes_by_hand(quarter_turn):
-    twist = tf2.do_transform_twist(Twist(linear=vector(1, 2, 3), angular=vector(1, 0, 0)), quarter_turn.message)
+    twist = tf2.do_transform_twist(
+        Twist(linear=vector(1, 2, 3), angular=vector(1, 0, 0)), quarter_turn.message
+    )
     # w' = (0, 1, 0); v' = (-2, 1, 3) + (10, 20, 30) x (0, 1, 0) = (-2, 1, 3) + (-30, 0, 10)
     assert six(twist.linear, twist.angular) == pytest.approx([-32, 1, 13, 0, 1, 0])
-    wrench = tf2.do_transform_wrench(Wrench(torque=vector(1, 2, 3), force=vector(1, 0, 0)), quarter_turn.message)
+    wrench = tf2.do_transform_wrench(
+        Wrench(torque=vector(1, 2, 3), force=vector(1, 0, 0)), quarter_turn.message
+    )
     assert six(wrench.torque, wrench.force) == pytest.approx([-32, 1, 13, 0, 1, 0])
 
 
@@ -62,13 +66,20 @@ vectors = st.builds(vector, values, values, values)
 
 
 @given(vectors, vectors, vectors, vectors, vectors, st.integers(0, 10_000))
-def test_power_is_the_same_in_every_frame(make_world, linear, angular, force, torque, translation, seed):
+def test_power_is_the_same_in_every_frame(
+    make_world, linear, angular, force, torque, translation, seed
+):
     world = make_world(xyz(translation), Rotation.random(random_state=seed).as_quat())
     twist, wrench = Twist(linear=linear, angular=angular), Wrench(force=force, torque=torque)
     before = copy.deepcopy((twist, wrench))
-    new_twist, new_wrench = tf2.do_transform_twist(twist, world.message), tf2.do_transform_wrench(wrench, world.message)
+    new_twist, new_wrench = (
+        tf2.do_transform_twist(twist, world.message),
+        tf2.do_transform_wrench(wrench, world.message),
+    )
     power = xyz(force) @ xyz(linear) + xyz(torque) @ xyz(angular)
-    new_power = xyz(new_wrench.force) @ xyz(new_twist.linear) + xyz(new_wrench.torque) @ xyz(new_twist.angular)
+    new_power = xyz(new_wrench.force) @ xyz(new_twist.linear) + xyz(new_wrench.torque) @ xyz(
+        new_twist.angular
+    )
     assert new_power == pytest.approx(power, rel=1e-9, abs=1e-6)
     assert (twist, wrench) == before
 
@@ -77,9 +88,13 @@ def test_power_is_the_same_in_every_frame(make_world, linear, angular, force, to
 def test_there_and_back(make_world, first, second, translation, seed):
     world = make_world(xyz(translation), Rotation.random(random_state=seed).as_quat())
     back = world.inverse().message
-    twist = tf2.do_transform_twist(tf2.do_transform_twist(Twist(linear=first, angular=second), world.message), back)
+    twist = tf2.do_transform_twist(
+        tf2.do_transform_twist(Twist(linear=first, angular=second), world.message), back
+    )
     assert six(twist.linear, twist.angular) == pytest.approx(six(first, second), abs=1e-8)
-    wrench = tf2.do_transform_wrench(tf2.do_transform_wrench(Wrench(force=first, torque=second), world.message), back)
+    wrench = tf2.do_transform_wrench(
+        tf2.do_transform_wrench(Wrench(force=first, torque=second), world.message), back
+    )
     assert six(wrench.force, wrench.torque) == pytest.approx(six(first, second), abs=1e-8)
 
 
@@ -89,7 +104,9 @@ def test_the_velocity_of_a_point_is_its_derivative(some_world):
     target_origin = some_world.inverse().translation  # in source
     moved = Rotation.from_rotvec(angular * dt).apply(target_origin) + linear * dt
     derivative = some_world.rotation.apply((moved - target_origin) / dt)
-    twist = tf2.do_transform_twist(Twist(linear=vector(*linear), angular=vector(*angular)), some_world.message)
+    twist = tf2.do_transform_twist(
+        Twist(linear=vector(*linear), angular=vector(*angular)), some_world.message
+    )
     assert xyz(twist.linear) == pytest.approx(derivative, abs=1e-4)
     assert xyz(twist.angular) == pytest.approx(some_world.rotation.apply(angular))
 
@@ -100,15 +117,23 @@ def test_a_twists_covariance_is_that_of_many_twists(some_world):
     samples = np.random.default_rng(SEED).multivariate_normal(np.zeros(6), covariance, size=20_000)
     moved = []
     for sample in samples:
-        twist = tf2.do_transform_twist(Twist(linear=vector(*sample[:3]), angular=vector(*sample[3:])), some_world.message)
+        twist = tf2.do_transform_twist(
+            Twist(linear=vector(*sample[:3]), angular=vector(*sample[3:])), some_world.message
+        )
         moved.append(six(twist.linear, twist.angular))
     sampled = np.cov(np.array(moved).T)
     expected = tf2.transform_twist_covariance(covariance.ravel(), some_world.message).reshape(6, 6)
     # Six standard errors of a sampled covariance, sqrt((c_ii c_jj + c_ij^2) / n).
-    allowed = 6 * np.sqrt((np.outer(np.diag(expected), np.diag(expected)) + expected**2) / len(samples))
+    allowed = 6 * np.sqrt(
+        (np.outer(np.diag(expected), np.diag(expected)) + expected**2) / len(samples)
+    )
     assert (np.abs(sampled - expected) <= allowed).all()
-    without_distance = tf2.transform_covariance(covariance.ravel(), some_world.message).reshape(6, 6)
-    assert (np.abs(sampled - without_distance) > allowed).any()  # the tolerance would notice that the distance was forgotten
+    without_distance = tf2.transform_covariance(covariance.ravel(), some_world.message).reshape(
+        6, 6
+    )
+    assert (
+        np.abs(sampled - without_distance) > allowed
+    ).any()  # the tolerance would notice that the distance was forgotten
 
 
 @pytest.mark.parametrize(
@@ -116,7 +141,10 @@ def test_a_twists_covariance_is_that_of_many_twists(some_world):
     [
         (tf2.do_transform_twist_stamped, TwistStamped()),
         (tf2.do_transform_twist_with_covariance_stamped, TwistWithCovarianceStamped()),
-        (tf2.do_transform_velocity_stamped, VelocityStamped(body_frame_id="body", reference_frame_id="world")),
+        (
+            tf2.do_transform_velocity_stamped,
+            VelocityStamped(body_frame_id="body", reference_frame_id="world"),
+        ),
         (tf2.do_transform_wrench_stamped, WrenchStamped()),
     ],
 )
@@ -136,5 +164,7 @@ def test_a_velocity_moves_like_a_twist_and_stays_whose_it_is(quarter_turn):
     moved = tf2.do_transform_velocity_stamped(velocity, quarter_turn.message)
     assert (moved.body_frame_id, moved.reference_frame_id) == ("body", "world")
     assert moved.velocity == tf2.do_transform_twist(twist, quarter_turn.message)
-    with_covariance = tf2.do_transform_twist_with_covariance(TwistWithCovariance(twist=twist), quarter_turn.message)
+    with_covariance = tf2.do_transform_twist_with_covariance(
+        TwistWithCovariance(twist=twist), quarter_turn.message
+    )
     assert with_covariance.twist == moved.velocity

@@ -32,26 +32,38 @@ def xyz(message):
 
 def test_a_point_by_hand(quarter_turn):
     point = PointStamped(point=Point(x=1.0, y=2.0, z=3.0))
-    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx((8.0, 21.0, 33.0))
+    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx(
+        (8.0, 21.0, 33.0)
+    )
 
 
 def test_a_vector_is_turned_and_not_moved(quarter_turn):
     vector = Vector3Stamped(vector=Vector3(x=1.0, y=2.0, z=3.0))
-    assert xyz(tf2.do_transform_vector3(vector, quarter_turn.message).vector) == pytest.approx((-2.0, 1.0, 3.0))
+    assert xyz(tf2.do_transform_vector3(vector, quarter_turn.message).vector) == pytest.approx(
+        (-2.0, 1.0, 3.0)
+    )
 
 
 def test_points_and_vectors_as_scipy_has_them(some_world):
     values = (0.3, -4.0, 5.5)
     message = dict(zip("xyz", values, strict=True))
     moved, turned = some_world.point(values), some_world.rotation.apply(values)
-    assert xyz(tf2.do_transform_point(Point(**message), some_world.message)) == pytest.approx(tuple(moved), abs=1e-12)
-    assert xyz(tf2.do_transform_point32(Point32(**message), some_world.message)) == pytest.approx(tuple(moved), abs=1e-12)
-    assert xyz(tf2.do_transform_vector3(Vector3(**message), some_world.message)) == pytest.approx(tuple(turned), abs=1e-12)
+    assert xyz(tf2.do_transform_point(Point(**message), some_world.message)) == pytest.approx(
+        tuple(moved), abs=1e-12
+    )
+    assert xyz(tf2.do_transform_point32(Point32(**message), some_world.message)) == pytest.approx(
+        tuple(moved), abs=1e-12
+    )
+    assert xyz(tf2.do_transform_vector3(Vector3(**message), some_world.message)) == pytest.approx(
+        tuple(turned), abs=1e-12
+    )
 
 
 def test_a_quaternion_as_scipy_has_it(some_world):
     other = Rotation.random(random_state=99).as_quat()
-    message = QuaternionStamped(quaternion=Quaternion(**dict(zip("xyzw", map(float, other), strict=True))))
+    message = QuaternionStamped(
+        quaternion=Quaternion(**dict(zip("xyzw", map(float, other), strict=True)))
+    )
     turned = tf2.do_transform_quaternion_stamped(message, some_world.message).quaternion
     expected = (some_world.rotation * Rotation.from_quat(other)).as_quat()
     expected *= np.sign(expected[3])
@@ -76,7 +88,9 @@ def test_unstamped_types_stay_what_they_are_and_take_a_bare_transform(quarter_tu
 def test_polygons_go_corner_by_corner(quarter_turn):
     polygon = Polygon(points=[Point32(x=1.0, y=2.0, z=3.0), Point32()])
     expected = Polygon(points=[Point32(x=8.0, y=21.0, z=33.0), Point32(x=10.0, y=20.0, z=30.0)])
-    stamped = tf2.do_transform_polygon_stamped(PolygonStamped(polygon=polygon), quarter_turn.message)
+    stamped = tf2.do_transform_polygon_stamped(
+        PolygonStamped(polygon=polygon), quarter_turn.message
+    )
     for corner, hand_made in zip(stamped.polygon.points, expected.points, strict=True):
         assert xyz(corner) == pytest.approx(xyz(hand_made))
     instance = PolygonInstanceStamped(polygon=PolygonInstance(polygon=polygon, id=7))
@@ -106,7 +120,9 @@ def test_the_header_is_the_transforms_but_a_copy_of_it(quarter_turn, function, m
 
 
 def test_stamped_data_with_a_bare_transform_says_what_is_missing():
-    with pytest.raises(TypeError, match=r"needs a geometry_msgs\.msg\.TransformStamped.*got Transform"):
+    with pytest.raises(
+        TypeError, match=r"needs a geometry_msgs\.msg\.TransformStamped.*got Transform"
+    ):
         tf2.do_transform_point(PointStamped(), Transform())
 
 
@@ -114,9 +130,13 @@ def test_rotations_of_any_length_count_as_their_direction_and_none_as_no_rotatio
     point = PointStamped(point=Point(x=1.0, y=2.0, z=3.0))
     q = quarter_turn.message.transform.rotation
     q.z, q.w = 30.0, 30.0
-    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx((8.0, 21.0, 33.0))
+    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx(
+        (8.0, 21.0, 33.0)
+    )
     q.z, q.w = 0.0, 0.0
-    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx((11.0, 22.0, 33.0))
+    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx(
+        (11.0, 22.0, 33.0)
+    )
 
 
 def test_integers_in_fields_are_numbers_too():

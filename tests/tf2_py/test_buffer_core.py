@@ -45,24 +45,42 @@ def buffer(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> t
 
 
 def test_exceptions_are_those_of_the_engine() -> None:
-    for name in ("Connectivity", "Extrapolation", "InvalidArgument", "Lookup", "Timeout", "Transform"):
+    for name in (
+        "Connectivity",
+        "Extrapolation",
+        "InvalidArgument",
+        "Lookup",
+        "Timeout",
+        "Transform",
+    ):
         assert getattr(tf2_py, name + "Exception") is getattr(errors, name + "Exception")
 
 
 def test_lookup_returns_a_message(buffer: tf2_py.BufferCore) -> None:
-    found = buffer.lookup_transform_core(target_frame="map", source_frame="camera", time=Time(nanoseconds=SECOND + SECOND // 2))
+    found = buffer.lookup_transform_core(
+        target_frame="map", source_frame="camera", time=Time(nanoseconds=SECOND + SECOND // 2)
+    )
     expected = stamped("map", "camera", SECOND + SECOND // 2, x=2.0)
     assert isinstance(found, TransformStamped)
     assert found == expected
     assert repr(found) == repr(expected)
     assert type(found.header.stamp) is TimeMsg
     found.transform.translation.y = 7.0  # the message is the caller's own
-    assert buffer.lookup_transform_core("map", "camera", Time(seconds=1.5)).transform.translation.y == 0.0
+    assert (
+        buffer.lookup_transform_core("map", "camera", Time(seconds=1.5)).transform.translation.y
+        == 0.0
+    )
 
 
 def test_full_lookup(buffer: tf2_py.BufferCore) -> None:
-    found = buffer.lookup_transform_full_core("base", Time(seconds=2), "base", Time(seconds=1), "map")
-    assert (found.header.frame_id, found.child_frame_id, found.transform.translation.x) == ("base", "base", -1.0)
+    found = buffer.lookup_transform_full_core(
+        "base", Time(seconds=2), "base", Time(seconds=1), "map"
+    )
+    assert (found.header.frame_id, found.child_frame_id, found.transform.translation.x) == (
+        "base",
+        "base",
+        -1.0,
+    )
     assert found.header.stamp.sec == 2
 
 
@@ -72,11 +90,19 @@ def test_can_transform(buffer: tf2_py.BufferCore) -> None:
         0,
         'Invalid frame ID "nobody" passed to canTransform argument source_frame - frame does not exist',
     )
-    assert buffer.can_transform_full_core("base", Time(seconds=2), "base", Time(seconds=1), "map") == (1, "")
+    assert buffer.can_transform_full_core(
+        "base", Time(seconds=2), "base", Time(seconds=1), "map"
+    ) == (1, "")
 
 
 @pytest.mark.parametrize(
-    "time", [Time(seconds=2), TimeMsg(sec=2), SimpleNamespace(sec=2, nanosec=0), SimpleNamespace(nanoseconds=2 * SECOND)]
+    "time",
+    [
+        Time(seconds=2),
+        TimeMsg(sec=2),
+        SimpleNamespace(sec=2, nanosec=0),
+        SimpleNamespace(nanoseconds=2 * SECOND),
+    ],
 )
 def test_times_are_duck_typed(buffer: tf2_py.BufferCore, time: Any) -> None:
     assert buffer.lookup_transform_core("map", "base", time).transform.translation.x == 2.0
@@ -94,22 +120,35 @@ def test_numbers_are_no_times(buffer: tf2_py.BufferCore, time: Any) -> None:
 def test_cache_time() -> None:
     assert tf2_py.BufferCore().engine.cache_time_ns == 10 * SECOND
     assert tf2_py.BufferCore(DurationMsg(sec=3)).engine.cache_time_ns == 3 * SECOND
-    assert tf2_py.BufferCore(cache_time=Duration(seconds=3)).engine.cache_time_ns == 3 * SECOND  # ROS 2 ignores the keyword
+    assert (
+        tf2_py.BufferCore(cache_time=Duration(seconds=3)).engine.cache_time_ns == 3 * SECOND
+    )  # ROS 2 ignores the keyword
     with pytest.raises(TypeError, match="duration must have"):
         tf2_py.BufferCore(3)  # type: ignore[arg-type]
 
 
 def test_latest_common_time(buffer: tf2_py.BufferCore) -> None:
     assert buffer.get_latest_common_time("map", "camera") == Time(seconds=2)
-    with pytest.raises(tf2_py.LookupException, match=r'^"nobody" passed to get_latest_common_time does not exist\. '):
+    with pytest.raises(
+        tf2_py.LookupException,
+        match=r'^"nobody" passed to get_latest_common_time does not exist\. ',
+    ):
         buffer.get_latest_common_time("map", "nobody")
 
 
 def test_velocity(buffer: tf2_py.BufferCore) -> None:
-    linear, angular = buffer.lookupVelocityCore("camera", "map", Time(seconds=1.5), Duration(seconds=0.5))
+    linear, angular = buffer.lookupVelocityCore(
+        "camera", "map", Time(seconds=1.5), Duration(seconds=0.5)
+    )
     assert (linear, angular) == ((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     full = buffer.lookupVelocityFullCore(
-        "camera", "map", "base", (1.0, 0.0, 0.0), "base", Time(seconds=1.5), DurationMsg(sec=0, nanosec=1000)
+        "camera",
+        "map",
+        "base",
+        (1.0, 0.0, 0.0),
+        "base",
+        Time(seconds=1.5),
+        DurationMsg(sec=0, nanosec=1000),
     )
     assert full[0] == pytest.approx((1.0, 0.0, 0.0))
     with pytest.raises(tf2_py.ExtrapolationException):
@@ -126,9 +165,16 @@ def test_chain(buffer: tf2_py.BufferCore) -> None:
 
 
 def test_descriptions(buffer: tf2_py.BufferCore) -> None:
-    assert buffer.all_frames_as_string() == "Frame base exists with parent map.\nFrame camera exists with parent base.\n"
-    assert buffer.all_frames_as_yaml(1, "anything").startswith("base: \n  parent: 'map'\n  broadcaster: 'me'\n")
-    assert buffer._allFramesAsDot().startswith('digraph G {\n"map" -> "base"[label="Broadcaster: me\\nAverage rate: 2.000 Hz\\n')
+    assert (
+        buffer.all_frames_as_string()
+        == "Frame base exists with parent map.\nFrame camera exists with parent base.\n"
+    )
+    assert buffer.all_frames_as_yaml(1, "anything").startswith(
+        "base: \n  parent: 'map'\n  broadcaster: 'me'\n"
+    )
+    assert buffer._allFramesAsDot().startswith(
+        'digraph G {\n"map" -> "base"[label="Broadcaster: me\\nAverage rate: 2.000 Hz\\n'
+    )
     assert "( 3.000 sec old)" in buffer._allFramesAsDot(Time(seconds=5))
     assert buffer._frameExists("camera")
     assert buffer._getFrameStrings() == ["base", "map", "camera"]
@@ -138,7 +184,10 @@ def test_descriptions(buffer: tf2_py.BufferCore) -> None:
 
 def test_refusal_is_logged(buffer: tf2_py.BufferCore, capfd: pytest.CaptureFixture[str]) -> None:
     assert buffer.set_transform(stamped("map", "base", SECOND, x=math.nan), "me") is None  # type: ignore[func-returns-value]
-    assert 'TF_NAN_INPUT: Ignoring transform for child_frame_id "base" from authority "me"' in capfd.readouterr().err
+    assert (
+        'TF_NAN_INPUT: Ignoring transform for child_frame_id "base" from authority "me"'
+        in capfd.readouterr().err
+    )
 
 
 def test_classes_without_slots_are_refused() -> None:

@@ -15,7 +15,23 @@ ANSWERS, TEXTS = 24969, 12589
 
 @pytest.mark.parametrize("core", ["native", "python"])
 def test_all_answers_equal(core: str) -> None:
-    command = [sys.executable, str(GOLDEN / "check.py"), str(GOLDEN / "dev.jsonl.gz"), "--texts", "--allow-subclass"]
-    run = subprocess.run(command, env={**os.environ, "TURTLEWIRE_CORE": core}, capture_output=True, text=True, timeout=100, check=False)
+    command = [
+        sys.executable,
+        str(GOLDEN / "check.py"),
+        str(GOLDEN / "dev.jsonl.gz"),
+        "--texts",
+        "--allow-subclass",
+    ]
+    run = subprocess.run(
+        command,
+        env={**os.environ, "TURTLEWIRE_CORE": core},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
     assert run.returncode == 0, run.stdout + run.stderr
-    assert run.stdout.splitlines()[-1] == f"{ANSWERS} of {ANSWERS} answers equal (class/numbers), {TEXTS} texts equal"
+    assert (
+        run.stdout.splitlines()[-1]
+        == f"{ANSWERS} of {ANSWERS} answers equal (class/numbers), {TEXTS} texts equal"
+    )

@@ -47,7 +47,9 @@ def test_the_topics_and_their_qualities(node):
     assert dynamic.qos_profile == QoSProfile(depth=100)
     assert static.qos_profile == QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     assert TransformBroadcaster(node, qos=7).pub_tf.qos_profile == QoSProfile(depth=7)
-    assert StaticTransformBroadcaster(node, QoSProfile(depth=2)).pub_tf.qos_profile == QoSProfile(depth=2)
+    assert StaticTransformBroadcaster(node, QoSProfile(depth=2)).pub_tf.qos_profile == QoSProfile(
+        depth=2
+    )
 
 
 def test_late_joiners_get_everything_that_was_sent(node, heard, stamped):
@@ -79,7 +81,10 @@ def test_the_caller_may_reuse_the_message(node, heard, stamped):
 
 
 def test_the_last_sender_of_a_process_wins_for_late_joiners_too(node, make_node, heard, stamped):
-    first, second = StaticTransformBroadcaster(node), StaticTransformBroadcaster(make_node("second"))
+    first, second = (
+        StaticTransformBroadcaster(node),
+        StaticTransformBroadcaster(make_node("second")),
+    )
     first.sendTransform([stamped(child="a", x=1.0), stamped(child="only", x=5.0)])
     second.sendTransform(stamped(child="a", x=2.0))
     late = heard()
@@ -116,7 +121,9 @@ def test_none_is_lost_over_a_thousand_joins_with_updates_and_restarts(make_node,
                 node = make_node(name)
                 broadcasters[name] = (node, StaticTransformBroadcaster(node))
             children = [f"frame{chance.randrange(12)}" for _ in range(chance.randrange(1, 4))]
-            broadcasters[name][1].sendTransform([stamped(child=child, x=float(step)) for child in children])
+            broadcasters[name][1].sendTransform(
+                [stamped(child=child, x=float(step)) for child in children]
+            )
             expected |= dict.fromkeys(children, float(step))
             owner |= dict.fromkeys(children, name)
         else:
@@ -158,10 +165,16 @@ def test_nor_is_any_lost_on_the_wire(enough_joins, monkeypatch, stamped):
                 expected = {child: x for child, x in expected.items() if owner[child] != name}
             elif action < 0.3:
                 if name not in broadcasters:
-                    node = opened.enter_context(life := contextlib.ExitStack()).enter_context(open_node(name))
+                    node = opened.enter_context(life := contextlib.ExitStack()).enter_context(
+                        open_node(name)
+                    )
                     broadcasters[name] = (life, StaticTransformBroadcaster(node))
-                children = [f"{name}_frame{chance.randrange(6)}" for _ in range(chance.randrange(1, 4))]
-                broadcasters[name][1].sendTransform([stamped(child=child, x=float(step)) for child in children])
+                children = [
+                    f"{name}_frame{chance.randrange(6)}" for _ in range(chance.randrange(1, 4))
+                ]
+                broadcasters[name][1].sendTransform(
+                    [stamped(child=child, x=float(step)) for child in children]
+                )
                 expected |= dict.fromkeys(children, float(step))
                 owner |= dict.fromkeys(children, name)
             else:
@@ -170,7 +183,9 @@ def test_nor_is_any_lost_on_the_wire(enough_joins, monkeypatch, stamped):
                     buffer = Buffer()
                     TransformListener(buffer, node)
                     assert {child: x_of(buffer, child) for child in expected} == expected
-                    assert set(buffer._getFrameStrings()) == ({"world", *expected} if expected else set())
+                    assert set(buffer._getFrameStrings()) == (
+                        {"world", *expected} if expected else set()
+                    )
 
 
 def test_a_destroyed_broadcaster_says_so(node, stamped):

@@ -50,7 +50,12 @@ def test_a_lookup_is_a_real_message(buffer, stamped):
     assert buffer.lookup_transform("world", "robot", at(3)) == sent
     assert type(buffer.lookup_transform("world", "robot", Time())) is TransformStamped
     assert buffer.lookup_transform("world", "robot", sent.header.stamp) == sent
-    assert buffer.lookup_transform(target_frame="world", source_frame="robot", time=Time(), timeout=Duration()) == sent
+    assert (
+        buffer.lookup_transform(
+            target_frame="world", source_frame="robot", time=Time(), timeout=Duration()
+        )
+        == sent
+    )
 
 
 def test_can_transform_is_a_number_or_a_tuple(buffer, stamped):
@@ -59,15 +64,26 @@ def test_can_transform_is_a_number_or_a_tuple(buffer, stamped):
     assert buffer.can_transform("world", "nothing", Time()) == 0
     assert buffer.can_transform("world", "wall", Time(), return_debug_tuple=True) == (1, "")
     known, reason = buffer.can_transform("world", "nothing", Time(), Duration(), True)
-    assert (known, reason) == (0, 'Invalid frame ID "nothing" passed to canTransform argument source_frame - frame does not exist')
+    assert (known, reason) == (
+        0,
+        'Invalid frame ID "nothing" passed to canTransform argument source_frame - frame does not exist',
+    )
     assert buffer.can_transform_full("world", at(1), "wall", at(2), "world") == 1
-    assert buffer.can_transform_full("world", at(1), "nothing", at(2), "world", return_debug_tuple=True)[0] == 0
+    assert (
+        buffer.can_transform_full(
+            "world", at(1), "nothing", at(2), "world", return_debug_tuple=True
+        )[0]
+        == 0
+    )
 
 
 def test_the_errors_have_tf2_s_texts(buffer, stamped):
     with pytest.raises(tf2_ros.LookupException) as unknown:
         buffer.lookup_transform("turtle2", "turtle1", Time())
-    assert str(unknown.value) == '"turtle2" passed to lookupTransform argument target_frame does not exist. '
+    assert (
+        str(unknown.value)
+        == '"turtle2" passed to lookupTransform argument target_frame does not exist. '
+    )
     buffer.set_transform(stamped("world", "robot", stamp_s=3), "me")
     buffer.set_transform(stamped("world", "robot", stamp_s=4), "me")
     with pytest.raises(tf2_ros.ExtrapolationException, match="into the future"):
@@ -94,7 +110,12 @@ def test_full_lookups_travel_in_time(buffer, stamped):
     assert then.transform.translation.x == -2.0
     assert (
         buffer.lookup_transform_full(
-            target_frame="robot", target_time=at(3), source_frame="robot", source_time=at(1), fixed_frame="world", timeout=LONG
+            target_frame="robot",
+            target_time=at(3),
+            source_frame="robot",
+            source_time=at(1),
+            fixed_frame="world",
+            timeout=LONG,
         )
         == then
     )
@@ -171,7 +192,9 @@ def test_awaiting_is_agnostic_of_loops(buffer, stamped):
 
 def test_awaiting_in_asyncio(buffer, stamped):
     async def program():
-        asyncio.get_running_loop().call_later(0.05, lambda: buffer.set_transform(stamped(x=7.0), "me"))
+        asyncio.get_running_loop().call_later(
+            0.05, lambda: buffer.set_transform(stamped(x=7.0), "me")
+        )
         first = await asyncio.wait_for(buffer.lookup_transform_async("world", "robot", Time()), 10)
         second = await buffer.lookup_transform_full_async("world", at(1), "robot", at(1), "world")
         return first, second
@@ -194,7 +217,9 @@ def test_awaiting_in_a_callback_leaves_the_executor_free(context, make_node, sta
             results.append(await buffer.lookup_transform_async("world", "robot", Time()))
 
     node.create_timer(0.001, wait, callback_group=ReentrantCallbackGroup())
-    node.create_timer(0.05, lambda: broadcaster.sendTransform(stamped(x=8.0)))  # only runs if the wait above does not block
+    node.create_timer(
+        0.05, lambda: broadcaster.sendTransform(stamped(x=8.0))
+    )  # only runs if the wait above does not block
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while not results:
@@ -277,7 +302,9 @@ TransformListener(buffer, node)
 MessageFilter(None, buffer, "world", 10, node).registerCallback(lambda message: buffer)
 future = buffer.wait_for_transform_async("a", "b", rclpy.time.Time())
 """
-    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
 
 
@@ -304,9 +331,15 @@ def test_futures_may_have_a_timeout(buffer, stamped):
 
 def test_an_awaited_lookup_may_have_a_timeout(buffer):
     with pytest.raises(tf2_ros.LookupException):
-        asyncio.run(buffer.lookup_transform_async("world", "robot", Time(), timeout=Duration(seconds=0.05)))
+        asyncio.run(
+            buffer.lookup_transform_async("world", "robot", Time(), timeout=Duration(seconds=0.05))
+        )
     with pytest.raises(tf2_ros.LookupException):
-        asyncio.run(buffer.lookup_transform_full_async("world", at(1), "robot", at(1), "world", timeout=Duration(seconds=0.05)))
+        asyncio.run(
+            buffer.lookup_transform_full_async(
+                "world", at(1), "robot", at(1), "world", timeout=Duration(seconds=0.05)
+            )
+        )
 
 
 def test_a_future_fails_when_its_time_has_fallen_out_of_the_cache(buffer, stamped):
@@ -320,7 +353,9 @@ def test_a_future_fails_when_its_time_has_fallen_out_of_the_cache(buffer, stampe
             each.result()
 
 
-def test_a_future_fails_when_a_link_has_forgotten_its_time_while_another_stands_still(buffer, stamped):
+def test_a_future_fails_when_a_link_has_forgotten_its_time_while_another_stands_still(
+    buffer, stamped
+):
     future = buffer.wait_for_transform_async("world", "hand", at(40))
     latest = buffer.wait_for_transform_async("world", "hand", Time())
     buffer.set_transform(stamped(stamp_s=30), "me")
@@ -345,7 +380,9 @@ def test_a_cancelled_task_waits_no_longer(buffer, stamped):
     async def give_up():
         with pytest.raises(asyncio.TimeoutError):
             await asyncio.wait_for(buffer.lookup_transform_async("world", "robot", Time()), 0.01)
-        task = asyncio.create_task(buffer.lookup_transform_full_async("world", Time(), "robot", Time(), "world"))
+        task = asyncio.create_task(
+            buffer.lookup_transform_full_async("world", Time(), "robot", Time(), "world")
+        )
         await asyncio.sleep(0)
         assert len(buffer._futures._waiting) == 1
         task.cancel()
@@ -392,7 +429,9 @@ def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
 
     def wait(number):
         try:
-            found = buffer.lookup_transform("world", f"robot{number}", Time(), Duration(seconds=timeout))
+            found = buffer.lookup_transform(
+                "world", f"robot{number}", Time(), Duration(seconds=timeout)
+            )
             ended.append(found.child_frame_id)
         except tf2_ros.TransformException as error:
             ended.append(type(error))
@@ -403,7 +442,10 @@ def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
         with suppress(Exception):  # the context may be shut down already
             broadcaster.sendTransform(transform)
 
-    timers = [node.create_timer(0.001, partial(wait, number), callback_group=ReentrantCallbackGroup()) for number in range(len(delays))]
+    timers = [
+        node.create_timer(0.001, partial(wait, number), callback_group=ReentrantCallbackGroup())
+        for number in range(len(delays))
+    ]
     feeders = [threading.Timer(delay, send, [number]) for number, delay in enumerate(delays)]
     for feeder in feeders:
         feeder.start()
@@ -417,4 +459,6 @@ def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
         feeder.join()
     node.destroy_node()
     context.try_shutdown()
-    assert all(outcome == tf2_ros.LookupException or str(outcome).startswith("robot") for outcome in ended)
+    assert all(
+        outcome == tf2_ros.LookupException or str(outcome).startswith("robot") for outcome in ended
+    )

@@ -47,7 +47,9 @@ def _registered(monkeypatch):
     for table in ("_to_msg", "_from_msg", "_convert"):
         monkeypatch.setattr(ConvertRegistration, table, {})
     monkeypatch.setattr(TransformRegistration, "_transforms", {})
-    TransformRegistration().add(Note, lambda note, transform: Note(note.x + transform.transform.translation.x))
+    TransformRegistration().add(
+        Note, lambda note, transform: Note(note.x + transform.transform.translation.x)
+    )
 
 
 @pytest.mark.usefixtures("_registered")
@@ -63,15 +65,21 @@ def test_transform_converts_when_asked(buffer):
     ConvertRegistration().add_convert((Note, Memo), lambda note: Memo(note.x))
     note = Stamped(Note(10.0), Time(seconds=2).to_msg(), "robot")
     assert type(buffer.transform(note, "world", new_type=Memo)) is Memo
-    assert type(buffer.transform_full(note, "robot", Time(seconds=1), "world", new_type=Memo)) is Memo
+    assert (
+        type(buffer.transform_full(note, "robot", Time(seconds=1), "world", new_type=Memo)) is Memo
+    )
 
 
 @pytest.mark.usefixtures("_registered")
 def test_unknown_types_are_named(buffer, capsys):
     with pytest.raises(TypeException) as error:
         buffer.transform(PointStamped(), "world")
-    assert error.value.errstr == str(error.value) == f"Type {PointStamped} is not loaded or supported"
-    assert "import tf2_geometry_msgs" in "".join(getattr(error.value, "__notes__", ["import tf2_geometry_msgs"]))
+    assert (
+        error.value.errstr == str(error.value) == f"Type {PointStamped} is not loaded or supported"
+    )
+    assert "import tf2_geometry_msgs" in "".join(
+        getattr(error.value, "__notes__", ["import tf2_geometry_msgs"])
+    )
     TransformRegistration().print_me()
     assert "Note" in capsys.readouterr().out
 
@@ -100,7 +108,9 @@ for kind, text in said.items():
     assert text == f"`import {{module}}` registers this type.", text
 print(len(said), "of", len(kinds))
 """
-    found = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=False)
+    found = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=False
+    )
     assert found.returncode == 0, found.stderr
     assert not found.stdout.startswith("0 ")
     assert "of 0" not in found.stdout
@@ -111,7 +121,9 @@ def test_a_type_without_a_frame_names_the_one_to_take():
     with pytest.raises(TypeException) as error:
         TransformRegistration().get(Pose)
     assert str(error.value) == f"Type {Pose} is not loaded or supported"
-    assert error.value.__notes__ == ["A Pose does not tell in which frame it is: transform a PoseStamped."]
+    assert error.value.__notes__ == [
+        "A Pose does not tell in which frame it is: transform a PoseStamped."
+    ]
 
 
 @pytest.mark.usefixtures("_registered")

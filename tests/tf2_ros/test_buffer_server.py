@@ -69,10 +69,20 @@ def client(make_node):
 def test_a_remote_lookup(buffer, client, stamped):
     for second in (1, 2):
         buffer.set_transform(stamped(x=float(second), stamp_s=second), "me")
-    assert client.lookup_transform("world", "robot", Time(seconds=1), LONG) == buffer.lookup_transform("world", "robot", Time(seconds=1))
-    assert client.lookup_transform_full("robot", Time(seconds=2), "robot", Time(seconds=1), "world", LONG).transform.translation.x == -1.0
+    assert client.lookup_transform(
+        "world", "robot", Time(seconds=1), LONG
+    ) == buffer.lookup_transform("world", "robot", Time(seconds=1))
+    assert (
+        client.lookup_transform_full(
+            "robot", Time(seconds=2), "robot", Time(seconds=1), "world", LONG
+        ).transform.translation.x
+        == -1.0
+    )
     assert client.can_transform("world", "robot", Time(), LONG) is True
-    assert client.can_transform_full("robot", Time(seconds=2), "robot", Time(seconds=1), "world", LONG) is True
+    assert (
+        client.can_transform_full("robot", Time(seconds=2), "robot", Time(seconds=1), "world", LONG)
+        is True
+    )
 
 
 def test_a_remote_lookup_waits_for_data(buffer, client, stamped):
@@ -109,7 +119,9 @@ def test_many_wait_at_once(buffer, make_node, stamped):
     results = {}
 
     def ask(number):
-        results[number] = clients[number].lookup_transform("world", f"robot{number}", Time(), LONG).child_frame_id
+        results[number] = (
+            clients[number].lookup_transform("world", f"robot{number}", Time(), LONG).child_frame_id
+        )
 
     threads = [threading.Thread(target=ask, args=[number]) for number in range(5)]
     for thread in threads:
@@ -128,7 +140,9 @@ def test_a_callback_of_the_user_s_node_may_ask(context, buffer, make_node, stamp
     client = BufferClient(node, "lookup")
     buffer.set_transform(stamped(x=4.0), "me")
     results = []
-    node.create_timer(0.001, lambda: results.append(client.lookup_transform("world", "robot", Time(), LONG)))
+    node.create_timer(
+        0.001, lambda: results.append(client.lookup_transform("world", "robot", Time(), LONG))
+    )
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while not results:
@@ -149,7 +163,9 @@ def test_a_goal_that_waits_can_be_cancelled(context, buffer, make_node):
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     assert action.wait_for_server(10)
-    goal = LookupTransform.Goal(target_frame="world", source_frame="robot", timeout=Duration(seconds=60).to_msg())
+    goal = LookupTransform.Goal(
+        target_frame="world", source_frame="robot", timeout=Duration(seconds=60).to_msg()
+    )
     sent = action.send_goal_async(goal)
     executor.spin_until_future_complete(sent, 10)
     result = sent.result().get_result_async()
@@ -185,7 +201,9 @@ def test_a_server_that_aborts_without_a_reason_means_a_timeout(client, strange_s
 
 
 def test_a_server_that_rejects(client, strange_server):
-    strange_server(lambda _goal: LookupTransform.Result(), goal_callback=lambda _request: GoalResponse.REJECT)
+    strange_server(
+        lambda _goal: LookupTransform.Result(), goal_callback=lambda _request: GoalResponse.REJECT
+    )
     with pytest.raises(TimeoutException, match="did not come back with accepted status"):
         client.lookup_transform("world", "robot", Time(), LONG)
 
@@ -222,7 +240,9 @@ def test_what_the_client_does_not_wait_for_any_more_is_cancelled(make_node, stra
     strange_server(execute, cancel_callback=cancel)
     over = threading.Event()
     cancelled.add_done_callback(lambda _future: over.set())
-    client = BufferClient(make_node("impatient"), "lookup", timeout_padding=3.0)  # time for a busy machine to accept the goal
+    client = BufferClient(
+        make_node("impatient"), "lookup", timeout_padding=3.0
+    )  # time for a busy machine to accept the goal
     client.action_client.wait_for_server(10)
     with pytest.raises(TimeoutException, match="did not come back in the specified time"):
         client.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))

@@ -20,7 +20,8 @@ from tf2_ros import BufferClient, TimeoutException, TransformException
 ROS2 = Path(sys.executable).parent / "ros2"
 SIMULATED = ("--ros-args", "-p", "use_sim_time:=true")
 
-#: Plays from a time on, 50 times as fast as real time: the clock, a robot at x, a point in its frame; each tick its transform comes last.
+#: Plays from a time on, 50 times as fast as real time: the clock, a robot at x, a point in its
+#: frame; each tick its transform comes last.
 WORLD = """
 import sys, time
 import rclpy
@@ -120,7 +121,9 @@ def world(run):
 
 
 def place(client, frame="robot"):
-    return client.lookup_transform("world", frame, Time(), Duration(seconds=2)).transform.translation.x
+    return client.lookup_transform(
+        "world", frame, Time(), Duration(seconds=2)
+    ).transform.translation.x
 
 
 def wait_until_there(client, x):
@@ -196,7 +199,14 @@ def test_echo_after_the_world_began_anew(run, world):
 
 def test_monitor_in_simulated_time(run, world):
     world(1000, 1.0)
-    monitor = run(ROS2, "run", "tf2_ros", "tf2_monitor", "--period", "1", "--limit", "2", *SIMULATED)
-    delays = [float(match[1]) for match in monitor.wait_for(r"Frame: robot, published by /world, Average Delay: (\S+),", count=2)]
+    monitor = run(
+        ROS2, "run", "tf2_ros", "tf2_monitor", "--period", "1", "--limit", "2", *SIMULATED
+    )
+    delays = [
+        float(match[1])
+        for match in monitor.wait_for(
+            r"Frame: robot, published by /world, Average Delay: (\S+),", count=2
+        )
+    ]
     assert monitor.wait() == 0
     assert abs(delays[1]) < 100.0  # and not the thousand seconds to the start of the clock

@@ -31,12 +31,16 @@ def _real_middleware(monkeypatch, _local_middleware):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_the_page_does_what_it_says(page, run):
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", (HOW_TO / page).read_text(), re.MULTILINE | re.DOTALL)
+    blocks = re.findall(
+        r"^```(\w+)\n(.*?)^```$", (HOW_TO / page).read_text(), re.MULTILINE | re.DOTALL
+    )
     assert len(blocks) == PAGES[page]
     printed = None
     for kind, text in blocks:
         if kind == "text":
-            assert doctest.OutputChecker().check_output(text, printed, doctest.ELLIPSIS | doctest.DONT_ACCEPT_BLANKLINE), printed
+            assert doctest.OutputChecker().check_output(
+                text, printed, doctest.ELLIPSIS | doctest.DONT_ACCEPT_BLANKLINE
+            ), printed
         elif kind == "python":
             printed = outcome(run(sys.executable, "-c", text))
         else:
@@ -51,7 +55,9 @@ def test_the_page_does_what_it_says(page, run):
 def outcome(program):
     """What it printed, without its log."""
     assert program.wait() == 0, program.text
-    return "".join(f"{line}\n" for line in program.text.splitlines() if not line.startswith("[INFO]"))
+    return "".join(
+        f"{line}\n" for line in program.text.splitlines() if not line.startswith("[INFO]")
+    )
 
 
 @pytest.mark.parametrize(
@@ -64,7 +70,9 @@ def outcome(program):
     ],
 )
 def test_the_page_names_every_option(page, command, run):
-    options = set(re.findall(r"--[a-z][a-z-]*", outcome(run(*command.split(), "--help")))) - {"--help"}
+    options = set(re.findall(r"--[a-z][a-z-]*", outcome(run(*command.split(), "--help")))) - {
+        "--help"
+    }
     assert options
     text = (HOW_TO / page).read_text()
     assert all(f"`{option}" in text for option in options), options

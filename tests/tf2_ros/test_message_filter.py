@@ -32,7 +32,9 @@ class Setup:
         self.passed, self.failed = [], []
         self.filter = MessageFilter(None, self.buffer, target, queue_size, node, **options)
         self.filter.registerCallback(lambda message: self.passed.append(message.header.stamp.sec))
-        self.filter.registerFailureCallback(lambda message, reason: self.failed.append((message.header.stamp.sec, reason)))
+        self.filter.registerFailureCallback(
+            lambda message, reason: self.failed.append((message.header.stamp.sec, reason))
+        )
         self.executor = SingleThreadedExecutor(context=context)
         self.executor.add_node(node)
 
@@ -148,7 +150,10 @@ def test_a_message_waits_no_longer_than_the_timeout(setup, stamped):
     s.filter.add(point(1))
     s.filter.add(point(2))
     s.spin_until(lambda: len(s.failed) == 2)
-    assert s.failed == [(1, FilterFailureReason.NoTransformFound), (2, FilterFailureReason.NoTransformFound)]
+    assert s.failed == [
+        (1, FilterFailureReason.NoTransformFound),
+        (2, FilterFailureReason.NoTransformFound),
+    ]
     s.filter.add(point(3))
     s.buffer.set_transform(stamped(stamp_s=3), "me")
     s.spin_until(lambda: s.passed == [3])
@@ -167,7 +172,10 @@ def test_what_waits_is_dropped_when_the_clock_jumps_back(setup, node, stamped):
     s.spin_until(lambda: s.passed == [10])
 
 
-steps = st.lists(st.tuples(st.sampled_from(["message", "transform", "spin", "jump"]), st.integers(1, 40)), max_size=40)
+steps = st.lists(
+    st.tuples(st.sampled_from(["message", "transform", "spin", "jump"]), st.integers(1, 40)),
+    max_size=40,
+)
 
 
 @settings(max_examples=150)
@@ -181,7 +189,9 @@ def test_each_message_passes_or_is_dropped_once_whatever_comes(things, queue_siz
     clock._set_ros_time_is_active(True)
     came, ended = [], []
     s.filter.registerCallback(lambda message: ended.append(message.header.stamp.nanosec))
-    s.filter.registerFailureCallback(lambda message, _reason: ended.append(message.header.stamp.nanosec))
+    s.filter.registerFailureCallback(
+        lambda message, _reason: ended.append(message.header.stamp.nanosec)
+    )
     for thing, second in things:
         if thing == "message":
             number += 1
@@ -201,7 +211,9 @@ def test_each_message_passes_or_is_dropped_once_whatever_comes(things, queue_siz
     s.settle()
     waiting = [each.message.header.stamp.nanosec for each in s.filter._waiting]
     for each in s.filter._waiting:
-        assert not s.buffer.can_transform("world", "robot", Time.from_msg(each.message.header.stamp))
+        assert not s.buffer.can_transform(
+            "world", "robot", Time.from_msg(each.message.header.stamp)
+        )
     assert sorted([*ended, *waiting]) == came
     assert len(waiting) <= queue_size
     node.destroy_node()
@@ -236,7 +248,10 @@ def test_it_ends_with_its_node(setup, node, stamped):
 
 def test_it_is_one_filter_of_a_chain(context, node, stamped):
     buffer, passed = Buffer(), []
-    filters = [MessageFilter(Subscriber(node, PointStamped, topic), buffer, "world", 10, node) for topic in ("left", "right")]
+    filters = [
+        MessageFilter(Subscriber(node, PointStamped, topic), buffer, "world", 10, node)
+        for topic in ("left", "right")
+    ]
     TimeSynchronizer(filters, 10).registerCallback(lambda *messages: passed.append(len(messages)))
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)

@@ -47,7 +47,11 @@ def tool():
     def start(name, *arguments):
         code = f"import sys; from {TOOLS[name]} import main; sys.exit(main())"
         process = subprocess.Popen(
-            [sys.executable, "-c", code, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ)
+            [sys.executable, "-c", code, *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=dict(os.environ),
         )
         processes.append(process)
         return process
@@ -87,7 +91,9 @@ def read_until(process, pattern, stream="stdout"):
 def talker(stamped):
     """Publishes a moving frame, until the test ends."""
     context = wire.open_context()
-    tf = context.create_node("talker").create_publisher("/tf", TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS)
+    tf = context.create_node("talker").create_publisher(
+        "/tf", TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS
+    )
     ended = threading.Event()
 
     def talk():
@@ -124,7 +130,17 @@ def listening():
 
 def test_a_static_transform_is_published_until_stopped(tool, listening):
     process = tool(
-        "static_transform_publisher", "--x", "1", "--y", "-0.5", "--yaw", "1.5707963267948966", "--frame-id", "a", "--child-frame-id", "b"
+        "static_transform_publisher",
+        "--x",
+        "1",
+        "--y",
+        "-0.5",
+        "--yaw",
+        "1.5707963267948966",
+        "--frame-id",
+        "a",
+        "--child-frame-id",
+        "b",
     )
     found = listening[0].lookup_transform("a", "b", Time(), LONG).transform
     assert (found.translation.x, found.translation.y, found.translation.z) == (1.0, -0.5, 0.0)
@@ -140,22 +156,48 @@ def test_a_static_transform_is_published_until_stopped(tool, listening):
 
 
 def test_a_frame_cannot_stand_in_itself(tool):
-    status, _, err = finish(tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "a"))
+    status, _, err = finish(
+        tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "a")
+    )
     assert status == 1
     assert "child_frame_id cannot equal frame_id" in err
 
 
 def test_both_styles_of_arguments():
     new = publisher.parse(
-        ["--x", "1", "--y", "2", "--z", "3", "--roll", "0.1", "--pitch", "0.2", "--yaw", "0.3", "--frame-id", "a", "--child-frame-id", "b"]
+        [
+            "--x",
+            "1",
+            "--y",
+            "2",
+            "--z",
+            "3",
+            "--roll",
+            "0.1",
+            "--pitch",
+            "0.2",
+            "--yaw",
+            "0.3",
+            "--frame-id",
+            "a",
+            "--child-frame-id",
+            "b",
+        ]
     )
     old = publisher.parse(["1", "2", "3", "0.3", "0.2", "0.1", "a", "b"])
     assert new == old._replace(old_style=False)
     assert old.old_style
     quaternion = publisher.parse(["1", "2", "3", "0", "0", "1", "0", "a", "b"])
     assert (quaternion.translation, quaternion.rotation) == ((1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 0.0))
-    assert publisher.parse(["--qz", "1", "--qw", "0", "--frame-id", "a", "--child-frame-id", "b"]).rotation == (0.0, 0.0, 1.0, 0.0)
-    assert publisher.parse(["--frame-id", "a", "--child-frame-id", "b"]).rotation == (0.0, 0.0, 0.0, 1.0)
+    assert publisher.parse(
+        ["--qz", "1", "--qw", "0", "--frame-id", "a", "--child-frame-id", "b"]
+    ).rotation == (0.0, 0.0, 1.0, 0.0)
+    assert publisher.parse(["--frame-id", "a", "--child-frame-id", "b"]).rotation == (
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+    )
 
 
 @pytest.mark.parametrize(
@@ -165,12 +207,24 @@ def test_both_styles_of_arguments():
         ("--frame-id a", "Child frame id must not be empty"),
         ("--frame-id a --child-frame-id b --x", "Not enough arguments for --x"),
         ("--frame-id a --child-frame-id b --x one", "Failed to parse --x argument as float"),
-        ("--frame-id a --child-frame-id b --qx 1 --yaw 1", "Cannot specify both quaternion and Euler rotations"),
+        (
+            "--frame-id a --child-frame-id b --qx 1 --yaw 1",
+            "Cannot specify both quaternion and Euler rotations",
+        ),
         ("--frame-id a --child-frame-id b more", "Extra unparsed arguments on command-line"),
-        ("--frame-id a --child-frame-id b --yaw inf", "--yaw is inf: no listener takes a transform whose numbers are not finite"),
-        ("--frame-id a --child-frame-id b --qw 0", "A quaternion of zeros is no rotation, and every listener refuses it"),
+        (
+            "--frame-id a --child-frame-id b --yaw inf",
+            "--yaw is inf: no listener takes a transform whose numbers are not finite",
+        ),
+        (
+            "--frame-id a --child-frame-id b --qw 0",
+            "A quaternion of zeros is no rotation, and every listener refuses it",
+        ),
         ("1 2 3", "Extra unparsed arguments on command-line"),
-        ("1 2 3 0 0 0 a b --x 1", "Cannot specify both new-style (flags) and old-style (arguments)"),
+        (
+            "1 2 3 0 0 0 a b --x 1",
+            "Cannot specify both new-style (flags) and old-style (arguments)",
+        ),
         ("1 2 3 x 0 0 a b", "Failed to parse yaw argument as float"),
     ],
 )
@@ -183,7 +237,10 @@ def test_wrong_arguments_are_named(words, text, capsys):
     ("size", "text"),
     [
         ("-1.0", "buffer_size is -1.0; it can be 0 to 1000000000 seconds"),
-        ("10", "expecting type 'DOUBLE'\nYAML reads a double with a point in it: -p buffer_size:=10.0"),
+        (
+            "10",
+            "expecting type 'DOUBLE'\nYAML reads a double with a point in it: -p buffer_size:=10.0",
+        ),
     ],
 )
 def test_a_buffer_server_refuses_sizes(size, text, tool):
@@ -223,7 +280,10 @@ def test_echo_as_json(tool):
 def test_echo_says_what_it_waits_for(tool):
     process = tool("tf2_echo", "world", "nothing")
     line = process.stderr.readline()
-    assert re.search(r"\[tf2_echo\]: Waiting for transform world ->  nothing: Invalid frame ID \"world\" passed to canTransform", line)
+    assert re.search(
+        r"\[tf2_echo\]: Waiting for transform world ->  nothing: Invalid frame ID \"world\" passed to canTransform",
+        line,
+    )
     assert stop(process)[0] == 0
 
 
@@ -231,9 +291,17 @@ def test_echo_says_what_it_waits_for(tool):
     ("words", "status", "text"),
     [
         ("world", 1, "usage: tf2_echo"),
-        ("world robot fast", 2, "Failed to convert rate argument 'fast' to a floating-point number"),
+        (
+            "world robot fast",
+            2,
+            "Failed to convert rate argument 'fast' to a floating-point number",
+        ),
         ("world robot 0", 3, "must be > 0.0"),
-        ("/world robot", 1, "in tf2 frame_ids cannot start with a '/': say 'world' instead of '/world'"),
+        (
+            "/world robot",
+            1,
+            "in tf2 frame_ids cannot start with a '/': say 'world' instead of '/world'",
+        ),
         ("world robot --limit -1", 1, "'-1' is not a whole number, 0 or more"),
         ("world robot --precision 18", 1, "'18' is not a whole number from 0 to 17"),
     ],
@@ -277,7 +345,11 @@ def test_frame_ids_on_the_command_line():
 def test_a_place_in_words(stamped):
     transform = stamped("a", "b", x=-1.0)
     assert tf2_echo.in_words(transform) == "seen from a, b is 1.00 m behind"
-    transform.transform.translation.x, transform.transform.translation.y, transform.transform.translation.z = 0.0, 2.0, -0.5
+    (
+        transform.transform.translation.x,
+        transform.transform.translation.y,
+        transform.transform.translation.z,
+    ) = 0.0, 2.0, -0.5
     assert tf2_echo.in_words(transform) == "seen from a, b is 2.00 m to the left, 0.50 m below"
     transform.transform.translation.y = transform.transform.translation.z = 0.0
     assert tf2_echo.in_words(transform) == "seen from a, b is at the same place"
@@ -290,7 +362,9 @@ def test_monitor_names_who_publishes(tool):
     process = tool("tf2_monitor", "--period", "0.5")
     text = read_until(process, r"^Node: /talker \S+ Hz, Average Delay: \S+ Max Delay: \S+$")
     assert "RESULTS: for all Frames" in text
-    assert re.search(r"Frame: robot, published by /talker, Average Delay: \S+, Max Delay: \S+\n", text)
+    assert re.search(
+        r"Frame: robot, published by /talker, Average Delay: \S+, Max Delay: \S+\n", text
+    )
     assert stop(process)[0] == 0
 
 
@@ -309,7 +383,10 @@ def test_monitor_of_a_chain_as_json(tool):
     [
         ("tf2_ros tf2_echo world robot 50", r"At time \d+\.\d{9}"),
         ("tf2_ros tf2_echo world robot 50 --json", r"\{.*\}"),
-        ("tf2_ros tf2_monitor --period 0.2", r"Gathering data on all frames for 0\.2 seconds\.\.\."),
+        (
+            "tf2_ros tf2_monitor --period 0.2",
+            r"Gathering data on all frames for 0\.2 seconds\.\.\.",
+        ),
     ],
 )
 def test_the_end_of_a_pipe_is_a_quiet_end(command, first, run):
@@ -339,7 +416,10 @@ def test_chains_go_up_and_down_again(stamped):
 def test_a_chain_may_have_any_frame_id(stamped):
     buffer = Buffer()
     buffer.set_transform_static(stamped("world", "a exists with parent b."), "me")
-    assert tf2_monitor.chain(buffer, "a exists with parent b.", "world") == ["a exists with parent b.", "world"]
+    assert tf2_monitor.chain(buffer, "a exists with parent b.", "world") == [
+        "a exists with parent b.",
+        "world",
+    ]
 
 
 def test_what_does_not_move_has_no_net_delay(stamped):
@@ -359,25 +439,43 @@ def test_the_tools_help_with_a_frame_id_that_is_not_known(stamped):
     assert tf2_echo._hint(buffer, "world", "robot") == ""
     statistics = tf2_monitor.Statistics(lambda _gid: tf2_monitor.NOBODY, lambda: 0.0)
     options = argparse.Namespace(frames=["world", "robt"], json=False)
-    assert tf2_echo._hint(buffer, "world", "robt").strip() in tf2_monitor._report(options, buffer, statistics, tf2_monitor.Delays())
+    assert tf2_echo._hint(buffer, "world", "robt").strip() in tf2_monitor._report(
+        options, buffer, statistics, tf2_monitor.Delays()
+    )
 
 
 def test_statistics(stamped):
     now = [10.0]
     names = {b"one": "/one"}
-    statistics = tf2_monitor.Statistics(lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0])
+    statistics = tf2_monitor.Statistics(
+        lambda gid: names.get(gid, tf2_monitor.NOBODY), lambda: now[0]
+    )
     message = msg.get_message(TYPE_NAME)(transforms=[stamped(stamp_s=9)])
     for now[0] in (10.0, 11.0, 12.0):
         statistics.take(message, MessageInfo(0, 0, b"one"))
     statistics.take(message, MessageInfo(0, 0, b"two"))
     data = statistics.as_dict()
-    assert data["frames"] == [{"frame": "robot", "published_by": tf2_monitor.NOBODY, "average_delay": 2.25, "max_delay": 3.0}]
-    assert data["broadcasters"][0] == {"node": "/one", "rate": 1.0, "average_delay": 2.0, "max_delay": 3.0}
+    assert data["frames"] == [
+        {
+            "frame": "robot",
+            "published_by": tf2_monitor.NOBODY,
+            "average_delay": 2.25,
+            "max_delay": 3.0,
+        }
+    ]
+    assert data["broadcasters"][0] == {
+        "node": "/one",
+        "rate": 1.0,
+        "average_delay": 2.0,
+        "max_delay": 3.0,
+    }
     assert data["broadcasters"][1]["rate"] == 0.0
     names[b"two"] = "/one"  # the graph has learnt whose publisher it is
     data = statistics.as_dict()
     assert data["frames"][0]["published_by"] == "/one"
-    assert data["broadcasters"] == [{"node": "/one", "rate": 1.5, "average_delay": 2.25, "max_delay": 3.0}]
+    assert data["broadcasters"] == [
+        {"node": "/one", "rate": 1.5, "average_delay": 2.25, "max_delay": 3.0}
+    ]
 
 
 @pytest.mark.usefixtures("talker")

@@ -12,7 +12,13 @@ from rclpy.qos import QoSProfile
 from rclpy.time import Time
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
-from tf2_ros import Buffer, StaticTransformBroadcaster, StaticTransformListener, TransformBroadcaster, TransformListener
+from tf2_ros import (
+    Buffer,
+    StaticTransformBroadcaster,
+    StaticTransformListener,
+    TransformBroadcaster,
+    TransformListener,
+)
 
 LONG = Duration(seconds=10)
 
@@ -40,7 +46,9 @@ def test_topics_follow_remappings_and_arguments(make_node, stamped):
     remapped = make_node("remapped", cli_args=["--ros-args", "-r", "/tf:=/robot1/tf"])
     buffer, named = Buffer(), Buffer()
     TransformListener(buffer, remapped)
-    TransformListener(named, make_node("named"), tf_topic="/robot1/tf", tf_static_topic="/robot1/tf_static")
+    TransformListener(
+        named, make_node("named"), tf_topic="/robot1/tf", tf_static_topic="/robot1/tf_static"
+    )
     talker = make_node("talker")
     talker.create_publisher(TFMessage, "/robot1/tf", 10).publish(TFMessage(transforms=[stamped()]))
     for each in (buffer, named):
@@ -79,7 +87,9 @@ def test_it_ends_with_its_node_and_leaves_others_alone(make_node, stamped):
     buffers = Buffer(), Buffer()
     for buffer, node in zip(buffers, (first, second), strict=True):
         TransformListener(buffer, node)
-    assert subscriptions(second, "/tf") == ["first"]  # one subscription in this process, of the node that came first
+    assert subscriptions(second, "/tf") == [
+        "first"
+    ]  # one subscription in this process, of the node that came first
     first.destroy_node()
     assert subscriptions(second, "/tf") == ["second"]
     TransformBroadcaster(second).sendTransform(stamped())

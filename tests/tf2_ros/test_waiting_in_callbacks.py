@@ -18,10 +18,17 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.time import Time
 from std_msgs.msg import Int32
-from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformException, TransformListener
+from tf2_ros import (
+    Buffer,
+    StaticTransformBroadcaster,
+    TransformBroadcaster,
+    TransformException,
+    TransformListener,
+)
 
 HALF_NS = 500_000_000
-#: How far a link moves along x or y in a half second; linear, so that any two samples around a stamp give the same answer.
+#: How far a link moves along x or y in a half second; linear, so that any two samples around a
+#: stamp give the same answer.
 SPEEDS = {"base": (1.0, 0.0), "robot": (0.0, 10.0)}
 PARENTS = {"base": "world", "robot": "base"}
 LONG, SHORT = Duration(seconds=30), Duration(seconds=0.01)
@@ -43,7 +50,11 @@ class Question(NamedTuple):
 
 halves = st.integers(2, 10)
 samples = st.builds(Sample, st.sampled_from(sorted(SPEEDS)), halves)
-questions = st.lists(st.builds(Question, st.sampled_from(["timer", "subscription", "service"]), halves), min_size=1, max_size=4)
+questions = st.lists(
+    st.builds(Question, st.sampled_from(["timer", "subscription", "service"]), halves),
+    min_size=1,
+    max_size=4,
+)
 
 
 @st.composite
@@ -61,7 +72,9 @@ def transform(child, half):
     message = TransformStamped(child_frame_id=child)
     message.header.frame_id = PARENTS[child]
     message.header.stamp = Time(nanoseconds=half * HALF_NS).to_msg()
-    message.transform.translation.x, message.transform.translation.y = (speed * half for speed in SPEEDS[child])
+    message.transform.translation.x, message.transform.translation.y = (
+        speed * half for speed in SPEEDS[child]
+    )
     return message
 
 
@@ -89,18 +102,24 @@ class Run:
         self.node, self.other = Node("asking", context=context), Node("other", context=context)
         self.buffer = Buffer()
         TransformListener(self.buffer, self.node)
-        self.broadcasters = {child: TransformBroadcaster(self.other) for child in SPEEDS if child != static}
+        self.broadcasters = {
+            child: TransformBroadcaster(self.other) for child in SPEEDS if child != static
+        }
         if static:
             self.broadcasters[static] = StaticTransformBroadcaster(self.other)
         self.numbers = self.other.create_publisher(Int32, "numbers", 10)
-        self.node.create_subscription(Int32, "numbers", lambda message: self.answer(message.data), 10)
+        self.node.create_subscription(
+            Int32, "numbers", lambda message: self.answer(message.data), 10
+        )
         self.node.create_service(AddTwoInts, "ask", self.serve)
         self.client = self.other.create_client(AddTwoInts, "ask")
         self.executor = SingleThreadedExecutor(context=context)
         for node in (self.node, self.other):
             self.executor.add_node(node)
         self.timers = {
-            i: self.node.create_timer(0.0, lambda i=i: self.tick(i), autostart=False) for i, q in enumerate(asked) if q.kind == "timer"
+            i: self.node.create_timer(0.0, lambda i=i: self.tick(i), autostart=False)
+            for i, q in enumerate(asked)
+            if q.kind == "timer"
         }
 
     def tick(self, i):
@@ -116,7 +135,9 @@ class Run:
         """Wait in a callback; what cannot come is waited for only shortly."""
         timeout = LONG if self.expected[i] else SHORT
         try:
-            place = self.buffer.lookup_transform("world", "robot", Time(nanoseconds=self.asked[i].halves * HALF_NS), timeout)
+            place = self.buffer.lookup_transform(
+                "world", "robot", Time(nanoseconds=self.asked[i].halves * HALF_NS), timeout
+            )
         except TransformException as error:
             self.answers[i] = error
         else:
@@ -135,13 +156,17 @@ class Run:
             if pause_s:
                 threading.Event().wait(pause_s)
             if isinstance(what, Sample):
-                self.broadcasters[what.child].sendTransform(transform(what.child, 1 if what.child == self.static else what.halves))
+                self.broadcasters[what.child].sendTransform(
+                    transform(what.child, 1 if what.child == self.static else what.halves)
+                )
             elif self.asked[what].kind == "timer":
                 self.timers[what].reset()
             elif self.asked[what].kind == "subscription":
                 self.numbers.publish(Int32(data=what))
             else:
-                self.client.call_async(AddTwoInts.Request(a=what)).add_done_callback(lambda future: self.finish(future.result().sum))
+                self.client.call_async(AddTwoInts.Request(a=what)).add_done_callback(
+                    lambda future: self.finish(future.result().sum)
+                )
 
     def go(self):
         thread = threading.Thread(target=self.come)

@@ -31,7 +31,9 @@ def transform():
 
 def make_cloud(dtype, values, *, shape=None, row_gap=0, bigendian=False):
     """A cloud of a structured dtype; values of its fields by name; rows may be followed by a gap of filled bytes."""
-    points = np.zeros(len(next(iter(values.values()))), np.dtype(dtype).newbyteorder(">" if bigendian else "<"))
+    points = np.zeros(
+        len(next(iter(values.values()))), np.dtype(dtype).newbyteorder(">" if bigendian else "<")
+    )
     for name, column in values.items():
         points[name] = column
     width, height = shape or (len(points), 1)
@@ -43,7 +45,14 @@ def make_cloud(dtype, values, *, shape=None, row_gap=0, bigendian=False):
         PointField(name=name, offset=offset, datatype=types[format_.base.str[1:]], count=1)
         for name, (format_, offset) in points.dtype.fields.items()
     ]
-    cloud = PointCloud2(height=height, width=width, fields=fields, is_bigendian=bigendian, point_step=step, row_step=rows.shape[1])
+    cloud = PointCloud2(
+        height=height,
+        width=width,
+        fields=fields,
+        is_bigendian=bigendian,
+        point_step=step,
+        row_step=rows.shape[1],
+    )
     cloud.header.frame_id, cloud.header.stamp.sec = "source", 99
     cloud.data = array("B", rows.tobytes())
     return cloud
@@ -51,17 +60,26 @@ def make_cloud(dtype, values, *, shape=None, row_gap=0, bigendian=False):
 
 def read(cloud, *names):
     """Columns of a cloud, by a way of its own: struct-like, row by row."""
-    rows = np.frombuffer(cloud.data, np.uint8).reshape(cloud.height, cloud.row_step)[:, : cloud.width * cloud.point_step]
+    rows = np.frombuffer(cloud.data, np.uint8).reshape(cloud.height, cloud.row_step)[
+        :, : cloud.width * cloud.point_step
+    ]
     points = rows.reshape(-1, cloud.point_step)
     order, columns = ">" if cloud.is_bigendian else "<", []
     for field in (field for name in names for field in cloud.fields if field.name == name):
         dtype = np.dtype(order + {7: "f4", 8: "f8", 4: "u2"}[field.datatype])
-        columns.append(points[:, field.offset : field.offset + dtype.itemsize].copy().view(dtype)[:, 0].astype(float))
+        columns.append(
+            points[:, field.offset : field.offset + dtype.itemsize]
+            .copy()
+            .view(dtype)[:, 0]
+            .astype(float)
+        )
     return np.stack(columns, axis=-1)
 
 
 def xyz(count=6, seed=0):
-    values = np.random.default_rng(seed).uniform(-50, 50, (count, 3)).astype(np.float32).astype(float)
+    values = (
+        np.random.default_rng(seed).uniform(-50, 50, (count, 3)).astype(np.float32).astype(float)
+    )
     return values, dict(zip("xyz", values.T, strict=True))
 
 
@@ -75,7 +93,12 @@ LAYOUTS = {
         "offsets": [3, 1, 17, 30],
         "itemsize": 37,
     },
-    "padded": {"names": ["x", "y", "z"], "formats": ["f4"] * 3, "offsets": [0, 4, 8], "itemsize": 32},
+    "padded": {
+        "names": ["x", "y", "z"],
+        "formats": ["f4"] * 3,
+        "offsets": [0, 4, 8],
+        "itemsize": 32,
+    },
 }
 
 
@@ -88,7 +111,9 @@ def test_every_layout(transform, layout, shape, row_gap, bigendian):
     before = copy.deepcopy(cloud)
     moved = do_transform_cloud(cloud, transform)
     assert cloud == before
-    assert read(moved, "x", "y", "z") == pytest.approx(ROTATION.apply(values) + TRANSLATION, rel=1e-6)
+    assert read(moved, "x", "y", "z") == pytest.approx(
+        ROTATION.apply(values) + TRANSLATION, rel=1e-6
+    )
     for name in ("height", "width", "fields", "is_bigendian", "point_step", "row_step", "is_dense"):
         assert getattr(moved, name) == getattr(cloud, name)
     changed = np.frombuffer(moved.data, np.uint8) != np.frombuffer(cloud.data, np.uint8)
@@ -104,20 +129,40 @@ def test_every_layout(transform, layout, shape, row_gap, bigendian):
 def test_by_hand():
     """A quarter to the left about z, then 10 ahead: x goes to y, y to -x."""
     transform = Transform()
-    transform.translation.x, transform.rotation.z, transform.rotation.w = 10.0, np.sqrt(0.5), np.sqrt(0.5)
-    cloud = make_cloud(XYZI, {"x": [1.0, 0.0], "y": [0.0, 2.0], "z": [3.0, 0.0], "intensity": [7, 8]})
+    transform.translation.x, transform.rotation.z, transform.rotation.w = (
+        10.0,
+        np.sqrt(0.5),
+        np.sqrt(0.5),
+    )
+    cloud = make_cloud(
+        XYZI, {"x": [1.0, 0.0], "y": [0.0, 2.0], "z": [3.0, 0.0], "intensity": [7, 8]}
+    )
     moved = do_transform_cloud(cloud, transform)
-    assert read(moved, "x", "y", "z", "intensity") == pytest.approx(np.array([(10, 1, 3, 7), (8, 0, 0, 8)]), abs=1e-6)
+    assert read(moved, "x", "y", "z", "intensity") == pytest.approx(
+        np.array([(10, 1, 3, 7), (8, 0, 0, 8)]), abs=1e-6
+    )
 
 
 def test_normals_are_turned_and_not_moved(transform):
     values, columns = xyz()
     normals = Rotation.random(6, random_state=4).as_matrix()[:, 0]
-    layout = [*XYZI, ("normal_x", "f4"), ("normal_y", "f4"), ("normal_z", "f4"), ("curvature", "f4")]
-    columns |= dict(zip(("normal_x", "normal_y", "normal_z"), normals.T, strict=True)) | {"curvature": np.arange(6)}
+    layout = [
+        *XYZI,
+        ("normal_x", "f4"),
+        ("normal_y", "f4"),
+        ("normal_z", "f4"),
+        ("curvature", "f4"),
+    ]
+    columns |= dict(zip(("normal_x", "normal_y", "normal_z"), normals.T, strict=True)) | {
+        "curvature": np.arange(6)
+    }
     moved = do_transform_cloud(make_cloud(layout, columns), transform)
-    assert read(moved, "normal_x", "normal_y", "normal_z") == pytest.approx(ROTATION.apply(normals), abs=1e-6)
-    assert read(moved, "x", "y", "z") == pytest.approx(ROTATION.apply(values) + TRANSLATION, rel=1e-6)
+    assert read(moved, "normal_x", "normal_y", "normal_z") == pytest.approx(
+        ROTATION.apply(normals), abs=1e-6
+    )
+    assert read(moved, "x", "y", "z") == pytest.approx(
+        ROTATION.apply(values) + TRANSLATION, rel=1e-6
+    )
     assert read(moved, "curvature").ravel().tolist() == [0, 1, 2, 3, 4, 5]
 
 
@@ -138,21 +183,27 @@ def test_a_buffer_transforms_clouds(transform):
     transform.child_frame_id = "source"
     buffer.set_transform_static(transform, "test")
     moved = buffer.transform(make_cloud(XYZI, xyz()[1]), "target")
-    assert read(moved, "x", "y", "z") == pytest.approx(ROTATION.apply(xyz()[0]) + TRANSLATION, rel=1e-6)
+    assert read(moved, "x", "y", "z") == pytest.approx(
+        ROTATION.apply(xyz()[0]) + TRANSLATION, rel=1e-6
+    )
     assert tf2_ros.convert(moved, PointCloud2) == moved
 
 
 def test_far_away_nothing_is_lost():
     """Coordinates of a map, in the millions of metres, come into a frame nearby: single precision would be 0.25 m off."""
     transform = transform_from_array([-4e6, 0, 0, 0, 0, 0, 1])
-    cloud = make_cloud([("x", "f8"), ("y", "f4"), ("z", "f4")], {"x": [4e6 + 0.125], "y": [1.0], "z": [0.0]})
+    cloud = make_cloud(
+        [("x", "f8"), ("y", "f4"), ("z", "f4")], {"x": [4e6 + 0.125], "y": [1.0], "z": [0.0]}
+    )
     assert read(do_transform_cloud(cloud, transform), "x", "y", "z").tolist() == [[0.125, 1.0, 0.0]]
 
 
 def test_more_points_than_a_block(transform):
     values, columns = xyz(20_001)
     moved = do_transform_cloud(make_cloud(XYZI, columns), transform)
-    assert read(moved, "x", "y", "z") == pytest.approx(ROTATION.apply(values) + TRANSLATION, rel=1e-5, abs=1e-4)
+    assert read(moved, "x", "y", "z") == pytest.approx(
+        ROTATION.apply(values) + TRANSLATION, rel=1e-5, abs=1e-4
+    )
 
 
 def test_points_that_were_not_seen_stay_unseen_and_say_nothing(transform):
@@ -171,10 +222,14 @@ def test_no_points(transform):
 def test_clouds_that_sensor_msgs_py_made(transform):
     cloud = point_cloud2.create_cloud_xyz32(Header(frame_id="source"), xyz()[0])
     moved = do_transform_cloud(cloud, transform)
-    assert point_cloud2.read_points_numpy(moved) == pytest.approx(ROTATION.apply(xyz()[0]) + TRANSLATION, rel=1e-6)
+    assert point_cloud2.read_points_numpy(moved) == pytest.approx(
+        ROTATION.apply(xyz()[0]) + TRANSLATION, rel=1e-6
+    )
 
 
-@pytest.mark.parametrize("kind", [bytes, bytearray, list, lambda data: np.frombuffer(data, np.uint8)])
+@pytest.mark.parametrize(
+    "kind", [bytes, bytearray, list, lambda data: np.frombuffer(data, np.uint8)]
+)
 def test_data_of_any_kind(transform, kind):
     cloud = make_cloud(XYZI, xyz()[1])
     expected = do_transform_cloud(cloud, transform)
@@ -184,20 +239,29 @@ def test_data_of_any_kind(transform, kind):
 
 def test_mistakes_are_told(transform):
     cloud = make_cloud([("x", "f4"), ("y", "f4")], {"x": [1.0], "y": [1.0]})
-    with pytest.raises(AssertionError, match=r"^Point cloud needs the fields x, y, and z for the transformation$"):
+    with pytest.raises(
+        AssertionError, match=r"^Point cloud needs the fields x, y, and z for the transformation$"
+    ):
         do_transform_cloud(cloud, transform)
     cloud = make_cloud([("x", "i2"), ("y", "f4"), ("z", "f4")], {"x": [1]})
-    with pytest.raises(ValueError, match=r"field 'x' has datatype 3; only FLOAT32 \(7\) and FLOAT64 \(8\)"):
+    with pytest.raises(
+        ValueError, match=r"field 'x' has datatype 3; only FLOAT32 \(7\) and FLOAT64 \(8\)"
+    ):
         do_transform_cloud(cloud, transform)
     cloud = make_cloud(XYZI, xyz()[1])
     cloud.width = 7
-    with pytest.raises(ValueError, match=r"7 x 1 points with point_step 14 and row_step 84 needs 98 bytes of data .* has 84"):
+    with pytest.raises(
+        ValueError,
+        match=r"7 x 1 points with point_step 14 and row_step 84 needs 98 bytes of data .* has 84",
+    ):
         do_transform_cloud(cloud, transform)
     cloud.width, cloud.fields[2].offset = 6, 12
     with pytest.raises(ValueError, match=r"field 'z' ends at byte 16 of a point of 14 bytes"):
         do_transform_cloud(cloud, transform)
     cloud.row_step, cloud.width, cloud.height = 10, 3, 2
-    with pytest.raises(ValueError, match=r"row_step 10 needs 52 bytes of data in rows of at least 42, has 84"):
+    with pytest.raises(
+        ValueError, match=r"row_step 10 needs 52 bytes of data in rows of at least 42, has 84"
+    ):
         do_transform_cloud(cloud, transform)
 
 
@@ -233,7 +297,12 @@ def test_points_of_any_type_and_stride(transform):
 
 
 def test_the_package_lists_what_it_has():
-    assert tf2_sensor_msgs.__all__ == ["do_transform_cloud", "from_msg_msg", "to_msg_msg", "transform_points"]
+    assert tf2_sensor_msgs.__all__ == [
+        "do_transform_cloud",
+        "from_msg_msg",
+        "to_msg_msg",
+        "transform_points",
+    ]
 
 
 def test_ros_2s_module_path_has_ros_2s_functions():

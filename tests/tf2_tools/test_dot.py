@@ -28,9 +28,17 @@ def test_no_data():
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="graphviz is not installed")
-@pytest.mark.parametrize("pairs", [[("a", "b"), ("b", "a")], [('say "hi"', "back\\slash"), ("x", "y")]])
+@pytest.mark.parametrize(
+    "pairs", [[("a", "b"), ("b", "a")], [('say "hi"', "back\\slash"), ("x", "y")]]
+)
 def test_graphviz_takes_loops_and_quotes(pairs):
     tree = FrameTree(Link(child, parent, "", False, 1.0, 2.0, 1.0, 1.0) for parent, child in pairs)
-    run = subprocess.run(["dot", "-Tplain"], input=dot_from_tree(tree, "1.0"), capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        ["dot", "-Tplain"],
+        input=dot_from_tree(tree, "1.0"),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert run.stderr == ""
     assert run.stdout.count("\nedge ") >= len(pairs)

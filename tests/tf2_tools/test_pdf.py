@@ -61,7 +61,10 @@ def test_the_file_is_what_a_reader_expects():
 def test_shapes_stand_where_they_should_with_y_upwards():
     lines = content(pdf_from_drawing(DRAWING)).splitlines()
     assert lines[1] == "1 1 1 rg 1.000 0.000 0.000 RG 1 w 10.00 140.00 30.00 40.00 re B"
-    assert lines[2] == "0.000 1.000 0.000 RG 2 w [5 3] 0 d 0.00 200.00 m 100.00 200.00 l 100.00 150.00 l S [] 0 d"
+    assert (
+        lines[2]
+        == "0.000 1.000 0.000 RG 2 w [5 3] 0 d 0.00 200.00 m 100.00 200.00 l 100.00 150.00 l S [] 0 d"
+    )
     assert lines[4].startswith("BT 0.000 0.000 0.000 rg /F1 9 Tf 10.00 50.00 Td <")
 
 
@@ -79,6 +82,8 @@ def test_pages_larger_than_pdf_allows_are_scaled():
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler-utils is not installed")
 def test_poppler_reads_it(tmp_path):
     (tmp_path / "x.pdf").write_bytes(pdf_from_drawing(DRAWING))
-    run = subprocess.run(["pdftotext", "x.pdf", "-"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        ["pdftotext", "x.pdf", "-"], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
     assert run.stderr == ""
     assert run.stdout.split() == ["naïve", "(…)", "\\", "\\u732b", "plain"]

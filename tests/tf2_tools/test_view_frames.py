@@ -23,7 +23,9 @@ COMMAND = [sys.executable, "-m", "tf2_tools.view_frames"]
 
 
 def view_frames(*args, cwd):
-    return subprocess.run([*COMMAND, *args], cwd=cwd, capture_output=True, text=True, check=False, timeout=100)
+    return subprocess.run(
+        [*COMMAND, *args], cwd=cwd, capture_output=True, text=True, check=False, timeout=100
+    )
 
 
 def stamped(parent, child):
@@ -65,7 +67,9 @@ def until_all_is_heard(broadcaster_heard, *args, cwd):
 
 
 def test_it_listens_and_writes_three_files(broadcaster, tmp_path):
-    run = until_all_is_heard(lambda run: "Received 3 frames" in run.stderr, "-o", "robot", cwd=tmp_path)
+    run = until_all_is_heard(
+        lambda run: "Received 3 frames" in run.stderr, "-o", "robot", cwd=tmp_path
+    )
     assert run.returncode == 0, run.stderr
     said = [line.split("]: ", 1)[1] for line in (run.stdout + run.stderr).splitlines()]
     assert said[0].startswith("Listening to tf data for ")
@@ -73,28 +77,56 @@ def test_it_listens_and_writes_three_files(broadcaster, tmp_path):
         "Received 3 frames, 2 of them with a parent",
         *[f"Wrote {tmp_path.resolve() / f'robot.{ending}'}" for ending in ("gv", "pdf", "svg")],
     ]
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["robot.gv", "robot.pdf", "robot.svg"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "robot.gv",
+        "robot.pdf",
+        "robot.svg",
+    ]
     dot = (tmp_path / "robot.gv").read_text()
     assert '"map" -> "base"[label=" Broadcaster: ' in dot
     assert '"base" -> "laser"[label=" Broadcaster: ' in dot
     assert (tmp_path / "robot.pdf").read_bytes().startswith(b"%PDF-1.4\n")
-    shown = [text.text for text in ET.parse(tmp_path / "robot.svg").getroot().iter("{http://www.w3.org/2000/svg}text")]
+    shown = [
+        text.text
+        for text in ET.parse(tmp_path / "robot.svg")
+        .getroot()
+        .iter("{http://www.w3.org/2000/svg}text")
+    ]
     assert shown[0] == "view_frames Result"
     assert {"map", "base", "laser", "Static transform"} < set(shown)
 
 
 def test_json(broadcaster, tmp_path):
-    run = until_all_is_heard(lambda run: "laser" in run.stdout and '"map"' in run.stdout, "--json", cwd=tmp_path)
+    run = until_all_is_heard(
+        lambda run: "laser" in run.stdout and '"map"' in run.stdout, "--json", cwd=tmp_path
+    )
     links = {link["child"]: link for link in json.loads(run.stdout)}
-    assert {child: link["parent"] for child, link in links.items()} == {"base": "map", "laser": "base"}
+    assert {child: link["parent"] for child, link in links.items()} == {
+        "base": "map",
+        "laser": "base",
+    }
     assert links["base"]["rate_hz"] > 1
     assert list(tmp_path.iterdir()) == []
 
 
 def test_hearing_nothing_is_said_and_drawn(broadcaster, tmp_path):
-    run = view_frames("-t", "0", "--tf_topic", "other", "--tf_static_topic", "/other_static", "--ros-args", "-r", "__ns:=/x", cwd=tmp_path)
+    run = view_frames(
+        "-t",
+        "0",
+        "--tf_topic",
+        "other",
+        "--tf_static_topic",
+        "/other_static",
+        "--ros-args",
+        "-r",
+        "__ns:=/x",
+        cwd=tmp_path,
+    )
     assert run.returncode == 0
-    assert "No tf data received on /x/other and /other_static. Is a broadcaster running" in run.stdout + run.stderr
+    assert (
+        "No tf data received on /x/other and /other_static. Is a broadcaster running"
+        in run.stdout + run.stderr
+    )
     names = sorted(path.name for path in tmp_path.iterdir())
     assert [name.rpartition(".")[2] for name in names] == ["gv", "pdf", "svg"]
     assert all(name.startswith("frames_20") for name in names)
@@ -105,7 +137,13 @@ def test_hearing_nothing_is_said_and_drawn(broadcaster, tmp_path):
 
 
 def test_ctrl_c_ends_it_without_files(tmp_path):
-    with subprocess.Popen([*COMMAND, "-t", "600"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    with subprocess.Popen(
+        [*COMMAND, "-t", "600"],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    ) as process:
         assert "Listening to tf data for 600.0 seconds..." in process.stdout.readline()
         process.send_signal(signal.SIGINT)
         rest = process.stdout.read()
@@ -117,7 +155,10 @@ def test_ctrl_c_ends_it_without_files(tmp_path):
 def test_files_that_cannot_be_written(tmp_path):
     run = view_frames("-t", "0", "-o", "no/such/folder/frames", cwd=tmp_path)
     assert run.returncode == 1
-    assert "Cannot write no/such/folder/frames.gv: No such file or directory" in run.stdout + run.stderr
+    assert (
+        "Cannot write no/such/folder/frames.gv: No such file or directory"
+        in run.stdout + run.stderr
+    )
 
 
 @pytest.mark.parametrize("wrong", ["soon", "-1", "inf", "nan"])
@@ -145,7 +186,9 @@ def test_a_loop_is_told_and_written(monkeypatch, tmp_path, capfd):
             node.write(tree, str(tmp_path / "loop"))
     finally:
         rclpy.try_shutdown()
-    assert "These frames form a loop, no lookup across it works: b -> a -> b" in capfd.readouterr().err
+    assert (
+        "These frames form a loop, no lookup across it works: b -> a -> b" in capfd.readouterr().err
+    )
     assert isinstance(tree, FrameTree)
     assert isinstance(tree.links["a"], Link)
     assert '"a" -> "b"' in (tmp_path / "loop.gv").read_text()

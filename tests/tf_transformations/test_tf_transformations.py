@@ -99,7 +99,9 @@ def test_arguments_and_defaults():
     found = []
     for name in functions:
         signature = inspect.signature(getattr(tft, name))
-        parameters = [parameter.replace(annotation=bare) for parameter in signature.parameters.values()]
+        parameters = [
+            parameter.replace(annotation=bare) for parameter in signature.parameters.values()
+        ]
         found.append(f"{name}{signature.replace(parameters=parameters, return_annotation=bare)}")
     assert found == SIGNATURES.split("\n")[1:-1]
 
@@ -110,7 +112,12 @@ def test_an_identity_has_no_negative_zeros():
 
 def test_the_broadcaster_s_function_needs_no_numpy():
     code = "import sys, tf_transformations as t; t.quaternion_from_euler(0, 0, 1.0); print('numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout
+        == "False\n"
+    )
 
 
 def test_there_are_24_conventions():
@@ -122,45 +129,79 @@ def test_there_are_24_conventions():
 def test_euler_conventions(axes, ai, aj, ak):
     quaternion = tft.quaternion_from_euler(ai, aj, ak, axes)
     assert np.allclose(quaternion, xyzw(t3d.euler.euler2quat(ai, aj, ak, axes)), atol=1e-12)
-    assert np.allclose(tft.euler_matrix(ai, aj, ak, axes)[:3, :3], t3d.euler.euler2mat(ai, aj, ak, axes), atol=1e-12)
+    assert np.allclose(
+        tft.euler_matrix(ai, aj, ak, axes)[:3, :3],
+        t3d.euler.euler2mat(ai, aj, ak, axes),
+        atol=1e-12,
+    )
     scipy_axes = axes[1:] if axes[0] == "s" else axes[1:].upper()
-    assert np.allclose(tft.quaternion_matrix(quaternion)[:3, :3], Rotation.from_euler(scipy_axes, [ai, aj, ak]).as_matrix(), atol=1e-9)
+    assert np.allclose(
+        tft.quaternion_matrix(quaternion)[:3, :3],
+        Rotation.from_euler(scipy_axes, [ai, aj, ak]).as_matrix(),
+        atol=1e-9,
+    )
     numbers = t3d.euler._AXES2TUPLE[axes]
     assert tft.quaternion_from_euler(ai, aj, ak, numbers) == quaternion
-    for angles in (tft.euler_from_quaternion(quaternion, axes), tft.euler_from_quaternion(quaternion, numbers)):
-        assert np.allclose(tft.euler_matrix(*angles, axes), tft.euler_matrix(ai, aj, ak, axes), atol=1e-6)
+    for angles in (
+        tft.euler_from_quaternion(quaternion, axes),
+        tft.euler_from_quaternion(quaternion, numbers),
+    ):
+        assert np.allclose(
+            tft.euler_matrix(*angles, axes), tft.euler_matrix(ai, aj, ak, axes), atol=1e-6
+        )
 
 
 @pytest.mark.parametrize("axes", ALL_AXES)
 @given(ai=ANGLE, aj=st.floats(0.1, 1.4), ak=ANGLE, negative=st.booleans())
 def test_euler_angles_away_from_gimbal_lock(axes, ai, aj, ak, negative):
     matrix = tft.euler_matrix(ai, -aj if negative else aj, ak, axes)
-    assert np.allclose(tft.euler_from_matrix(matrix, axes), t3d.euler.mat2euler(matrix[:3, :3], axes), atol=1e-9)
+    assert np.allclose(
+        tft.euler_from_matrix(matrix, axes), t3d.euler.mat2euler(matrix[:3, :3], axes), atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("axes", ALL_AXES)
 def test_euler_angles_in_gimbal_lock(axes):
     for second in (0.0, math.pi / 2, -math.pi / 2, math.pi):
         matrix = tft.euler_matrix(0.3, second, 0.5, axes)
-        assert np.allclose(tft.euler_from_matrix(matrix[:3, :3], axes), t3d.euler.mat2euler(matrix[:3, :3], axes), atol=1e-6)
+        assert np.allclose(
+            tft.euler_from_matrix(matrix[:3, :3], axes),
+            t3d.euler.mat2euler(matrix[:3, :3], axes),
+            atol=1e-6,
+        )
 
 
-@pytest.mark.parametrize("axes", ["", "xyz", "sxxy", "sxyy", "qxyz", "sabc", "sxyzx", (0, 0, 0), (3, 0, 0, 0), (0, 2, 0, 0)])
+@pytest.mark.parametrize(
+    "axes",
+    ["", "xyz", "sxxy", "sxyy", "qxyz", "sabc", "sxyzx", (0, 0, 0), (3, 0, 0, 0), (0, 2, 0, 0)],
+)
 def test_unknown_conventions_are_refused(axes):
     with pytest.raises(KeyError, match="unknown axes"):
         tft.quaternion_from_euler(0.0, 0.0, 0.0, axes)
 
 
 def test_the_axes_by_name_are_roll_pitch_yaw():
-    assert np.allclose(tft.quaternion_from_euler(0, 0, math.pi / 2), [0, 0, math.sqrt(0.5), math.sqrt(0.5)])
-    assert np.allclose(tft.quaternion_matrix(tft.quaternion_from_euler(0, 0, math.pi / 2)) @ [1, 0, 0, 1], [0, 1, 0, 1])
+    assert np.allclose(
+        tft.quaternion_from_euler(0, 0, math.pi / 2), [0, 0, math.sqrt(0.5), math.sqrt(0.5)]
+    )
+    assert np.allclose(
+        tft.quaternion_matrix(tft.quaternion_from_euler(0, 0, math.pi / 2)) @ [1, 0, 0, 1],
+        [0, 1, 0, 1],
+    )
 
 
 @given(first=QUATERNION, second=QUATERNION)
 def test_quaternion_products(first, second):
-    assert np.allclose(tft.quaternion_multiply(first, second), xyzw(t3d.quaternions.qmult(wxyz(first), wxyz(second))))
-    assert np.allclose(tft.quaternion_conjugate(first), xyzw(t3d.quaternions.qconjugate(wxyz(first))))
-    assert np.allclose(tft.quaternion_multiply(first, tft.quaternion_inverse(first)), [0, 0, 0, 1], atol=1e-9)
+    assert np.allclose(
+        tft.quaternion_multiply(first, second),
+        xyzw(t3d.quaternions.qmult(wxyz(first), wxyz(second))),
+    )
+    assert np.allclose(
+        tft.quaternion_conjugate(first), xyzw(t3d.quaternions.qconjugate(wxyz(first)))
+    )
+    assert np.allclose(
+        tft.quaternion_multiply(first, tft.quaternion_inverse(first)), [0, 0, 0, 1], atol=1e-9
+    )
 
 
 @given(quaternion=QUATERNION)
@@ -180,20 +221,39 @@ def test_a_zero_quaternion_is_no_rotation():
 def test_rotations_about_an_axis(angle, axis, point):
     matrix = tft.rotation_matrix(angle, axis, point)
     assert np.allclose(matrix, t3d.axangles.axangle2aff(axis, angle, point))
-    assert np.allclose(tft.rotation_matrix(angle, axis)[:3, :3], t3d.axangles.axangle2mat(axis, angle))
-    assert np.allclose(tft.quaternion_matrix(tft.quaternion_about_axis(angle, axis))[:3, :3], matrix[:3, :3])
+    assert np.allclose(
+        tft.rotation_matrix(angle, axis)[:3, :3], t3d.axangles.axangle2mat(axis, angle)
+    )
+    assert np.allclose(
+        tft.quaternion_matrix(tft.quaternion_about_axis(angle, axis))[:3, :3], matrix[:3, :3]
+    )
     found_angle, found_axis, found_point = tft.rotation_from_matrix(matrix)
     assert np.allclose(tft.rotation_matrix(found_angle, found_axis, found_point), matrix, atol=1e-4)
 
 
-@given(factor=st.floats(-3.0, 3.0).filter(lambda f: abs(f - 1.0) > 0.1 and abs(f) > 0.1), origin=VECTOR, direction=DIRECTION)
+@given(
+    factor=st.floats(-3.0, 3.0).filter(lambda f: abs(f - 1.0) > 0.1 and abs(f) > 0.1),
+    origin=VECTOR,
+    direction=DIRECTION,
+)
 def test_scales(factor, origin, direction):
-    for arguments in ((factor,), (factor, origin), (factor, origin, direction), (factor, None, direction)):
+    for arguments in (
+        (factor,),
+        (factor, origin),
+        (factor, origin, direction),
+        (factor, None, direction),
+    ):
         matrix = tft.scale_matrix(*arguments)
-        expected = t3d.zooms.zfdir2aff(factor, arguments[2] if len(arguments) > 2 else None, arguments[1] if len(arguments) > 1 else None)
+        expected = t3d.zooms.zfdir2aff(
+            factor,
+            arguments[2] if len(arguments) > 2 else None,
+            arguments[1] if len(arguments) > 1 else None,
+        )
         assert np.allclose(matrix, expected)
         found_factor, found_origin, found_direction = tft.scale_from_matrix(matrix)
-        assert np.allclose(tft.scale_matrix(found_factor, found_origin, found_direction), matrix, atol=1e-6)
+        assert np.allclose(
+            tft.scale_matrix(found_factor, found_origin, found_direction), matrix, atol=1e-6
+        )
 
 
 @given(point=VECTOR, normal=DIRECTION)
@@ -201,7 +261,9 @@ def test_reflections(point, normal):
     matrix = tft.reflection_matrix(point, normal)
     assert np.allclose(matrix, t3d.reflections.rfnorm2aff(normal, point))
     assert np.allclose(matrix @ matrix, np.identity(4), atol=1e-9)
-    assert np.allclose(tft.reflection_matrix(*tft.reflection_from_matrix(matrix)), matrix, atol=1e-6)
+    assert np.allclose(
+        tft.reflection_matrix(*tft.reflection_from_matrix(matrix)), matrix, atol=1e-6
+    )
 
 
 @given(angle=st.floats(0.1, 1.2), direction=DIRECTION, other=DIRECTION, point=VECTOR)
@@ -242,11 +304,15 @@ def test_projections_land_on_the_plane(point, normal, direction, goal):
         image = matrix @ [*goal, 1.0]
         assert abs((image[:3] / image[3] - point) @ unit) < 1e-6
         if "perspective" in arguments:
-            assert np.linalg.norm(np.cross(image[:3] / image[3] - eye, np.array(goal) - eye)) < 1e-4 * np.linalg.norm(
-                image[:3] / image[3] - eye
-            ) * np.linalg.norm(np.array(goal) - eye)
+            assert np.linalg.norm(
+                np.cross(image[:3] / image[3] - eye, np.array(goal) - eye)
+            ) < 1e-4 * np.linalg.norm(image[:3] / image[3] - eye) * np.linalg.norm(
+                np.array(goal) - eye
+            )
         else:
-            assert np.linalg.norm(np.cross(image[:3] - goal, arguments.get("direction", unit))) < 1e-6
+            assert (
+                np.linalg.norm(np.cross(image[:3] - goal, arguments.get("direction", unit))) < 1e-6
+            )
 
 
 @pytest.mark.parametrize(
@@ -260,13 +326,18 @@ def test_projections_land_on_the_plane(point, normal, direction, goal):
 )
 def test_projections_are_found_again(arguments):
     matrix = tft.projection_matrix([1.0, 2.0, 3.0], [0.5, -1.0, 0.2], **arguments)
-    again = tft.projection_matrix(*tft.projection_from_matrix(matrix, arguments.get("pseudo", False)))
+    again = tft.projection_matrix(
+        *tft.projection_from_matrix(matrix, arguments.get("pseudo", False))
+    )
     assert tft.is_same_transform(matrix, again)
 
 
 def test_a_pseudo_projection_keeps_the_order_of_depths():
     matrix = tft.projection_matrix([0, 0, 0], [0, 0, 1], perspective=[0, 0, 10], pseudo=True)
-    depths = [(matrix @ [0.0, 0.0, z, 1.0])[2] / (matrix @ [0.0, 0.0, z, 1.0])[3] for z in (-3.0, -1.0, 0.0, 2.0)]
+    depths = [
+        (matrix @ [0.0, 0.0, z, 1.0])[2] / (matrix @ [0.0, 0.0, z, 1.0])[3]
+        for z in (-3.0, -1.0, 0.0, 2.0)
+    ]
     assert depths == sorted(depths, reverse=True)
 
 
@@ -275,7 +346,11 @@ def test_clip_takes_the_volume_to_the_cube():
     assert np.allclose(box @ [-1.0, 2.0, 0.5, 1.0], [-1, -1, -1, 1])
     assert np.allclose(box @ [3.0, 5.0, 9.0, 1.0], [1, 1, 1, 1])
     frustum = tft.clip_matrix(-1.0, 3.0, 2.0, 5.0, 0.5, 9.0, perspective=True)
-    for corner, expected in (([-1.0, 2.0, 0.5], [-1, -1, -1]), ([3.0, 5.0, 0.5], [1, 1, -1]), ([54.0, 90.0, 9.0], [1, 1, 1])):
+    for corner, expected in (
+        ([-1.0, 2.0, 0.5], [-1, -1, -1]),
+        ([3.0, 5.0, 0.5], [1, 1, -1]),
+        ([54.0, 90.0, 9.0], [1, 1, 1]),
+    ):
         image = frustum @ [*corner, 1.0]
         assert np.allclose(image[:3] / image[3], expected)
 
@@ -291,16 +366,26 @@ def test_clip_refuses_bounds_out_of_order(bounds):
 SCALE = st.tuples(*[st.floats(0.2, 3.0)] * 3)
 
 
-@given(scale=SCALE, shear=VECTOR, angles=st.tuples(ANGLE, st.floats(-1.4, 1.4), ANGLE), translate=VECTOR, mirrored=st.booleans())
+@given(
+    scale=SCALE,
+    shear=VECTOR,
+    angles=st.tuples(ANGLE, st.floats(-1.4, 1.4), ANGLE),
+    translate=VECTOR,
+    mirrored=st.booleans(),
+)
 def test_decompose_undoes_compose(scale, shear, angles, translate, mirrored):
     scale = tuple(-s for s in scale) if mirrored else scale
     parts = tft.decompose_matrix(tft.compose_matrix(scale, shear, angles, translate))
-    for found, given_part in zip(parts, (scale, shear, angles, translate, (0.0, 0.0, 0.0, 1.0)), strict=True):
+    for found, given_part in zip(
+        parts, (scale, shear, angles, translate, (0.0, 0.0, 0.0, 1.0)), strict=True
+    ):
         assert np.allclose(found, given_part, atol=1e-6)
     seen = tft.compose_matrix(scale, shear, angles, translate, (0.01, 0.02, -0.01, 1.0))
     assert tft.is_same_transform(tft.compose_matrix(*tft.decompose_matrix(seen)), seen)
     linear = tft.compose_matrix(scale, shear, angles)
-    expected = t3d.affines.compose([0, 0, 0], t3d.euler.euler2mat(*angles), [1, 1, 1]) @ _scaled_shear(shear, scale)
+    expected = t3d.affines.compose(
+        [0, 0, 0], t3d.euler.euler2mat(*angles), [1, 1, 1]
+    ) @ _scaled_shear(shear, scale)
     assert np.allclose(linear, expected)
 
 
@@ -314,7 +399,9 @@ def _scaled_shear(shear, scale):
 def test_the_quaternion_of_a_matrix_leaves_scale_and_shear_aside(scale, shear, angles, mirrored):
     matrix = tft.compose_matrix((-scale[0], *scale[1:]) if mirrored else scale, shear, angles)
     expected = t3d.quaternions.quat2mat(t3d.quaternions.mat2quat(t3d.affines.decompose(matrix)[1]))
-    assert np.allclose(tft.quaternion_matrix(tft.quaternion_from_matrix(matrix))[:3, :3], expected, atol=1e-4)
+    assert np.allclose(
+        tft.quaternion_matrix(tft.quaternion_from_matrix(matrix))[:3, :3], expected, atol=1e-4
+    )
 
 
 def test_singular_matrices_are_refused():
@@ -327,23 +414,42 @@ def test_singular_matrices_are_refused():
 
 
 def test_cells():
-    assert np.allclose(tft.orthogonalization_matrix([10.0, 10.0, 10.0], [90.0, 90.0, 90.0])[:3, :3], np.identity(3) * 10)
+    assert np.allclose(
+        tft.orthogonalization_matrix([10.0, 10.0, 10.0], [90.0, 90.0, 90.0])[:3, :3],
+        np.identity(3) * 10,
+    )
     lengths, angles = [9.8, 12.0, 15.5], [87.2, 80.7, 69.7]
     a, b, c = tft.orthogonalization_matrix(lengths, angles)[:3, :3].T
     assert np.allclose([np.linalg.norm(side) for side in (a, b, c)], lengths)
-    between = [math.degrees(math.acos(u @ v / np.linalg.norm(u) / np.linalg.norm(v))) for u, v in ((b, c), (a, c), (a, b))]
+    between = [
+        math.degrees(math.acos(u @ v / np.linalg.norm(u) / np.linalg.norm(v)))
+        for u, v in ((b, c), (a, c), (a, b))
+    ]
     assert np.allclose(between, angles)
 
 
 @pytest.mark.parametrize("usesvd", [True, False])
-@given(quaternion=QUATERNION, translation=VECTOR, factor=st.floats(0.5, 2.0), seed=st.integers(0, 2**32 - 1))
+@given(
+    quaternion=QUATERNION,
+    translation=VECTOR,
+    factor=st.floats(0.5, 2.0),
+    seed=st.integers(0, 2**32 - 1),
+)
 def test_superimposition_finds_the_motion(usesvd, quaternion, translation, factor, seed):
     points = np.random.default_rng(seed).normal(size=(3, 20))
-    motion = tft.concatenate_matrices(tft.translation_matrix(translation), tft.quaternion_matrix(quaternion))
-    assert np.allclose(tft.superimposition_matrix(points, motion[:3, :3] @ points + motion[:3, 3:], usesvd=usesvd), motion, atol=1e-6)
+    motion = tft.concatenate_matrices(
+        tft.translation_matrix(translation), tft.quaternion_matrix(quaternion)
+    )
+    assert np.allclose(
+        tft.superimposition_matrix(points, motion[:3, :3] @ points + motion[:3, 3:], usesvd=usesvd),
+        motion,
+        atol=1e-6,
+    )
     scaled = motion @ tft.scale_matrix(factor)
     moved = scaled @ np.vstack([points, np.ones(20)])
-    assert np.allclose(tft.superimposition_matrix(points, moved, scaling=True, usesvd=usesvd), scaled, atol=1e-6)
+    assert np.allclose(
+        tft.superimposition_matrix(points, moved, scaling=True, usesvd=usesvd), scaled, atol=1e-6
+    )
 
 
 def test_superimposition_refuses_shapes():
@@ -365,7 +471,10 @@ def test_slerp_ends_and_spins():
     first, second = tft.random_quaternion(), tft.random_quaternion()
     assert np.allclose(tft.quaternion_slerp(first, second, 0), first)
     assert np.allclose(tft.quaternion_slerp(first, second, 1, 1), second)
-    assert np.allclose(tft.quaternion_slerp([1, 0, 0, 0], [0, 1, 0, 0], 0.5), [math.sqrt(0.5), math.sqrt(0.5), 0, 0])
+    assert np.allclose(
+        tft.quaternion_slerp([1, 0, 0, 0], [0, 1, 0, 0], 0.5),
+        [math.sqrt(0.5), math.sqrt(0.5), 0, 0],
+    )
     assert np.allclose(tft.quaternion_slerp(first, -first, 0.5), first)
     spun = tft.quaternion_slerp([1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], 0.5, spin=1)
     assert np.allclose(spun, [-math.sqrt(0.5), -math.sqrt(0.5), 0, 0])
@@ -376,7 +485,10 @@ def test_random_things():
     assert np.allclose(tft.random_quaternion([0.0, 0.25, 0.0]), [1.0, 0.0, 0.0, 0.0])
     rotation = tft.random_rotation_matrix()
     assert np.allclose(rotation.T @ rotation, np.identity(4))
-    assert np.array_equal(tft.random_rotation_matrix([0.1, 0.2, 0.3]), tft.quaternion_matrix(tft.random_quaternion([0.1, 0.2, 0.3])))
+    assert np.array_equal(
+        tft.random_rotation_matrix([0.1, 0.2, 0.3]),
+        tft.quaternion_matrix(tft.random_quaternion([0.1, 0.2, 0.3])),
+    )
     vector = tft.random_vector(1000)
     assert vector.shape == (1000,)
     assert 0.0 <= vector.min() < vector.max() < 1.0
@@ -388,7 +500,10 @@ def test_vectors():
         assert np.allclose(tft.vector_norm(data, axis=axis), np.sqrt((data * data).sum(axis=axis)))
         assert np.allclose(
             tft.unit_vector(data, axis=axis),
-            data / np.linalg.norm(data.reshape(-1) if axis is None else data, axis=axis, keepdims=axis is not None),
+            data
+            / np.linalg.norm(
+                data.reshape(-1) if axis is None else data, axis=axis, keepdims=axis is not None
+            ),
         )
     out = np.empty((2, 4))
     assert tft.vector_norm(data, axis=1, out=out) is None
@@ -405,9 +520,13 @@ def test_matrices(translation, quaternion):
     turned = tft.quaternion_matrix(quaternion)
     product = tft.concatenate_matrices(moved, turned)
     assert np.allclose(product, moved @ turned)
-    assert tft.is_same_transform(tft.concatenate_matrices(product, tft.inverse_matrix(product)), tft.identity_matrix())
+    assert tft.is_same_transform(
+        tft.concatenate_matrices(product, tft.inverse_matrix(product)), tft.identity_matrix()
+    )
     assert tft.is_same_transform(product, 3.0 * product)
-    assert not tft.is_same_transform(product, tft.concatenate_matrices(tft.translation_matrix([1, 0, 0]), product))
+    assert not tft.is_same_transform(
+        product, tft.concatenate_matrices(tft.translation_matrix([1, 0, 0]), product)
+    )
     assert np.array_equal(tft.concatenate_matrices(), np.identity(4))
 
 
@@ -418,7 +537,10 @@ def test_arcball_turns_what_is_dragged():
     assert np.allclose(ball.matrix(), np.identity(4))
     ball.drag([475, 275])
     assert ball.matrix()[0, 1] == pytest.approx(0.0, abs=0.2)
-    start, end = tft.arcball_map_to_sphere([500, 250], [320, 320], 320), tft.arcball_map_to_sphere([475, 275], [320, 320], 320)
+    start, end = (
+        tft.arcball_map_to_sphere([500, 250], [320, 320], 320),
+        tft.arcball_map_to_sphere([475, 275], [320, 320], 320),
+    )
     once = Rotation.from_matrix(ball.matrix()[:3, :3])
     assert once.magnitude() == pytest.approx(2.0 * math.acos(start @ end))
     before = ball.matrix()
@@ -439,9 +561,16 @@ def test_arcball_keeps_to_an_axis():
     ball.drag([-0.4, 0.1])
     turn = ball.matrix()[:3, :3] @ tft.rotation_matrix(-0.3, [0, 0, 1])[:3, :3]
     _, axis, _ = tft.rotation_from_matrix(
-        tft.quaternion_matrix(tft.quaternion_from_matrix(np.block([[turn, np.zeros((3, 1))], [np.zeros((1, 3)), 1.0]])))
+        tft.quaternion_matrix(
+            tft.quaternion_from_matrix(
+                np.block([[turn, np.zeros((3, 1))], [np.zeros((1, 3)), 1.0]])
+            )
+        )
     )
-    assert any(abs(abs(axis @ unit) - 1.0) < 1e-6 for unit in (np.array([1, 1, 0]) / math.sqrt(2), np.array([-1, 1, 0]) / math.sqrt(2)))
+    assert any(
+        abs(abs(axis @ unit) - 1.0) < 1e-6
+        for unit in (np.array([1, 1, 0]) / math.sqrt(2), np.array([-1, 1, 0]) / math.sqrt(2))
+    )
     ball.setaxes(None)
     ball.down([0.3, -0.2])
     ball.drag([0.3, -0.2])

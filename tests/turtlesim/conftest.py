@@ -42,7 +42,9 @@ class Simulator:
         self.commands: list[page_commands.Command] = []
         self._queue: queue.SimpleQueue = queue.SimpleQueue()
         self.wire = open_context(middleware="local")
-        self.screen = Screen(self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns))
+        self.screen = Screen(
+            self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns)
+        )
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
@@ -130,7 +132,14 @@ def open_page(browser):
         contexts.append(context)
         page = context.new_page()
         page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("request", lambda request: errors.append(request.url) if not request.url.startswith((url, "blob:", "data:")) else None)
+        page.on(
+            "request",
+            lambda request: (
+                errors.append(request.url)
+                if not request.url.startswith((url, "blob:", "data:"))
+                else None
+            ),
+        )
         page.goto(url)
         page.wait_for_function(
             "() => document.querySelector('#connection').dataset.state === 'live' && document.querySelector('#roster tr')"

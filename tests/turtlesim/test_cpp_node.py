@@ -16,7 +16,11 @@ QOS = "qos_overrides./parameter_events.publisher.depth"
 def node():
     rclpy.init(args=[])
     made = CppNode("sim")
-    made.declare_parameter("red", 69, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=255, step=1)]))
+    made.declare_parameter(
+        "red",
+        69,
+        ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=255, step=1)]),
+    )
     yield made
     made.destroy_node()
     rclpy.try_shutdown()
@@ -26,14 +30,20 @@ def node():
     ("name", "value", "reason"),
     [
         ("red", 300, "Parameter {red} doesn't comply with integer range."),
-        ("red", "abc", "Wrong parameter type, parameter {red} is of type {integer}, setting it to {string} is not allowed."),
+        (
+            "red",
+            "abc",
+            "Wrong parameter type, parameter {red} is of type {integer}, setting it to {string} is not allowed.",
+        ),
         ("red", None, "cannot undeclare a statically typed parameter"),
         ("nope", 1, "parameter 'nope' cannot be set because it was not declared"),
         (QOS, 1, f"parameter '{QOS}' cannot be set because it is read-only"),
     ],
 )
 def test_what_is_refused(node, name, value, reason):
-    result = node.set_parameters_atomically([Parameter("red", value=1), Parameter(name, value=value)])
+    result = node.set_parameters_atomically(
+        [Parameter("red", value=1), Parameter(name, value=value)]
+    )
     assert (result.successful, result.reason) == (False, reason)
     assert node.get_parameter("red").value == 69
 

@@ -21,14 +21,23 @@ from turtlesim.testing import Simulation
 def populate(world: World, count: int) -> None:
     numbers = random.Random(5)
     for _ in range(count):
-        turtle = world.spawn(numbers.uniform(-1, 12), numbers.uniform(-1, 12), numbers.uniform(-9, 9))
-        turtle.set_pen(Pen(*(numbers.randrange(256) for _ in range(3)), numbers.randrange(5)), off=numbers.random() < 0.2)
+        turtle = world.spawn(
+            numbers.uniform(-1, 12), numbers.uniform(-1, 12), numbers.uniform(-9, 9)
+        )
+        turtle.set_pen(
+            Pen(*(numbers.randrange(256) for _ in range(3)), numbers.randrange(5)),
+            off=numbers.random() < 0.2,
+        )
 
 
 def command(world: World, numbers: random.Random) -> None:
     for turtle in world.turtles.values():
         if numbers.random() < 0.02:
-            turtle.drive(numbers.uniform(-3, 3), numbers.choice((0.0, numbers.uniform(-2, 2))), numbers.uniform(-4, 4))
+            turtle.drive(
+                numbers.uniform(-3, 3),
+                numbers.choice((0.0, numbers.uniform(-2, 2))),
+                numbers.uniform(-4, 4),
+            )
 
 
 def test_a_crowd_moves_as_its_turtles_do_one_by_one():
@@ -44,13 +53,28 @@ def test_a_crowd_moves_as_its_turtles_do_one_by_one():
         command(together, numbers[1])
         singles = alone.step(k * TICK_NS)
         tick = crowd.step(together.in_order(), k * TICK_NS)
-        assert [turtle.name for turtle in tick.turtles] == [single.turtle.name for single in singles]
-        assert tick.poses.tobytes() == b"".join(struct.pack("<5f", *single.pose) for single in singles)
-        assert [tick.sensor_pixel(index) for index in range(150)] == [single.sensor_pixel for single in singles]
-        assert tick.clamped_from == [single.clamped_from for single in singles if single.clamped_from]
-        drew = [(index, single.move_stroke) for index, single in enumerate(singles) if single.move_stroke]
+        assert [turtle.name for turtle in tick.turtles] == [
+            single.turtle.name for single in singles
+        ]
+        assert tick.poses.tobytes() == b"".join(
+            struct.pack("<5f", *single.pose) for single in singles
+        )
+        assert [tick.sensor_pixel(index) for index in range(150)] == [
+            single.sensor_pixel for single in singles
+        ]
+        assert tick.clamped_from == [
+            single.clamped_from for single in singles if single.clamped_from
+        ]
+        drew = [
+            (index, single.move_stroke)
+            for index, single in enumerate(singles)
+            if single.move_stroke
+        ]
         assert tick.movers.tolist() == [index for index, _ in drew]
-        assert [(*line, Pen(*pen)) for line, pen in zip(tick.lines.tolist(), tick.pens.tolist(), strict=True)] == [s for _, s in drew]
+        assert [
+            (*line, Pen(*pen))
+            for line, pen in zip(tick.lines.tolist(), tick.pens.tolist(), strict=True)
+        ] == [s for _, s in drew]
         for _, stroke in drew:
             boards[0].add("somebody", stroke)
         boards[1].add_records(tick.stroke_records())
@@ -73,7 +97,9 @@ def _story() -> list:
             simulation.spawn(x=5.0 + 0.05 * k, y=5.0, theta=0.1 * k)
         for k in range(1, 14):
             for kind, topic in ((Pose, "pose"), (Color, "color_sensor")):
-                simulation._driver.create_subscription(kind, f"/turtle{k}/{topic}", lambda message, k=k: heard.append((k, message)), 10)
+                simulation._driver.create_subscription(
+                    kind, f"/turtle{k}/{topic}", lambda message, k=k: heard.append((k, message)), 10
+                )
         for second in range(3):
             for k in range(1, 14):
                 simulation.drive(f"turtle{k}", linear=0.3 * k, angular=0.7 * second)
@@ -104,10 +130,16 @@ def test_what_nobody_listens_to_is_not_even_made(monkeypatch, crowd_from):
     with Simulation() as simulation:
         simulation.spawn("turtle2", x=2.0, y=2.0)
         for kind in (Pose, Color):
-            monkeypatch.setattr(turtle_endpoints, kind.__name__, lambda kind=kind, **fields: done.append("make") or kind(**fields))
+            monkeypatch.setattr(
+                turtle_endpoints,
+                kind.__name__,
+                lambda kind=kind, **fields: done.append("make") or kind(**fields),
+            )
         simulation.step(3)
         assert done == []
-        listener = simulation._driver.create_subscription(Color, "/turtle2/color_sensor", lambda _: None, 1)
+        listener = simulation._driver.create_subscription(
+            Color, "/turtle2/color_sensor", lambda _: None, 1
+        )
         simulation._come_to_rest()
         simulation.step()
         assert done == ["look", "make", "/turtle2/color_sensor"]

@@ -29,12 +29,20 @@ print(find_missing(node.context.wire.graph.endpoints(), "/", ["turtle1"]), node.
 
 
 @pytest.mark.parametrize(
-    ("distro", "package"), [(None, "turtlesim"), ("humble", "turtlesim"), ("kilted", "turtlesim_msgs"), ("rolling", "turtlesim_msgs")]
+    ("distro", "package"),
+    [
+        (None, "turtlesim"),
+        ("humble", "turtlesim"),
+        ("kilted", "turtlesim_msgs"),
+        ("rolling", "turtlesim_msgs"),
+    ],
 )
 def test_types_are_those_of_the_distribution(distro, package):
     environment = {name: value for name, value in os.environ.items() if name != "ROS_DISTRO"}
     environment |= {"RMW_IMPLEMENTATION": "local"} | ({"ROS_DISTRO": distro} if distro else {})
-    done = subprocess.run([sys.executable, "-c", LOOK], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", LOOK], env=environment, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [
         f"['{package}/msg/Pose'] ['{package}/msg/Color'] ['{package}/srv/Spawn'] ['{package}/action/RotateAbsolute_FeedbackMessage']",
@@ -49,7 +57,12 @@ def test_both_packages_hold_the_same_but_for_the_name():
     assert names["turtlesim_msgs"] == names["turtlesim"]
     for kind, found in names["turtlesim"].items():
         for name in found:
-            old, new = (msg.interface_path(f"{package}/{kind}/{name}") for package in ("turtlesim", "turtlesim_msgs"))
+            old, new = (
+                msg.interface_path(f"{package}/{kind}/{name}")
+                for package in ("turtlesim", "turtlesim_msgs")
+            )
             with open(old, encoding="utf-8") as one, open(new, encoding="utf-8") as other:
                 assert one.read() == other.read()
-            assert msg.type_hash(f"turtlesim/{kind}/{name}") != msg.type_hash(f"turtlesim_msgs/{kind}/{name}")
+            assert msg.type_hash(f"turtlesim/{kind}/{name}") != msg.type_hash(
+                f"turtlesim_msgs/{kind}/{name}"
+            )

@@ -11,7 +11,11 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "simulate.md"
 
 
 def test_the_page_does_what_it_says():
-    (program, printed), *others = re.findall(r"^```python\n(.*?)^```\n\n```text\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    (program, printed), *others = re.findall(
+        r"^```python\n(.*?)^```\n\n```text\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL
+    )
     assert not others
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
     assert run.stdout == printed

@@ -26,7 +26,13 @@ def test_four_sides_and_four_turns_come_back_to_the_start():
     assert len(corners) == 8
     middle = 5.544445
     for (x, y), (right, up) in zip(corners[::2], [(2, 0), (2, 2), (0, 2), (0, 0)], strict=True):
-        assert (x, y) == (pytest.approx(middle + right, abs=0.25), pytest.approx(middle + up, abs=0.25))
+        assert (x, y) == (
+            pytest.approx(middle + right, abs=0.25),
+            pytest.approx(middle + up, abs=0.25),
+        )
     assert turtle.theta == pytest.approx(0.0, abs=0.05)
     assert log[0] == "New goal [7.544445 5.544445, 0.000000]"
-    assert [line.split(" [")[0] for line in log] == ["New goal", *(8 * ["Reached goal", "New goal"])]
+    assert [line.split(" [")[0] for line in log] == [
+        "New goal",
+        *(8 * ["Reached goal", "New goal"]),
+    ]

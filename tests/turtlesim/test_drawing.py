@@ -77,7 +77,13 @@ def test_pens_turtles_and_jumps_are_never_joined(monkeypatch):
     board.add("a", Stroke(9, 0, 10, 0, red))
     board.add("a", Stroke(10, 0, 9.5, 0, red))  # back
     _, data, _ = board.since(-1)
-    assert [line[1:] for line in records(data)] == [(0, 0, 2, 0), (0, 5, 1, 5), (2, 0, 3, 0), (9, 0, 10, 0), (10, 0, 9.5, 0)]
+    assert [line[1:] for line in records(data)] == [
+        (0, 0, 2, 0),
+        (0, 5, 1, 5),
+        (2, 0, 3, 0),
+        (9, 0, 10, 0),
+        (10, 0, 9.5, 0),
+    ]
 
 
 def test_older_lines_are_bounded(monkeypatch):
@@ -97,7 +103,9 @@ def test_joined_lines_stay_close_to_every_point(steps):
     heading = 0.0
     for length, turn in steps:
         heading += turn
-        points.append((points[-1][0] + length * math.cos(heading), points[-1][1] + length * math.sin(heading)))
+        points.append(
+            (points[-1][0] + length * math.cos(heading), points[-1][1] + length * math.sin(heading))
+        )
     line = None
     visited = [points[0]]
     for stroke in walk(points):
@@ -118,4 +126,6 @@ def test_an_arc_becomes_few_lines():
         if line is None or not line.extend(stroke):
             line = drawing._Line(stroke)
             lines += 1
-    assert lines == 79  # a chord of 4.9 pixels leaves the arc by the tolerance: 4 strokes of 1.2 pixels each
+    assert (
+        lines == 79
+    )  # a chord of 4.9 pixels leaves the arc by the tolerance: 4 strokes of 1.2 pixels each

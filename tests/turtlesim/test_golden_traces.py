@@ -70,7 +70,9 @@ class Replay:
             self.turtle.rotate_to(float32(command["theta"]))
         elif command["kind"] == "service" and command["name"].endswith("/teleport_absolute"):
             request = command["request"]
-            self.turtle.teleport_absolute(float32(request["x"]), float32(request["y"]), float32(request["theta"]))
+            self.turtle.teleport_absolute(
+                float32(request["x"]), float32(request["y"]), float32(request["theta"])
+            )
 
     def _tick(self, now_ns: int) -> None:
         (tick,) = self.world.step(now_ns)
@@ -103,7 +105,11 @@ def test_every_trace_of_the_shelf_is_replayed():
 def test_poses_are_bit_equal(replays, name):
     replay = replays[name]
     golden = [
-        tuple(float32(float(row[field])) for field in ("x", "y", "theta", "linear_velocity", "angular_velocity")) for row in replay.rows
+        tuple(
+            float32(float(row[field]))
+            for field in ("x", "y", "theta", "linear_velocity", "angular_velocity")
+        )
+        for row in replay.rows
     ]
     assert len(golden) == TRACES[name]
     assert replay.poses == golden
@@ -114,10 +120,15 @@ def test_colours_are_equal(replays, name):
     replay = replays[name]
     changes = [
         (int(row["tick"]), *colour)
-        for row, colour, before in zip(replay.rows, replay.colours, [None, *replay.colours], strict=False)
+        for row, colour, before in zip(
+            replay.rows, replay.colours, [None, *replay.colours], strict=False
+        )
         if colour != before
     ]
-    assert changes == [tuple(int(row[field]) for field in ("tick", "r", "g", "b")) for row in read_csv(f"{name}.color.csv")]
+    assert changes == [
+        tuple(int(row[field]) for field in ("tick", "r", "g", "b"))
+        for row in read_csv(f"{name}.color.csv")
+    ]
 
 
 def test_feedback_and_results_of_rotations_are_equal(replays):
@@ -125,7 +136,11 @@ def test_feedback_and_results_of_rotations_are_equal(replays):
     golden = [float32(float(row["remaining"])) for row in read_csv("rotate_absolute.feedback.csv")]
     assert len(golden) == 492
     assert replay.feedback == golden
-    results = [command["delta"] for command in read_json("rotate_absolute.json")["commands"] if command["kind"] == "result"]
+    results = [
+        command["delta"]
+        for command in read_json("rotate_absolute.json")["commands"]
+        if command["kind"] == "result"
+    ]
     assert len(results) == 4
     assert replay.results == results
 
@@ -134,17 +149,26 @@ def test_feedback_and_results_of_rotations_are_equal(replays):
 def test_wall_warnings_are_equal(replays, name, lines):
     golden = [line.split("]: ")[1] for line in read_json(f"{name}.json")["log"] if "[WARN]" in line]
     assert len(golden) == lines
-    assert [f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])" for x, y in replays[name].clamped] == golden
+    assert [
+        f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])"
+        for x, y in replays[name].clamped
+    ] == golden
 
 
 @pytest.mark.parametrize(("name", "drawn"), PICTURES.items())
 def test_path_pictures(replays, name, drawn):
     golden = read_json(f"{name}.path_pixels.json")
     wanted = {
-        (column, row): tuple(bytes.fromhex(colour)) for row, first, last, colour in golden["runs"] for column in range(first, last + 1)
+        (column, row): tuple(bytes.fromhex(colour))
+        for row, first, last, colour in golden["runs"]
+        for column in range(first, last + 1)
     }
     rgba = replays[name].path.rgba()
-    ours = {(i // 4 % 500, i // 2000): tuple(rgba[i : i + 3]) for i in range(0, len(rgba), 4) if rgba[i + 3]}
+    ours = {
+        (i // 4 % 500, i // 2000): tuple(rgba[i : i + 3])
+        for i in range(0, len(rgba), 4)
+        if rgba[i + 3]
+    }
     assert len(wanted) == drawn
     wrong = {pixel for pixel in wanted.keys() | ours.keys() if wanted.get(pixel) != ours.get(pixel)}
     assert len(wrong) <= 0.01 * drawn

@@ -9,7 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtlesim.model import DEFAULT_PEN, FIELD_SIZE, TICK_NS, Pen, RotationState, World, normalize_angle
+from turtlesim.model import (
+    DEFAULT_PEN,
+    FIELD_SIZE,
+    TICK_NS,
+    Pen,
+    RotationState,
+    World,
+    normalize_angle,
+)
 
 MIDDLE = 5.544444561004639
 speeds = st.floats(-50.0, 50.0)
@@ -31,7 +39,13 @@ def test_the_field_has_the_original_size():
     ("forward", "turning", "seconds", "x", "theta"),
     [
         (2.0, 0.0, 0.16, MIDDLE + 10 * 2.0 * 0.016, 0.0),
-        (2.0, 0.0, 5.0, MIDDLE + 63 * 2.0 * 0.016, 0.0),  # 63 ticks: the last one at an age of 0.992 s
+        (
+            2.0,
+            0.0,
+            5.0,
+            MIDDLE + 63 * 2.0 * 0.016,
+            0.0,
+        ),  # 63 ticks: the last one at an age of 0.992 s
         (-1.0, 0.0, 5.0, MIDDLE - 63 * 1.0 * 0.016, 0.0),
         (0.0, 1.0, 5.0, MIDDLE, 63 * 0.016),
         (0.0, -2.0, 0.32, MIDDLE, -20 * 0.032),
@@ -65,7 +79,10 @@ def test_a_wall_keeps_the_published_velocity():
     assert tick.pose.x == FIELD_SIZE
     assert tick.pose.linear_velocity == 1000.0
     assert tick.clamped_from == (pytest.approx(MIDDLE + 16.0), pytest.approx(MIDDLE))
-    assert run(world, 3, first=1)[-1][0].clamped_from == (pytest.approx(FIELD_SIZE + 16.0), pytest.approx(MIDDLE))
+    assert run(world, 3, first=1)[-1][0].clamped_from == (
+        pytest.approx(FIELD_SIZE + 16.0),
+        pytest.approx(MIDDLE),
+    )
 
 
 def test_lateral_speed_goes_to_the_left_and_counts_in_the_magnitude():
@@ -187,7 +204,12 @@ def test_normalized_angles_are_the_same_angle_in_range(angle):
     assert turns == pytest.approx(round(turns), abs=1e-6)
 
 
-@given(st.lists(st.tuples(speeds, speeds, speeds), max_size=8), angles, st.floats(-20, 30), st.floats(-20, 30))
+@given(
+    st.lists(st.tuples(speeds, speeds, speeds), max_size=8),
+    angles,
+    st.floats(-20, 30),
+    st.floats(-20, 30),
+)
 def test_no_turtle_ever_leaves_the_field(commands, theta, x, y):
     world = World()
     turtle = world.spawn(x, y, theta)

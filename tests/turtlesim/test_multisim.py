@@ -20,7 +20,12 @@ def test_two_fields_one_mimics_the_other(run):
     launch = run(ROS2, "launch", "turtlesim", "multisim.launch.py", environment=quiet)
     launch.wait_for(r"Starting turtlesim with node name /turtlesim1/turtlesim")
     launch.wait_for(r"Starting turtlesim with node name /turtlesim2/turtlesim")
-    remaps = ["-r", "input/pose:=/turtlesim1/turtle1/pose", "-r", "output/cmd_vel:=/turtlesim2/turtle1/cmd_vel"]
+    remaps = [
+        "-r",
+        "input/pose:=/turtlesim1/turtle1/pose",
+        "-r",
+        "output/cmd_vel:=/turtlesim2/turtle1/cmd_vel",
+    ]
     run(ROS2, "run", "turtlesim", "mimic", "--ros-args", *remaps)
     context, moved = wire.open_context(), threading.Event()
     try:
@@ -31,8 +36,12 @@ def test_two_fields_one_mimics_the_other(run):
             if msg.deserialize(pose, cdr).x > 6.5:
                 moved.set()
 
-        context.create_node("eye").create_subscription("/turtlesim2/turtle1/pose", type_id, QoS(), look)
-        square = run(ROS2, "run", "turtlesim", "draw_square", "--ros-args", "-r", "__ns:=/turtlesim1")
+        context.create_node("eye").create_subscription(
+            "/turtlesim2/turtle1/pose", type_id, QoS(), look
+        )
+        square = run(
+            ROS2, "run", "turtlesim", "draw_square", "--ros-args", "-r", "__ns:=/turtlesim1"
+        )
         square.wait_for("Reached goal")
         assert moved.wait(60)
     finally:

@@ -19,7 +19,9 @@ BLUE = (69, 86, 255)
 
 
 def wait_for_text(page, selector: str, text: str) -> None:
-    page.wait_for_function("([s, t]) => document.querySelector(s)?.textContent.includes(t)", arg=[selector, text])
+    page.wait_for_function(
+        "([s, t]) => document.querySelector(s)?.textContent.includes(t)", arg=[selector, text]
+    )
 
 
 def pixel(page, canvas: str, x: float, y: float) -> tuple[int, ...]:
@@ -82,7 +84,9 @@ def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, open_page):
         page.keyboard.press(key)
     page.click("#clear")
     wait_for_pixel(page, "ground", middle + 1.0, middle, is_ground)
-    drives = [page_commands.Drive("turtle1", *drive) for drive in ((0.0, 2.0), (0.0, -2.0), (-2.0, 0.0))]
+    drives = [
+        page_commands.Drive("turtle1", *drive) for drive in ((0.0, 2.0), (0.0, -2.0), (-2.0, 0.0))
+    ]
     assert simulator.commands[1:] == [*drives, page_commands.Clear()]
 
 
@@ -100,7 +104,16 @@ def test_the_pad_drives_by_mouse_touch_and_keyboard(simulator, open_page):
 
 def test_keys_and_buttons_turn_to_a_heading(simulator, open_page):
     page = open_page(simulator.screen.url)
-    headings = {"g": 0.0, "t": 0.7854, "r": 1.5708, "e": 2.3562, "d": 3.1416, "c": -2.3562, "v": -1.5708, "b": -0.7854}  # as in teleop
+    headings = {
+        "g": 0.0,
+        "t": 0.7854,
+        "r": 1.5708,
+        "e": 2.3562,
+        "d": 3.1416,
+        "c": -2.3562,
+        "v": -1.5708,
+        "b": -0.7854,
+    }  # as in teleop
     for key in [*headings, "f", "F", "q", "Alt+t"]:
         page.keyboard.press(key)
     page.get_by_role("button", name="turn to 90°").click()
@@ -108,8 +121,16 @@ def test_keys_and_buttons_turn_to_a_heading(simulator, open_page):
     wait_until(lambda: len(simulator.commands) == 12)
     turns = [page_commands.Rotate("turtle1", theta) for theta in headings.values()]
     cancel = page_commands.Cancel("turtle1")
-    assert simulator.commands == [*turns, cancel, cancel, page_commands.Rotate("turtle1", 1.5708), cancel]
-    wait_for_text(page, "#roster", "89°")  # a rotation ends 0.02 rad before its goal, as in the original
+    assert simulator.commands == [
+        *turns,
+        cancel,
+        cancel,
+        page_commands.Rotate("turtle1", 1.5708),
+        cancel,
+    ]
+    wait_for_text(
+        page, "#roster", "89°"
+    )  # a rotation ends 0.02 rad before its goal, as in the original
     page.focus("#clear")
     page.keyboard.press("g")  # wherever the focus is
     wait_until(lambda: len(simulator.commands) == 13)
@@ -199,7 +220,9 @@ def test_a_turtle_is_chosen_and_dragged_on_the_field(simulator, open_page):
     page.mouse.up()
     wait_until(lambda: simulator.commands)
     (command,) = simulator.commands
-    assert command == page_commands.Teleport("turtle2", pytest.approx(8.0, abs=0.05), pytest.approx(3.0, abs=0.05), pytest.approx(0.5))
+    assert command == page_commands.Teleport(
+        "turtle2", pytest.approx(8.0, abs=0.05), pytest.approx(3.0, abs=0.05), pytest.approx(0.5)
+    )
     wait_for_pixel(page, "turtles", 8.0, 3.0, is_opaque)
 
 
@@ -216,14 +239,20 @@ def test_a_new_turtle_is_placed_on_the_field(simulator, open_page):
     page.mouse.up()
     wait_until(lambda: simulator.commands)
     near = pytest.approx
-    assert simulator.commands == [page_commands.Spawn(near(2.0, abs=0.05), near(9.0, abs=0.05), near(-math.pi / 2, abs=0.05), "")]
+    assert simulator.commands == [
+        page_commands.Spawn(
+            near(2.0, abs=0.05), near(9.0, abs=0.05), near(-math.pi / 2, abs=0.05), ""
+        )
+    ]
     assert not page.is_visible("#placing")
     wait_for_pixel(page, "turtles", 2.0, 9.0, is_opaque)
 
 
 def test_a_finger_chooses_and_places_turtles(simulator, open_page):
     simulator.world.spawn(4.0, 2.0, 0.5, "turtle2")
-    page = open_page(simulator.screen.url, has_touch=True, is_mobile=True, viewport={"width": 360, "height": 740})
+    page = open_page(
+        simulator.screen.url, has_touch=True, is_mobile=True, viewport={"width": 360, "height": 740}
+    )
     wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
     page.touchscreen.tap(*on_screen(page, 4.1, 2.1))
     assert page.inner_text("#driven") == "turtle2"
@@ -254,10 +283,14 @@ def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
     assert pixel(page, "turtles", middle, middle)[3] == 0
 
 
-def publish_transform(simulator, parent: str, child: str, stamp_ns: int, x: float, y: float) -> None:
+def publish_transform(
+    simulator, parent: str, child: str, stamp_ns: int, x: float, y: float
+) -> None:
     if not hasattr(simulator, "tf"):
         type_id = TypeId(listener.TYPE_NAME, msg.type_hash(listener.TYPE_NAME))
-        simulator.tf = simulator.wire.create_node("broadcaster").create_publisher(listener.TOPIC, type_id, listener.QOS)
+        simulator.tf = simulator.wire.create_node("broadcaster").create_publisher(
+            listener.TOPIC, type_id, listener.QOS
+        )
     transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
     transform.header.frame_id = parent
     transform.header.stamp.sec, transform.header.stamp.nanosec = divmod(stamp_ns, 10**9)
@@ -274,7 +307,11 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
         publish_transform(simulator, "world", "turtle1", now - int(age_s * 1e9), 1.0, 3.0)
         publish_transform(simulator, "world", "turtle2", now - int(age_s * 1e9), 4.0, 2.0)
     wait_for_text(page, "#tree", "turtle2")
-    wait_for_text(page, "#relation-words", "turtle1 is 3.00 m behind and 1.00 m to the left of turtle2, and looks the same way")
+    wait_for_text(
+        page,
+        "#relation-words",
+        "turtle1 is 3.00 m behind and 1.00 m to the left of turtle2, and looks the same way",
+    )
     assert page.inner_text("#tree > li > span") == "world"
     page.wait_for_selector("#tree li li[data-kind='stale'] small:has-text('s old')", timeout=15000)
     publish_transform(simulator, "turtle1", "carrot", time.time_ns(), 0.0, 2.0)
@@ -292,21 +329,35 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
     page.select_option("#source", "lost")
     wait_for_text(page, "#relation-words", "Tf has two or more unconnected trees.")
     page.click("#frames summary")
-    wait_until(lambda: not any(node.name == "_turtlesim_page" for node in simulator.wire.graph.nodes()))
+    wait_until(
+        lambda: not any(node.name == "_turtlesim_page" for node in simulator.wire.graph.nodes())
+    )
 
 
 def test_the_background_follows_the_parameters(simulator, open_page):
     page = open_page(simulator.screen.url)
     simulator.background = (200, 30, 30)
-    wait_for_pixel(page, "ground", 2.5, 2.5, lambda colour: math.dist(colour[:3], (200, 30, 30)) < 45)
+    wait_for_pixel(
+        page, "ground", 2.5, 2.5, lambda colour: math.dist(colour[:3], (200, 30, 30)) < 45
+    )
 
 
 def test_a_screen_reader_finds_its_way(simulator, open_page):
     page = open_page(simulator.screen.url)
     page.get_by_role("status").get_by_text("live").wait_for()
     page.get_by_role("cell", name="5.54").first.wait_for()
-    page.get_by_role("img", name="The field, 11 by 11 metres, with turtle1 at 5.5, 5.5").wait_for(timeout=15000)
-    for name in ("forward", "backward", "turn left", "turn right", "Clear drawing", "Reset", "New turtle"):
+    page.get_by_role("img", name="The field, 11 by 11 metres, with turtle1 at 5.5, 5.5").wait_for(
+        timeout=15000
+    )
+    for name in (
+        "forward",
+        "backward",
+        "turn left",
+        "turn right",
+        "Clear drawing",
+        "Reset",
+        "New turtle",
+    ):
         assert page.get_by_role("button", name=name).is_visible()
 
 
@@ -332,5 +383,7 @@ def test_what_a_page_sends_wrong_is_answered(simulator):
         assert json.loads(raw.recv(timeout=60))["turtles"] == ["turtle1"]
         raw.send('{"type": "drive", "turtle": "turtle1", "linear": "fast", "angular": 0}')
         texts = [message for _ in range(20) if isinstance(message := raw.recv(timeout=60), str)]
-        assert [json.loads(text) for text in texts] == [{"type": "error", "text": "linear is a number between -1000000 and 1000000"}]
+        assert [json.loads(text) for text in texts] == [
+            {"type": "error", "text": "linear is a number between -1000000 and 1000000"}
+        ]
     assert simulator.commands == []

@@ -25,11 +25,17 @@ from turtlesim.page_commands import (
 @pytest.mark.parametrize(
     ("message", "command"),
     [
-        ({"type": "drive", "turtle": "turtle1", "linear": 2, "angular": -0.5}, Drive("turtle1", 2.0, -0.5)),
+        (
+            {"type": "drive", "turtle": "turtle1", "linear": 2, "angular": -0.5},
+            Drive("turtle1", 2.0, -0.5),
+        ),
         ({"type": "rotate", "turtle": "turtle1", "theta": 3.1416}, Rotate("turtle1", 3.1416)),
         ({"type": "cancel", "turtle": "turtle1"}, Cancel("turtle1")),
         ({"type": "spawn", "x": 1.5, "y": 2, "theta": 0, "name": ""}, Spawn(1.5, 2.0, 0.0, "")),
-        ({"type": "teleport", "turtle": "t", "x": 1, "y": 2, "theta": 3}, Teleport("t", 1.0, 2.0, 3.0)),
+        (
+            {"type": "teleport", "turtle": "t", "x": 1, "y": 2, "theta": 3},
+            Teleport("t", 1.0, 2.0, 3.0),
+        ),
         ({"type": "kill", "turtle": "t"}, Kill("t")),
         ({"type": "clear"}, Clear()),
         ({"type": "reset"}, Reset()),
@@ -49,7 +55,10 @@ def test_commands(message, command):
         ("", "not JSON"),
         ("{", "not JSON"),
         (b"\xff\xfe\x00", "not JSON"),
-        ("[1]", "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, unwatch"),
+        (
+            "[1]",
+            "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, unwatch",
+        ),
         ('{"type": "explode"}', "type is one of"),
         ('{"type": ["drive"]}', "type is one of"),
         ('{"type": "kill"}', "kill has turtle; got no fields"),

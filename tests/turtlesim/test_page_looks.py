@@ -1,7 +1,7 @@
 """What the page looks like, against pictures and boxes that were looked at; ``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
 
-Pictures are compared after they were made small, boxes with a tolerance; where the page has another font than in the golden pictures,
-only what must be so with any font is looked at.
+Pictures are compared after they were made small, boxes with a tolerance; where the page has another
+font than in the golden pictures, only what must be so with any font is looked at.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import pytest
 
 GOLDEN = Path(__file__).parent.parent / "golden" / "page"
 WRITES = "TURTLEWIRE_WRITE_GOLDEN" in os.environ
-#: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all colour channels in the worst cell.
+#: Two PNG files, both scaled to a width of 200, in cells of 10 x 10 pixels: mean difference of all
+#: colour channels in the worst cell.
 DIFFERENCE_OF_PICTURES = """async (pictures) => {
     const WIDTH = 200, CELL = 10;
     const [a, b] = await Promise.all(pictures.map(async (png) => {
@@ -36,14 +37,16 @@ DIFFERENCE_OF_PICTURES = """async (pictures) => {
     });
     return Math.max(...cells.values());
 }"""
-#: Width of a text in the page's font, plain and bold [pixels], and what it is with DejaVu Sans, which the golden pictures show.
+#: Width of a text in the page's font, plain and bold [pixels], and what it is with DejaVu Sans,
+#: which the golden pictures show.
 FONT_WIDTHS = """() => ['', '600 '].map((weight) => {
     const ctx = document.createElement('canvas').getContext('2d');
     ctx.font = `${weight}100px system-ui, sans-serif`;
     return Math.round(ctx.measureText('turtle1 is 2.16 m ahead').width);
 })"""
 DEJAVU_WIDTHS = [1174, 1317]
-#: 0 on the machine where the pictures were made; with one part of the page missing 15 and more on the phone, 4 to 30 on the desktop.
+#: 0 on the machine where the pictures were made; with one part of the page missing 15 and more on
+#: the phone, 4 to 30 on the desktop.
 WORST_CELL = 6
 PARTS = {
     "h1": "the page's title",
@@ -68,17 +71,24 @@ def difference(page, name: str, picture: bytes) -> float:
     """How far a picture is from the golden one of that name in the worst place, of 255."""
     if WRITES:
         (GOLDEN / name).write_bytes(picture)
-    return page.evaluate(DIFFERENCE_OF_PICTURES, [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())])
+    return page.evaluate(
+        DIFFERENCE_OF_PICTURES,
+        [base64.b64encode(png).decode() for png in (picture, (GOLDEN / name).read_bytes())],
+    )
 
 
 def skip_with_other_fonts(page) -> None:
     widths = page.evaluate(FONT_WIDTHS)
     if widths != DEJAVU_WIDTHS:
-        pytest.skip(f"the golden pictures show DejaVu Sans, which this machine has not or does not prefer (text widths {widths})")
+        pytest.skip(
+            f"the golden pictures show DejaVu Sans, which this machine has not or does not prefer (text widths {widths})"
+        )
 
 
 def pose_is_shown(page, text: str) -> None:
-    page.wait_for_function("(text) => document.querySelector('#roster').textContent.includes(text)", arg=text)
+    page.wait_for_function(
+        "(text) => document.querySelector('#roster').textContent.includes(text)", arg=text
+    )
 
 
 def after_two_frames(page) -> None:
@@ -96,7 +106,9 @@ def scene(simulator):
 
 
 def test_the_picture_is_what_is_seen(scene, open_page):
-    page = open_page(scene.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500})
+    page = open_page(
+        scene.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500}
+    )
     pose_is_shown(page, "9.00")
     after_two_frames(page)
     with page.expect_download() as download:
@@ -144,7 +156,9 @@ def test_long_names_and_many_turtles_fit(simulator, open_page, width):
     assert aside["x"] + aside["width"] <= header["x"] + header["width"]
     assert page.inner_text("#more") == "and 19 more"
     assert page.locator("#tree li[data-kind=stale]").count() == 2
-    red = page.evaluate("getComputedStyle(document.querySelector('#tree li[data-kind=stale] > small')).color")
+    red = page.evaluate(
+        "getComputedStyle(document.querySelector('#tree li[data-kind=stale] > small')).color"
+    )
     assert red == "rgb(194, 51, 77)"
 
 
@@ -157,6 +171,9 @@ def check_boxes(size: str, boxes: dict[str, list[int]]) -> None:
     assert boxes.keys() == golden.keys()
     for part, (left, right, top, bottom) in boxes.items():
         old_left, old_right, old_top, old_bottom = golden[part]
-        assert (left, right) == (pytest.approx(old_left, abs=16), pytest.approx(old_right, abs=16)), PARTS[part]
+        assert (left, right) == (
+            pytest.approx(old_left, abs=16),
+            pytest.approx(old_right, abs=16),
+        ), PARTS[part]
         assert top == pytest.approx(old_top, abs=60), PARTS[part]
         assert bottom - top == pytest.approx(old_bottom - old_top, abs=16), PARTS[part]

@@ -16,12 +16,28 @@ def js(simulator, open_page):
 
 #: Translation, z and w of the rotation, and what is said of them.
 SENTENCES = [
-    ((2.16, 0.9, 0), (0, 1), "turtle1 is 2.16 m ahead and 0.90 m to the left of turtle2, and looks the same way"),
-    ((-1, -2, 0), (0.5**0.5, 0.5**0.5), "turtle1 is 1.00 m behind and 2.00 m to the right of turtle2, and looks 90° further to the left"),
-    ((0, -2, 0), (-(0.5**0.5), 0.5**0.5), "turtle1 is 2.00 m to the right of turtle2, and looks 90° further to the right"),
+    (
+        (2.16, 0.9, 0),
+        (0, 1),
+        "turtle1 is 2.16 m ahead and 0.90 m to the left of turtle2, and looks the same way",
+    ),
+    (
+        (-1, -2, 0),
+        (0.5**0.5, 0.5**0.5),
+        "turtle1 is 1.00 m behind and 2.00 m to the right of turtle2, and looks 90° further to the left",
+    ),
+    (
+        (0, -2, 0),
+        (-(0.5**0.5), 0.5**0.5),
+        "turtle1 is 2.00 m to the right of turtle2, and looks 90° further to the right",
+    ),
     ((-2, 0, 0), (0, 1), "turtle1 is 2.00 m behind turtle2, and looks the same way"),
     ((0, 0.004, 0), (0, -1), "turtle1 is where turtle2 is, and looks the same way"),
-    ((1, 1, 0.5), (0, 1), "turtle1 is 1.00 m ahead, 1.00 m to the left and 0.50 m above turtle2, and looks the same way"),
+    (
+        (1, 1, 0.5),
+        (0, 1),
+        "turtle1 is 1.00 m ahead, 1.00 m to the left and 0.50 m above turtle2, and looks the same way",
+    ),
     ((1, None, 0), (0, 1), "turtle1 is not at a finite place as turtle2 sees it"),
 ]
 
@@ -57,7 +73,9 @@ PLAYBACK = """
 def test_the_display_goes_smoothly_between_frames(js, ticks):
     """At any display's rate, when frames come up to 12 ms late and not for each tick: 2 m/s are 2 mm a millisecond."""
     for display in (1000 / 30, 1000 / 60, 1000 / 144):
-        seen = js(PLAYBACK, {"display": display, "late": [0, 7, 2, 12, 1], "jump": 1000, "ticks": ticks})
+        seen = js(
+            PLAYBACK, {"display": display, "late": [0, 7, 2, 12, 1], "jump": 1000, "ticks": ticks}
+        )
         steps = [b - a for a, b in itertools.pairwise(seen[len(seen) // 4 :])]
         assert len(steps) > 40
         assert min(steps) >= 0.5 * 0.002 * display
@@ -66,7 +84,9 @@ def test_the_display_goes_smoothly_between_frames(js, ticks):
 
 def test_a_teleport_is_no_movement(js):
     seen = js(PLAYBACK, {"display": 4, "late": [0], "jump": 60, "ticks": 1})
-    assert max(b - a for a, b in itertools.pairwise(seen)) > 5  # at once: it is seen nowhere in between
+    assert (
+        max(b - a for a, b in itertools.pairwise(seen)) > 5
+    )  # at once: it is seen nowhere in between
     assert not [x for x in seen if 2.2 < x < 6.5]
 
 
@@ -88,7 +108,9 @@ def test_the_camera_comes_to_rest_on_its_turtle_and_never_shows_what_is_beyond(j
         """
     )
     # the ground is 1250 pixels wide, the canvas 500
-    assert places == [pytest.approx(place, abs=1) for place in [(375, 375), (750, 375), (750, 0), (0, 0)]]
+    assert places == [
+        pytest.approx(place, abs=1) for place in [(375, 375), (750, 375), (750, 0), (0, 0)]
+    ]
 
 
 def test_the_drawing_forgets_its_oldest_half_when_it_is_full(js):

@@ -15,7 +15,9 @@ from turtlesim.path_bulk import as_arrays, draw_short_lines
 
 positions = st.floats(-4.0, 504.0)
 short = st.floats(-3.0, 3.0) | st.just(0.0)
-pens = st.builds(Pen, st.integers(0, 255), st.integers(0, 255), st.integers(0, 255), st.integers(1, 4))
+pens = st.builds(
+    Pen, st.integers(0, 255), st.integers(0, 255), st.integers(0, 255), st.integers(1, 4)
+)
 
 
 @st.composite
@@ -51,7 +53,10 @@ def test_lines_in_arrays_are_drawn_after_what_waits(long):
 def test_long_strokes_are_left_to_the_slow_way():
     picture = bytearray(PathImage().rgba())
     before = bytes(picture)
-    assert not draw_short_lines(picture, *as_arrays([Stroke(10, 10, 12, 10, DEFAULT_PEN), Stroke(10, 10, 300, 10, DEFAULT_PEN)]))
+    assert not draw_short_lines(
+        picture,
+        *as_arrays([Stroke(10, 10, 12, 10, DEFAULT_PEN), Stroke(10, 10, 300, 10, DEFAULT_PEN)]),
+    )
     assert bytes(picture) == before
 
 
@@ -99,4 +104,9 @@ for tick in range(60):
 path.colour_at(250, 250)
 print("numpy" in sys.modules)
 """
-    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "False\n"
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], check=True, capture_output=True, text=True
+        ).stdout
+        == "False\n"
+    )

@@ -25,7 +25,12 @@ SPEED = 5.0
 
 def start(code: list[str], *parameters: str) -> subprocess.Popen:
     arguments = [part for parameter in parameters for part in ("-p", parameter)]
-    return subprocess.Popen([sys.executable, *code, "--ros-args", *arguments], cwd=EXERCISE, stderr=subprocess.PIPE, env=os.environ)
+    return subprocess.Popen(
+        [sys.executable, *code, "--ros-args", *arguments],
+        cwd=EXERCISE,
+        stderr=subprocess.PIPE,
+        env=os.environ,
+    )
 
 
 @pytest.fixture
@@ -52,9 +57,16 @@ def test_the_chase_ends_where_it_does_in_lock_step(chase):
     executor.add_node(node)
     poses: dict[str, Pose] = {}
     clock: list[float] = []
-    node.create_subscription(Clock, "/clock", lambda message: clock.append(message.clock.sec + message.clock.nanosec / 1e9), 1)
+    node.create_subscription(
+        Clock,
+        "/clock",
+        lambda message: clock.append(message.clock.sec + message.clock.nanosec / 1e9),
+        1,
+    )
     for name in ("turtle1", "turtle2"):
-        node.create_subscription(Pose, f"/{name}/pose", lambda pose, name=name: poses.__setitem__(name, pose), 1)
+        node.create_subscription(
+            Pose, f"/{name}/pose", lambda pose, name=name: poses.__setitem__(name, pose), 1
+        )
     spawner = node.create_client(Spawn, "/spawn")
     assert spawner.wait_for_service(timeout_sec=30)
     spawner.call_async(Spawn.Request(x=4.0, y=2.0, theta=0.0, name="turtle2"))
@@ -68,7 +80,10 @@ def test_the_chase_ends_where_it_does_in_lock_step(chase):
     spin_until(lambda: "turtle2" in poses and poses["turtle2"].linear_velocity > 0.0 and clock)
     start_clock = clock[-1]
     spin_until(lambda: clock[-1] >= start_clock + 12.0)
-    away = ((poses["turtle1"].x - poses["turtle2"].x) ** 2 + (poses["turtle1"].y - poses["turtle2"].y) ** 2) ** 0.5
+    away = (
+        (poses["turtle1"].x - poses["turtle2"].x) ** 2
+        + (poses["turtle1"].y - poses["turtle2"].y) ** 2
+    ) ** 0.5
     assert away < 0.1  # lock-step ends at 0.01 m; 0.1 m is the tolerance for processes
     node.destroy_node()
     executor.shutdown()

@@ -176,7 +176,11 @@ def test_the_exercise_passes_and_a_wrong_solution_fails(tmp_path):
     wrong = tmp_path / "wrong"
     shutil.copytree(EXERCISE, wrong)
     source = (wrong / "follower.py").read_text()
-    (wrong / "follower.py").write_text(source.replace('lookup_transform("turtle2", "turtle1"', 'lookup_transform("turtle1", "turtle2"'))
+    (wrong / "follower.py").write_text(
+        source.replace(
+            'lookup_transform("turtle2", "turtle1"', 'lookup_transform("turtle1", "turtle2"'
+        )
+    )
     code, output = grade(wrong)
     assert code == 1
     assert "failed" in output

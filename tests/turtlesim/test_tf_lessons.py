@@ -52,7 +52,9 @@ def test_turtle2_goes_where_turtle1_was(simulation):
         simulation.drive("turtle1", linear=1.5)
         simulation.run(1.0)
     still = simulation.pose("turtle2")
-    assert (still.x, still.y) == pytest.approx((there.x, there.y), abs=0.1)  # it follows five seconds behind
+    assert (still.x, still.y) == pytest.approx(
+        (there.x, there.y), abs=0.1
+    )  # it follows five seconds behind
     simulation.run(10.0)
     assert simulation.distance("turtle1", "turtle2") < 0.3
 
@@ -61,7 +63,9 @@ def test_turtle2_is_driven_by_transforms_that_are_awaited(simulation):
     listener = simulation.start(AsyncListener)
     asked = []
     wait = listener.tf_buffer.wait_for_transform_async
-    listener.tf_buffer.wait_for_transform_async = lambda *args: asked.append(answer := wait(*args)) or answer
+    listener.tf_buffer.wait_for_transform_async = lambda *args: (
+        asked.append(answer := wait(*args)) or answer
+    )
     simulation.run(20.0)
     assert simulation.distance("turtle1", "turtle2") < 0.1
     assert len(asked) > 150

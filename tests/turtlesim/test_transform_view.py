@@ -30,12 +30,23 @@ class Broadcaster:
         self._tf = node.create_publisher(listener.TOPIC, type_id, listener.QOS)
         self._static = node.create_publisher(listener.STATIC_TOPIC, type_id, listener.STATIC_QOS)
 
-    def send(self, parent: str, child: str, stamp_s: int, x: float = 0.0, y: float = 0.0, *, static: bool = False) -> None:
+    def send(
+        self,
+        parent: str,
+        child: str,
+        stamp_s: int,
+        x: float = 0.0,
+        y: float = 0.0,
+        *,
+        static: bool = False,
+    ) -> None:
         transform = TransformStamped(child_frame_id=child)
         transform.header.frame_id = parent
         transform.header.stamp.sec = stamp_s
         transform.transform.translation.x, transform.transform.translation.y = x, y
-        (self._static if static else self._tf).publish(msg.serialize(TFMessage(transforms=[transform])))
+        (self._static if static else self._tf).publish(
+            msg.serialize(TFMessage(transforms=[transform]))
+        )
 
 
 @pytest.fixture
@@ -66,7 +77,10 @@ def test_frames_with_rate_age_and_kind(view, broadcaster):
     carrot, turtle1 = view.frames()
     assert carrot == Frame("carrot", "turtle1", None, None)
     assert (turtle1.parent, turtle1.rate) == ("world", pytest.approx(1.5, abs=0.51))
-    assert view.relation("world", "carrot") == {"translation": [102.0, 2.0, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0]}
+    assert view.relation("world", "carrot") == {
+        "translation": [102.0, 2.0, 0.0],
+        "rotation": [0.0, 0.0, 0.0, 1.0],
+    }
 
 
 def test_errors_are_those_of_tf2(view, broadcaster):
@@ -75,14 +89,21 @@ def test_errors_are_those_of_tf2(view, broadcaster):
     wait_until(view.frames)
     relation = view.relation("world", "turtle2")
     assert relation.keys() == {"error", "hint"}
-    assert relation["error"] == '"turtle2" passed to lookupTransform argument source_frame does not exist. '
+    assert (
+        relation["error"]
+        == '"turtle2" passed to lookupTransform argument source_frame does not exist. '
+    )
 
 
 def test_what_is_not_finite_is_told_as_nothing(view, broadcaster):
     view.join()
     broadcaster.send("world", "far", 100, x=float("inf"))
     wait_until(view.frames)
-    assert view.relation("world", "far")["translation"] == [None, None, None]  # infinity times zero is no number either
+    assert view.relation("world", "far")["translation"] == [
+        None,
+        None,
+        None,
+    ]  # infinity times zero is no number either
 
 
 def test_it_listens_only_while_somebody_looks(context, view, broadcaster):

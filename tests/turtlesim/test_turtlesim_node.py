@@ -97,7 +97,9 @@ def twist(linear: float = 0.0, angular: float = 0.0, lateral: float = 0.0) -> Tw
 
 def lines(capfd) -> list[str]:
     """What was logged since the last look, level and text."""
-    matches = re.findall(r"^(\[[A-Z]+\]) \[[0-9.]+\] \[[a-z0-9.]+\]: (.*)$", capfd.readouterr().err, re.MULTILINE)
+    matches = re.findall(
+        r"^(\[[A-Z]+\]) \[[0-9.]+\] \[[a-z0-9.]+\]: (.*)$", capfd.readouterr().err, re.MULTILINE
+    )
     return [f"{level} {text}" for level, text in matches]
 
 
@@ -105,7 +107,9 @@ def test_the_graph_is_that_of_the_original(world):
     topics = dict(world.user.get_publisher_names_and_types_by_node("turtlesim", "/"))
     assert topics["/turtle1/pose"] == ["turtlesim/msg/Pose"]
     assert topics["/turtle1/color_sensor"] == ["turtlesim/msg/Color"]
-    assert dict(world.user.get_subscriber_names_and_types_by_node("turtlesim", "/"))["/turtle1/cmd_vel"] == ["geometry_msgs/msg/Twist"]
+    assert dict(world.user.get_subscriber_names_and_types_by_node("turtlesim", "/"))[
+        "/turtle1/cmd_vel"
+    ] == ["geometry_msgs/msg/Twist"]
     services = dict(world.user.get_service_names_and_types_by_node("turtlesim", "/"))
     expected = {
         "/clear": "std_srvs/srv/Empty",
@@ -116,20 +120,32 @@ def test_the_graph_is_that_of_the_original(world):
         "/turtle1/teleport_absolute": "turtlesim/srv/TeleportAbsolute",
         "/turtle1/teleport_relative": "turtlesim/srv/TeleportRelative",
     }
-    assert {name: types[0] for name, types in services.items() if not re.search("_parameter|type_desc|_action/", name)} == expected
+    assert {
+        name: types[0]
+        for name, types in services.items()
+        if not re.search("_parameter|type_desc|_action/", name)
+    } == expected
     assert get_action_server_names_and_types_by_node(world.user, "turtlesim", "/") == [
         ("/turtle1/rotate_absolute", ["turtlesim/action/RotateAbsolute"])
     ]
     (info,) = world.user.get_publishers_info_by_topic("/turtle1/pose")
-    assert (info.qos_profile.depth, info.qos_profile.reliability.name, info.qos_profile.durability.name) == (7, "RELIABLE", "VOLATILE")
+    assert (
+        info.qos_profile.depth,
+        info.qos_profile.reliability.name,
+        info.qos_profile.durability.name,
+    ) == (7, "RELIABLE", "VOLATILE")
 
 
 def test_poses_come_at_the_original_rate(world):
     start = time.monotonic()
     poses = world.listen(Pose, "/turtle1/pose")
     world.spin_until(lambda: len(poses) >= 62)
-    assert time.monotonic() - start > 0.9  # 61 ticks of 16 ms; a busy machine skips some, and never catches up by hurrying
-    assert poses[0] == Pose(x=MIDDLE, y=MIDDLE, theta=0.0, linear_velocity=0.0, angular_velocity=0.0)
+    assert (
+        time.monotonic() - start > 0.9
+    )  # 61 ticks of 16 ms; a busy machine skips some, and never catches up by hurrying
+    assert poses[0] == Pose(
+        x=MIDDLE, y=MIDDLE, theta=0.0, linear_velocity=0.0, angular_velocity=0.0
+    )
 
 
 def test_a_velocity_command_lasts_a_second(world):
@@ -156,7 +172,10 @@ def test_what_is_not_finite_is_ignored_with_one_line(world, capfd):
     assert (poses[-1].x, poses[-1].theta, poses[-1].linear_velocity) == (MIDDLE, 0.0, 0.0)
     logged = sorted(lines(capfd), reverse=True)
     assert [line[:7] for line in logged] == ["[WARN] "] * 3 + ["[ERROR]"] * 2
-    assert logged[0] == "[WARN] Ignored a velocity command for [turtle1] that is not finite: x=nan, y=0.0, angular z=0.0"
+    assert (
+        logged[0]
+        == "[WARN] Ignored a velocity command for [turtle1] that is not finite: x=nan, y=0.0, angular z=0.0"
+    )
 
 
 def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
@@ -187,7 +206,11 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
         "[INFO] Resetting turtlesim.",
         "[INFO] Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
     ]
-    assert {name for name, _ in world.user.get_topic_names_and_types() if "turtle" in name and "/_action/" not in name} == {
+    assert {
+        name
+        for name, _ in world.user.get_topic_names_and_types()
+        if "turtle" in name and "/_action/" not in name
+    } == {
         "/turtle1/cmd_vel",
         "/turtle1/color_sensor",
         "/turtle1/pose",
@@ -200,7 +223,9 @@ def test_a_crowd_says_why_it_takes_time_to_leave(make_world, monkeypatch, capfd)
     world.sim.spawn(1.0, 1.0, 0.0, "turtle2")
     lines(capfd)
     rclpy.try_shutdown()
-    assert lines(capfd) == ["[INFO] Taking 2 turtles off the graph, which takes the middleware a few seconds"]
+    assert lines(capfd) == [
+        "[INFO] Taking 2 turtles off the graph, which takes the middleware a few seconds"
+    ]
 
 
 def test_a_wrong_port_is_said_before_anything_is_announced(monkeypatch, capfd):
@@ -278,7 +303,9 @@ def test_the_page_shows_the_background_live(make_world, monkeypatch):
         def look() -> bool:
             with contextlib.suppress(TimeoutError):
                 while True:
-                    scenes.extend(message for message in [page.recv(timeout=0)] if isinstance(message, str))
+                    scenes.extend(
+                        message for message in [page.recv(timeout=0)] if isinstance(message, str)
+                    )
             return bool(scenes)
 
         world.spin_until(look)
@@ -347,11 +374,21 @@ def test_mimic_does_what_the_other_does(world):
     from turtlesim.mimic import MimicNode
 
     world.call(Spawn, "/spawn", x=2.0, y=2.0, name="follower")
-    mimic = MimicNode(cli_args=["--ros-args", "-r", "input/pose:=/turtle1/pose", "-r", "output/cmd_vel:=/follower/cmd_vel"])
+    mimic = MimicNode(
+        cli_args=[
+            "--ros-args",
+            "-r",
+            "input/pose:=/turtle1/pose",
+            "-r",
+            "output/cmd_vel:=/follower/cmd_vel",
+        ]
+    )
     world.executor.add_node(mimic)
     poses = world.listen(Pose, "/follower/pose")
     world.talk("/turtle1/cmd_vel").publish(twist(1.0, 0.5))
-    world.spin_until(lambda: poses and (poses[-1].linear_velocity, poses[-1].angular_velocity) == (1.0, 0.5))
+    world.spin_until(
+        lambda: poses and (poses[-1].linear_velocity, poses[-1].angular_velocity) == (1.0, 0.5)
+    )
     mimic.destroy_node()
 
 
@@ -365,8 +402,14 @@ class TestRotateAbsolute:
 
     def send(self, world, client, theta: float, feedback: list | None = None):
         """The accepted goal's handle."""
-        callback = None if feedback is None else lambda message: feedback.append(message.feedback.remaining)
-        future = client.send_goal_async(RotateAbsolute.Goal(theta=theta), feedback_callback=callback)
+        callback = (
+            None
+            if feedback is None
+            else lambda message: feedback.append(message.feedback.remaining)
+        )
+        future = client.send_goal_async(
+            RotateAbsolute.Goal(theta=theta), feedback_callback=callback
+        )
         world.spin_until(future.done)
         return future.result()
 
@@ -396,14 +439,20 @@ class TestRotateAbsolute:
         status, delta = self.result(world, handle)
         assert status == GoalStatus.STATUS_ABORTED
         assert delta < -0.05
-        assert lines(capfd)[-1] == "[WARN] Velocity command received during rotation goal. Aborting goal"
+        assert (
+            lines(capfd)[-1]
+            == "[WARN] Velocity command received during rotation goal. Aborting goal"
+        )
 
     def test_a_new_goal_aborts_the_old_one(self, world, client, capfd):
         first = self.send(world, client, 3.0)
         second = self.send(world, client, 0.1)
         assert self.result(world, first)[0] == GoalStatus.STATUS_ABORTED
         assert self.result(world, second)[0] == GoalStatus.STATUS_SUCCEEDED
-        assert "[WARN] Rotation goal received before a previous goal finished. Aborting previous goal" in lines(capfd)
+        assert (
+            "[WARN] Rotation goal received before a previous goal finished. Aborting previous goal"
+            in lines(capfd)
+        )
 
     def test_cancel(self, world, client, capfd):
         feedback: list[float] = []

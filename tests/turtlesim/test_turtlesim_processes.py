@@ -23,7 +23,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from turtlesim.msg import Pose
 
-TELEOP = json.loads((Path(__file__).parent.parent / "golden" / "tutorial" / "teleop.json").read_text())
+TELEOP = json.loads(
+    (Path(__file__).parent.parent / "golden" / "tutorial" / "teleop.json").read_text()
+)
 HEADINGS = set("gtredcvb")
 LINE = re.compile(r"\[(INFO|WARN|ERROR)\] \[\d+\.\d{9}\] \[[a-z0-9_.]+\]: (.*)")
 
@@ -31,7 +33,9 @@ LINE = re.compile(r"\[(INFO|WARN|ERROR)\] \[\d+\.\d{9}\] \[[a-z0-9_.]+\]: (.*)")
 class Process:
     """A program of ours, with what it printed."""
 
-    def __init__(self, module: str, *args: str, stdin: int = subprocess.DEVNULL, **env: str) -> None:
+    def __init__(
+        self, module: str, *args: str, stdin: int = subprocess.DEVNULL, **env: str
+    ) -> None:
         self.popen = subprocess.Popen(
             [sys.executable, "-m", module, *args],
             stdin=stdin,
@@ -143,11 +147,17 @@ def test_the_page_drives_the_turtle_on_its_topic(ear):
         ear.spin_until(lambda: poses)
         with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
             for _ in range(2):
-                browser.send('{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}')
+                browser.send(
+                    '{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}'
+                )
                 ear.spin_until(lambda: poses[-1].linear_velocity == 2.0)
                 ear.spin_until(lambda: poses[-1].linear_velocity == 0.0)
-        assert 6.0 < poses[-1].x < 9.7  # two commands of a second at 2 m/s, less the ticks that a busy machine skipped
-        assert [command.linear.x for command in commands][-1] == 2.0  # the first may be older than the match with this node
+        assert (
+            6.0 < poses[-1].x < 9.7
+        )  # two commands of a second at 2 m/s, less the ticks that a busy machine skipped
+        assert [command.linear.x for command in commands][
+            -1
+        ] == 2.0  # the first may be older than the match with this node
     finally:
         assert simulator.interrupt() == 0
 
@@ -172,7 +182,9 @@ def test_the_page_rotates_the_turtle_by_its_action(ear):
             browser.send('{"type": "reset"}')
             simulator.wait_for("Resetting turtlesim")
             browser.send('{"type": "rotate", "turtle": "turtle1", "theta": -0.2}')
-            simulator.wait_for(r"Rotation goal completed successfully(?s:.*)Rotation goal completed successfully")
+            simulator.wait_for(
+                r"Rotation goal completed successfully(?s:.*)Rotation goal completed successfully"
+            )
     finally:
         assert simulator.interrupt() == 0
     assert "Traceback" not in simulator.output
@@ -193,7 +205,13 @@ class Terminal:
     def __init__(self, code: str = TELEOP_MAIN) -> None:
         self.master, slave = pty.openpty()
         self.before = termios.tcgetattr(self.master)
-        self.popen = subprocess.Popen([sys.executable, "-c", code], stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
+        self.popen = subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            start_new_session=True,
+        )
         self._slave = slave
         self.output = ""
 
@@ -226,7 +244,12 @@ def test_teleop_does_what_the_original_did(ear, terminal):
     assert termios.tcgetattr(terminal.master)[3] & (termios.ICANON | termios.ECHO) == 0
     ear.spin_until(lambda: ear.node.count_publishers("/turtle1/cmd_vel"))
     ear.spin_until(lambda: poses)
-    ear.spin_until(lambda: any(info.node_name == "teleop_turtle" for info in ear.node.get_publishers_info_by_topic("/turtle1/cmd_vel")))
+    ear.spin_until(
+        lambda: any(
+            info.node_name == "teleop_turtle"
+            for info in ear.node.get_publishers_info_by_topic("/turtle1/cmd_vel")
+        )
+    )
     headings = 0
     for event in events:
         os.write(terminal.master, bytes.fromhex(event["sent"]))
@@ -237,7 +260,10 @@ def test_teleop_does_what_the_original_did(ear, terminal):
             simulator.wait_for(headings * r"(?s:.*)Rotation goal completed successfully")
             ear.spin_until(lambda theta=event["theta_after"]: abs(poses[-1].theta - theta) < 0.04)
     assert terminal.popen.wait(20) == TELEOP["exit_code_after_q"] == 0
-    got = [[m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z] for m in commands]
+    got = [
+        [m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z]
+        for m in commands
+    ]
     expected = [command for event in events for command in event["cmd_vel"]]
     assert (len(events), len(expected), headings) == (17, 5, 8)
     assert got == expected
@@ -290,7 +316,9 @@ def test_teleop_with_a_pipe_as_its_input_takes_the_terminal_and_puts_it_back(run
 
 
 def test_teleop_in_the_background_leaves_the_terminal_alone(run):
-    teleop = run("bash", "-c", f"set -m; {TELEOP_WITH_A_PIPE} & wait $!; echo status $?", terminal=True)
+    teleop = run(
+        "bash", "-c", f"set -m; {TELEOP_WITH_A_PIPE} & wait $!; echo status $?", terminal=True
+    )
     assert teleop.wait() == 0
     assert "Failed to get old console mode" in teleop.text
     assert "status 1" in teleop.text

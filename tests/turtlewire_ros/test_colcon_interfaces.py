@@ -15,10 +15,14 @@ PREFIX = Path(sys.prefix)
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(
-        importlib.util.find_spec("colcon_core") is None or importlib.util.find_spec("colcon_ros") is None,
+        importlib.util.find_spec("colcon_core") is None
+        or importlib.util.find_spec("colcon_ros") is None,
         reason="needs colcon: pip install 'turtlewire-ros[workspace]'",
     ),
-    pytest.mark.skipif(not (PREFIX / "setup.bash").is_file(), reason="needs the installed distribution, with its setup.bash"),
+    pytest.mark.skipif(
+        not (PREFIX / "setup.bash").is_file(),
+        reason="needs the installed distribution, with its setup.bash",
+    ),
 ]
 
 PACKAGE_XML = """<?xml version="1.0"?>
@@ -88,9 +92,15 @@ def workspace(tmp_path):
 
 
 def run_in(workspace: Path, script: str) -> subprocess.CompletedProcess[str]:
-    environment = {"HOME": str(workspace / "home"), "PATH": "/usr/bin:/bin", "ROS_DOMAIN_ID": os.environ["ROS_DOMAIN_ID"]}
+    environment = {
+        "HOME": str(workspace / "home"),
+        "PATH": "/usr/bin:/bin",
+        "ROS_DOMAIN_ID": os.environ["ROS_DOMAIN_ID"],
+    }
     command = ["bash", "-c", script.format(prefix=PREFIX)]
-    return subprocess.run(command, cwd=workspace, env=environment, capture_output=True, text=True, check=False)
+    return subprocess.run(
+        command, cwd=workspace, env=environment, capture_output=True, text=True, check=False
+    )
 
 
 def test_built_sourced_used(workspace):
@@ -119,9 +129,14 @@ def test_built_sourced_used(workspace):
 
 def test_a_mistake_in_a_definition_fails_the_build_with_its_line(workspace):
     (workspace / "src/my_interfaces/msg/Sphere.msg").write_text("floot64 radius\n")
-    done = run_in(workspace, "source {prefix}/setup.bash; colcon build --packages-select my_interfaces")
+    done = run_in(
+        workspace, "source {prefix}/setup.bash; colcon build --packages-select my_interfaces"
+    )
     assert done.returncode == 1
-    assert "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'" in done.stderr
+    assert (
+        "my_interfaces/msg/Sphere, line 1: 'floot64' is not a type in 'floot64 radius'"
+        in done.stderr
+    )
 
 
 def test_packages_with_code_stay_with_colcon_ros(workspace):
@@ -138,4 +153,7 @@ def test_a_broken_manifest_is_named_with_its_line(workspace):
     manifest = workspace / "src/my_interfaces/package.xml"
     manifest.write_text(manifest.read_text().replace("</depend>", "</depend><br>"))
     done = run_in(workspace, "source {prefix}/setup.bash; colcon list")
-    assert "src/my_interfaces/package.xml:10: <br> is never closed; remove it, or add </br>" in done.stderr
+    assert (
+        "src/my_interfaces/package.xml:10: <br> is never closed; remove it, or add </br>"
+        in done.stderr
+    )

@@ -12,9 +12,18 @@ from turtlewire_ros.guard import foreign_package
 
 
 def ros2(*words, path=""):
-    program = "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"
+    program = (
+        "import sys; from turtlewire_ros.guard import main; sys.argv[0] = 'ros2'; sys.exit(main())"
+    )
     environment = {**os.environ, "PYTHONPATH": path}
-    done = subprocess.run([sys.executable, "-c", program, *words], env=environment, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", program, *words],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
     return done.returncode, done.stdout, done.stderr
 
 

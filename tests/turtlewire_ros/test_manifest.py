@@ -12,11 +12,20 @@ from turtlewire_ros.manifest import manifest_fault
     ("text", "fault"),
     [
         ("<package>\n<name>p</name>\n</package>\n", None),
-        ("<package>\n<name>p</name><br>\n<version>0</version>\n</package>\n", ":2: <br> is never closed; remove it, or add </br>"),
-        ("<package>\n<name>p</name>\n", ":1: <package> is never closed; remove it, or add </package>"),
+        (
+            "<package>\n<name>p</name><br>\n<version>0</version>\n</package>\n",
+            ":2: <br> is never closed; remove it, or add </br>",
+        ),
+        (
+            "<package>\n<name>p</name>\n",
+            ":1: <package> is never closed; remove it, or add </package>",
+        ),
         ("<package>\n<name>a & b</name>\n</package>\n", ":2: not well-formed (invalid token)"),
         ("", ":1: no element found"),
-        ('<!DOCTYPE p [\n<!ENTITY a "b">]>\n<p/>', ":2: the declaration of the entity 'a' is not allowed here"),
+        (
+            '<!DOCTYPE p [\n<!ENTITY a "b">]>\n<p/>',
+            ":2: the declaration of the entity 'a' is not allowed here",
+        ),
         ('<?xml version="1.0" encoding="nope"?>\n<p/>', ":1: unknown encoding: nope"),
     ],
 )
@@ -34,4 +43,7 @@ def test_ros2_pkg_xml_says_so_in_one_line(tmp_path, monkeypatch, capsys):
     manifest.write_text("<package>\n<name>broken</name><br>\n</package>\n")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     assert main(["pkg", "xml", "broken", "--tag", "name"]) == 1
-    assert capsys.readouterr() == ("", f"{manifest}:2: <br> is never closed; remove it, or add </br>\n")
+    assert capsys.readouterr() == (
+        "",
+        f"{manifest}:2: <br> is never closed; remove it, or add </br>\n",
+    )

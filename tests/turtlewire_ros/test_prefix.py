@@ -24,7 +24,10 @@ def workspace(tmp_path, monkeypatch):
         (index / package).touch()
         (root / "lib" / package).mkdir(parents=True)
         (root / "share" / package).mkdir()
-    monkeypatch.setenv("AMENT_PREFIX_PATH", os.pathsep.join([str(tmp_path / "a"), str(tmp_path / "nowhere"), str(tmp_path / "b")]))
+    monkeypatch.setenv(
+        "AMENT_PREFIX_PATH",
+        os.pathsep.join([str(tmp_path / "a"), str(tmp_path / "nowhere"), str(tmp_path / "b")]),
+    )
     return tmp_path
 
 
@@ -39,7 +42,10 @@ def test_packages_of_prefixes(workspace):
     assert prefix.share_directory("a") == str(workspace / "a" / "share" / "a")
     assert prefix.package_prefix("nope_pkg_x") is None
     assert prefix.share_directory("nope_pkg_x") is None
-    assert prefix.package_names().items() >= {"a": str(workspace / "a"), "b": str(workspace / "b")}.items()
+    assert (
+        prefix.package_names().items()
+        >= {"a": str(workspace / "a"), "b": str(workspace / "b")}.items()
+    )
 
 
 def test_the_first_of_equal_packages_counts(workspace):
@@ -50,13 +56,21 @@ def test_the_first_of_equal_packages_counts(workspace):
 
 def test_executables_are_files_that_can_be_run(workspace):
     library = workspace / "a" / "lib" / "a"
-    for name, text, mode in (("node", "#!/bin/sh\n", 0o755), ("script", "#!/usr/bin/python3\n", 0o644), ("data.txt", "x", 0o644)):
+    for name, text, mode in (
+        ("node", "#!/bin/sh\n", 0o755),
+        ("script", "#!/usr/bin/python3\n", 0o644),
+        ("data.txt", "x", 0o644),
+    ):
         (library / name).write_text(text)
         (library / name).chmod(mode)
     (library / "nested").mkdir()
     (library / "nested" / "deep").write_text("#!/bin/sh\n")
     (library / "nested" / "deep").chmod(0o755)
-    assert executable_paths("a") == [str(library / "nested/deep"), str(library / "node"), str(library / "script")]
+    assert executable_paths("a") == [
+        str(library / "nested/deep"),
+        str(library / "node"),
+        str(library / "script"),
+    ]
     assert executable_paths("b") == []
     assert executable_paths("nope_pkg_x") is None
 
@@ -84,7 +98,9 @@ def test_an_editable_package_has_its_data_in_its_source(tmp_path, monkeypatch):
     source = tmp_path / "my src"
     source.mkdir()
     (source / "package.xml").touch()
-    make_distribution(tmp_path / "site", direct_url={"url": source.as_uri(), "dir_info": {"editable": True}})
+    make_distribution(
+        tmp_path / "site", direct_url={"url": source.as_uri(), "dir_info": {"editable": True}}
+    )
     monkeypatch.syspath_prepend(str(tmp_path / "site"))
     assert prefix.package_prefix("pip_pkg") == str(source)
     assert prefix.share_directory("pip_pkg") == str(source)

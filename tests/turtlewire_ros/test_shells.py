@@ -29,7 +29,14 @@ def prefix(tmp_path):
 
 def fish(home, script, *options, **variables):
     environment = {"HOME": str(home / "home"), "PATH": "/usr/bin:/bin", **variables}
-    done = subprocess.run(["fish", *options, "-c", script], env=environment, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(
+        ["fish", *options, "-c", script],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
     assert done.stderr == ""
     return done.stdout.splitlines()
 
@@ -37,7 +44,14 @@ def fish(home, script, *options, **variables):
 @needs_fish
 @pytest.mark.parametrize("name", ["setup.fish", "local_setup.fish"])
 def test_the_environment_is_set_once(prefix, name):
-    names = ("AMENT_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_HOME", "ROS_LOG_DIR")
+    names = (
+        "AMENT_PREFIX_PATH",
+        "ROS_DISTRO",
+        "ROS_VERSION",
+        "ROS_PYTHON_VERSION",
+        "ROS_HOME",
+        "ROS_LOG_DIR",
+    )
     script = f"source {prefix}/{name}; source {prefix}/{name}; printenv {'; printenv '.join(names)}"
     home, logs = f"{prefix}/share/turtlewire/ros_home", f"{prefix}/home/.ros/log"
     assert fish(prefix, script) == [str(prefix), "jazzy", "2", "3", home, logs]
@@ -62,10 +76,14 @@ def graph():
     transform.header.frame_id = "world"
     context = open_context()
     node = context.create_node("some_node_x")
-    node.create_publisher("/some/topic_x", TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String")), QoS())
+    node.create_publisher(
+        "/some/topic_x", TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String")), QoS()
+    )
     tf = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
     latched = node.create_publisher("/tf_static", tf, QoS(durability=Durability.TRANSIENT_LOCAL))
-    latched.publish(msg.serialize(msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[transform])))
+    latched.publish(
+        msg.serialize(msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[transform]))
+    )
     yield
     context.close()
 
@@ -77,7 +95,9 @@ def test_tab_completes_words_topics_nodes_and_frames(prefix, run, shell):
         pytest.skip(f"needs {shell}")
     ros2 = prefix / "bin/ros2"
     ros2.parent.mkdir()
-    ros2.write_text(f"#!{sys.executable}\n# PYTHON_ARGCOMPLETE_OK\nimport sys\nfrom ros2cli.main import main\nsys.exit(main())\n")
+    ros2.write_text(
+        f"#!{sys.executable}\n# PYTHON_ARGCOMPLETE_OK\nimport sys\nfrom ros2cli.main import main\nsys.exit(main())\n"
+    )
     ros2.chmod(0o755)
     path = os.pathsep.join((str(ros2.parent), str(Path(sys.executable).parent), "/usr/bin", "/bin"))
     environment = {"HOME": str(prefix), "PATH": path, "TERM": "xterm", "PS1": "> "}

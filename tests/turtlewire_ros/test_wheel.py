@@ -20,7 +20,9 @@ DATA = "turtlewire_ros-0.1.0.data/data/"
 def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     build = "import sys, hatchling.build as b; b.build_wheel(sys.argv[1])"
-    subprocess.run([sys.executable, "-c", build, str(folder)], cwd=ROS, check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, "-c", build, str(folder)], cwd=ROS, check=True, capture_output=True
+    )
     (path,) = folder.glob("*.whl")
     with zipfile.ZipFile(path) as archive:
         yield archive
@@ -28,7 +30,8 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def packages():
-    return sorted(path.parent.name for path in ROS.glob("*/__init__.py"))
+    inits = [*ROS.glob("*/__init__.py"), *ROS.glob("interfaces/*/__init__.py")]
+    return sorted(path.parent.name for path in inits)
 
 
 def test_every_package_has_its_marks(wheel, packages):
@@ -45,7 +48,9 @@ def test_every_package_has_its_marks(wheel, packages):
 
 def test_nothing_but_packages_lies_beside_them(wheel):
     tops = {name.split("/")[0] for name in wheel.namelist()}
-    assert {top for top in tops if "." in top and not top.startswith("turtlewire_ros-0.1.0.")} == set()
+    assert {
+        top for top in tops if "." in top and not top.startswith("turtlewire_ros-0.1.0.")
+    } == set()
 
 
 def test_executables_are_scripts_that_can_be_run(wheel):
@@ -72,8 +77,14 @@ def test_shell_files_set_the_environment_once(wheel, tmp_path, name):
     show = 'echo "$AMENT_PREFIX_PATH|$ROS_DISTRO|$ROS_VERSION|$ROS_PYTHON_VERSION|$ROS_HOME|$ROS_LOG_DIR"'
     shell = "bash" if name.endswith("bash") else "sh"
     script = f"set -eu; . {tmp_path}/{name}; . {tmp_path}/{name}; {show}"
-    environment = {"HOME": str(tmp_path / "home"), "PATH": "/usr/bin:/bin", "TURTLEWIRE_PREFIX": str(tmp_path)}
-    result = subprocess.run([shell, "-c", script], capture_output=True, text=True, check=True, env=environment)
+    environment = {
+        "HOME": str(tmp_path / "home"),
+        "PATH": "/usr/bin:/bin",
+        "TURTLEWIRE_PREFIX": str(tmp_path),
+    }
+    result = subprocess.run(
+        [shell, "-c", script], capture_output=True, text=True, check=True, env=environment
+    )
     ros_home, logs = f"{tmp_path}/share/turtlewire/ros_home", f"{tmp_path}/home/.ros/log"
     assert result.stdout.strip() == f"{tmp_path}|jazzy|2|3|{ros_home}|{logs}"
     assert result.stderr == ""
@@ -84,7 +95,13 @@ def test_a_users_own_rosdep_cache_is_left_alone(wheel, tmp_path):
     cache = tmp_path / ".ros/rosdep/sources.cache"
     cache.mkdir(parents=True)
     (cache / "index").touch()
-    environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "TURTLEWIRE_PREFIX": str(tmp_path)}
+    environment = {
+        "HOME": str(tmp_path),
+        "PATH": "/usr/bin:/bin",
+        "TURTLEWIRE_PREFIX": str(tmp_path),
+    }
     script = f'. {tmp_path}/local_setup.sh; echo "[${{ROS_HOME:-}}]"'
-    result = subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=True, env=environment)
+    result = subprocess.run(
+        ["sh", "-c", script], capture_output=True, text=True, check=True, env=environment
+    )
     assert result.stdout == "[]\n"

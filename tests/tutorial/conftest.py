@@ -23,10 +23,18 @@ def workspace(tmp_path):
         for folder in (f"lib/{name}", "share/ament_index/resource_index/packages"):
             (prefix / folder).mkdir(parents=True)
         (prefix / "share/ament_index/resource_index/packages" / name).touch()
-        shutil.copytree(source, prefix / "share" / name, ignore=shutil.ignore_patterns("*.egg-info", "__pycache__"))
-        for executable, module in re.findall(r"'?\"?(\w+) = ([\w.]+):main", (source / "setup.py").read_text()):
+        shutil.copytree(
+            source,
+            prefix / "share" / name,
+            ignore=shutil.ignore_patterns("*.egg-info", "__pycache__"),
+        )
+        for executable, module in re.findall(
+            r"'?\"?(\w+) = ([\w.]+):main", (source / "setup.py").read_text()
+        ):
             script = prefix / "lib" / name / executable
-            script.write_text(f"#!{sys.executable}\nimport sys\nfrom {module} import main\nsys.exit(main())\n")
+            script.write_text(
+                f"#!{sys.executable}\nimport sys\nfrom {module} import main\nsys.exit(main())\n"
+            )
             script.chmod(0o755)
         path = os.pathsep.join(part for part in (str(source), os.environ.get("PYTHONPATH")) if part)
         return {
@@ -59,7 +67,12 @@ def turtles():
         def watch(self, name):
             pose = msg.get_message("turtlesim/msg/Pose")
             type_id = TypeId("turtlesim/msg/Pose", msg.type_hash("turtlesim/msg/Pose"))
-            self.node.create_subscription(f"/{name}/pose", type_id, QoS(), lambda cdr, _: self._take(name, msg.deserialize(pose, cdr)))
+            self.node.create_subscription(
+                f"/{name}/pose",
+                type_id,
+                QoS(),
+                lambda cdr, _: self._take(name, msg.deserialize(pose, cdr)),
+            )
 
         def _take(self, name, pose):
             with self.more:

@@ -38,7 +38,12 @@ def is_running(pid):
 
 @pytest.mark.parametrize("terminal", [True, False])
 def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, terminal):
-    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    environment = {
+        "TURTLEWIRE_PORT": "0",
+        "TURTLEWIRE_BROWSER": "0",
+        "DISPLAY": "",
+        "WAYLAND_DISPLAY": "",
+    }
     demo = run(sys.executable, DEMO, environment=environment, terminal=terminal)
     domain = os.environ["ROS_DOMAIN_ID"]
     demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
@@ -58,15 +63,33 @@ def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, termina
 
 
 def test_the_demo_ends_by_itself(run):
-    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    environment = {
+        "TURTLEWIRE_PORT": "0",
+        "TURTLEWIRE_BROWSER": "0",
+        "DISPLAY": "",
+        "WAYLAND_DISPLAY": "",
+    }
     demo = run(sys.executable, DEMO, "--seconds", "0.5", environment=environment)
     assert demo.wait() == 0
-    started = re.findall(r"process started with pid \[(\d+)\]", demo.text)  # on a busy machine the time may be over before that
-    assert demo.text.count("process has ") == len(started)  # cleanly or not: it may still import its modules
+    started = re.findall(
+        r"process started with pid \[(\d+)\]", demo.text
+    )  # on a busy machine the time may be over before that
+    assert demo.text.count("process has ") == len(
+        started
+    )  # cleanly or not: it may still import its modules
     assert demo.survivors() == []
 
 
-@pytest.mark.parametrize("words", [["--seconds", "-1"], ["--seconds", "nan"], ["--seconds", "soon"], ["--check", "--seconds", "9"], ["-x"]])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--seconds", "-1"],
+        ["--seconds", "nan"],
+        ["--seconds", "soon"],
+        ["--check", "--seconds", "9"],
+        ["-x"],
+    ],
+)
 def test_words_that_make_no_sense(run, words):
     demo = run(sys.executable, DEMO, *words)
     assert demo.wait() == 2
@@ -86,12 +109,19 @@ def test_a_wrong_domain_is_told_with_its_remedy(run):
 @pytest.mark.parametrize("words", [[], ["--check"]])
 @pytest.mark.parametrize("moment", [0, 1])
 def test_ctrl_c_while_it_starts_leaves_nothing_behind(run, words, moment):
-    demo = run(sys.executable, DEMO, *words, environment={"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"})
+    demo = run(
+        sys.executable,
+        DEMO,
+        *words,
+        environment={"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"},
+    )
     if moment:
         demo.wait_for(r"Ctrl-C ends it|what the processes say goes to")
     os.kill(demo.process.pid, signal.SIGINT)
     assert demo.wait() in {0, 1, 128 + signal.SIGINT, -signal.SIGINT}
-    assert "demo.py" not in demo.text  # no traceback of ours; one of a Python that has not come to our code yet is not ours to avoid
+    assert (
+        "demo.py" not in demo.text
+    )  # no traceback of ours; one of a Python that has not come to our code yet is not ours to avoid
     assert demo.survivors() == []
 
 

@@ -20,7 +20,13 @@ LONG_NS = 60_000_000_000
 
 
 def test_two_turtles_appear_and_one_follows(run, workspace, turtles):
-    launch = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=workspace(PACKAGE))
+    launch = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "turtle_tf2_demo.launch.py",
+        environment=workspace(PACKAGE),
+    )
     launch.wait_for("Successfully spawned turtle2")
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
     buffer = Buffer()
@@ -52,7 +58,14 @@ def test_a_turtle_that_is_there_is_not_spawned_again(run, workspace, turtles):
 
 def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles):
     arguments = ["thing", "1", "2", "0.5", "0", "0", "1.5707963267948966"]
-    program = run(ROS2, "run", "learning_tf2_py", "static_turtle_tf2_broadcaster", *arguments, environment=workspace(PACKAGE))
+    program = run(
+        ROS2,
+        "run",
+        "learning_tf2_py",
+        "static_turtle_tf2_broadcaster",
+        *arguments,
+        environment=workspace(PACKAGE),
+    )
     buffer = Buffer()
     with TransformListener(buffer, turtles.node, context=turtles.context):
         found = buffer.lookup_transform("world", "thing", 0, LONG_NS)
@@ -63,17 +76,36 @@ def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles
     assert "Traceback" not in program.text
 
 
-@pytest.mark.parametrize("arguments", [[], ["thing", "1"], ["thing", *"12345", "six"], ["world", *"123456"]])
+@pytest.mark.parametrize(
+    "arguments", [[], ["thing", "1"], ["thing", *"12345", "six"], ["world", *"123456"]]
+)
 def test_the_static_broadcaster_explains_itself(run, workspace, arguments):
-    program = run(ROS2, "run", "learning_tf2_py", "static_turtle_tf2_broadcaster", *arguments, environment=workspace(PACKAGE))
+    program = run(
+        ROS2,
+        "run",
+        "learning_tf2_py",
+        "static_turtle_tf2_broadcaster",
+        *arguments,
+        environment=workspace(PACKAGE),
+    )
     assert program.wait() != 0
-    assert "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW" in program.text
+    assert (
+        "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW"
+        in program.text
+    )
     assert "Traceback" not in program.text
 
 
 def test_the_package_s_own_tests():
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
     path = os.pathsep.join(part for part in (str(PACKAGE), os.environ.get("PYTHONPATH")) if part)
-    done = subprocess.run(command, cwd=PACKAGE, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        command,
+        cwd=PACKAGE,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "5 passed" in done.stdout

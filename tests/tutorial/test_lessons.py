@@ -24,7 +24,19 @@ def lesson(run, workspace):
     started = []
 
     def start(name, *arguments, processes):
-        started.append((run(ROS2, "launch", "learning_tf2_py", name, *arguments, environment=workspace(PACKAGE)), processes))
+        started.append(
+            (
+                run(
+                    ROS2,
+                    "launch",
+                    "learning_tf2_py",
+                    name,
+                    *arguments,
+                    environment=workspace(PACKAGE),
+                ),
+                processes,
+            )
+        )
         return started[-1][0]
 
     yield start
@@ -58,7 +70,9 @@ def test_the_fixed_carrot(lesson, turtles):
 def test_the_swinging_carrot(lesson, turtles):
     lesson("turtle_tf2_dynamic_frame_demo.launch.py", processes=5)
     assert math.hypot(*carrot_seen_from_turtle1(turtles)) == pytest.approx(10.0)
-    turtles.wait_for(lambda: "turtle2" in turtles.poses and turtles.poses["turtle2"].linear_velocity > 2.0)  # never nearer than that
+    turtles.wait_for(
+        lambda: "turtle2" in turtles.poses and turtles.poses["turtle2"].linear_velocity > 2.0
+    )  # never nearer than that
 
 
 @pytest.mark.parametrize("waiting", ["blocking", pytest.param("async", marks=pytest.mark.slow)])
@@ -66,7 +80,9 @@ def test_a_listener_that_waits(lesson, turtles, waiting):
     launch = lesson("turtle_tf2_waiting_demo.launch.py", f"waiting:={waiting}", processes=4)
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
     assert f"turtle_tf2_{waiting}_listener-4" in launch.text
-    assert "extrapolation into the future" not in launch.text  # the present is newer than the latest transform: it did wait
+    assert (
+        "extrapolation into the future" not in launch.text
+    )  # the present is newer than the latest transform: it did wait
 
 
 @pytest.mark.slow
@@ -89,9 +105,19 @@ def test_a_target_is_an_argument(lesson, turtles, run, workspace):
 def test_the_demo_speaks_the_interfaces_of_kilted(run, workspace):
     """The same sources, which import turtlesim's interfaces by their former names."""
     environment = {**workspace(PACKAGE), "ROS_DISTRO": "kilted"}
-    launch = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=environment)
+    launch = run(
+        ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=environment
+    )
     launch.wait_for("Successfully spawned turtle2")
-    echo = run(ROS2, "topic", "echo", "--once", "/turtle2/pose", "turtlesim_msgs/msg/Pose", environment=environment)
+    echo = run(
+        ROS2,
+        "topic",
+        "echo",
+        "--once",
+        "/turtle2/pose",
+        "turtlesim_msgs/msg/Pose",
+        environment=environment,
+    )
     assert echo.wait() == 0
     assert echo.text.startswith("x: ")
     launch.signal_group(signal.SIGINT)
@@ -101,10 +127,24 @@ def test_the_demo_speaks_the_interfaces_of_kilted(run, workspace):
 
 def test_the_arguments_are_shown_and_checked(run, workspace):
     environment = workspace(PACKAGE)
-    shown = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_waiting_demo.launch.py", "-s", environment=environment)
+    shown = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "turtle_tf2_waiting_demo.launch.py",
+        "-s",
+        environment=environment,
+    )
     assert shown.wait() == 0
     assert "'waiting':" in shown.text
     assert "(default: 'blocking')" in shown.text
-    wrong = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_waiting_demo.launch.py", "waiting:=never", environment=environment)
+    wrong = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "turtle_tf2_waiting_demo.launch.py",
+        "waiting:=never",
+        environment=environment,
+    )
     assert wrong.wait() == 1
     assert "['blocking', 'async']" in wrong.text

@@ -42,7 +42,12 @@ def test_extras_alone_compile_nothing(setup):
     setup.main(["workspace"])
     assert setup.calls[1] == ("install", "turtlewire-ros[workspace]")
     setup.main(["lint"])
-    assert setup.calls[2] == ("install", "turtlewire-ros[workspace]", "--group", f"{setup.ROOT / 'pyproject.toml'}:lint")
+    assert setup.calls[2] == (
+        "install",
+        "turtlewire-ros[workspace]",
+        "--group",
+        f"{setup.ROOT / 'pyproject.toml'}:lint",
+    )
     assert json.loads(setup.STAMP.read_text())["extras"] == ["lint", "workspace"]
 
 

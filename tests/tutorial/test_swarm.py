@@ -25,7 +25,14 @@ NAMES = [f"turtle{k}" for k in range(1, COUNT + 1)]
 def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
     for name in NAMES[2:]:
         turtles.watch(name)
-    launch = run(ROS2, "launch", "learning_tf2_py", "swarm.launch.py", f"count:={COUNT}", environment=workspace(PACKAGE))
+    launch = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "swarm.launch.py",
+        f"count:={COUNT}",
+        environment=workspace(PACKAGE),
+    )
     launch.wait_for(f"{COUNT} of {COUNT} turtles follow the one before them")
     turtles.wait_for(lambda: len(turtles.poses) == COUNT)
 
@@ -40,7 +47,9 @@ def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
         if len(sizes) == 50:
             heard.set()
 
-    turtles.node.create_subscription(TOPIC, TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS, on_transforms)
+    turtles.node.create_subscription(
+        TOPIC, TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS, on_transforms
+    )
     with TransformListener(buffer, turtles.node, context=turtles.context):
         for one, other in itertools.pairwise(NAMES):
             assert buffer.lookup_transform(other, one, 0, 60_000_000_000).stamp_ns > 0
@@ -60,7 +69,16 @@ def test_the_swarm_joins_a_simulator_that_runs_already(run, workspace, turtles):
     environment = workspace(PACKAGE)
     field = run(ROS2, "run", "turtlesim", "turtlesim_node", "--headless", environment=environment)
     field.wait_for("Spawning turtle .turtle1")
-    swarm = run(ROS2, "run", "learning_tf2_py", "swarm", "--ros-args", "-p", "count:=3", environment=environment)
+    swarm = run(
+        ROS2,
+        "run",
+        "learning_tf2_py",
+        "swarm",
+        "--ros-args",
+        "-p",
+        "count:=3",
+        environment=environment,
+    )
     swarm.wait_for("3 of 3 turtles follow the one before them")
     turtles.watch("turtle3")
     turtles.wait_for(lambda: len(turtles.poses) == 3 and turtles.distance() < 0.5)

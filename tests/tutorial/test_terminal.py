@@ -1,6 +1,7 @@
 """The tutorial's terminal work on a machine without ROS: a fresh venv, a fresh home, and the commands as they are typed there.
 
-The venv is filled from the wheelhouse that `scripts/smoke` makes, and from nothing else; what is run afterwards gets no network.
+The venv is filled from the wheelhouse that `scripts/smoke` makes, and from nothing else; what is
+run afterwards gets no network.
 """
 
 from __future__ import annotations
@@ -27,12 +28,18 @@ def why_not():
     if len(wheels) != 2:
         return f"needs wheels in {WHEELHOUSE.relative_to(ROOT)}: scripts/smoke makes them"
     sources = [path for folder in ("src", "ros") for path in (ROOT / folder).rglob("*.py")]
-    if min(wheel.stat().st_mtime for wheel in wheels) < max(path.stat().st_mtime for path in sources):
+    if min(wheel.stat().st_mtime for wheel in wheels) < max(
+        path.stat().st_mtime for path in sources
+    ):
         return f"the wheels in {WHEELHOUSE.relative_to(ROOT)} are older than the sources: scripts/smoke makes them anew"
     return ""
 
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(300), pytest.mark.skipif(bool(why_not()), reason=why_not())]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.timeout(300),
+    pytest.mark.skipif(bool(why_not()), reason=why_not()),
+]
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +55,11 @@ def venv(tmp_path_factory):
 @pytest.fixture
 def home(tmp_path):
     """A home folder with a workspace in which the tutorial's listings are."""
-    shutil.copytree(VERBATIM, tmp_path / "ros2_ws/src/learning_tf2_py", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    shutil.copytree(
+        VERBATIM,
+        tmp_path / "ros2_ws/src/learning_tf2_py",
+        ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"),
+    )
     return tmp_path
 
 
@@ -57,22 +68,49 @@ def bash(run, venv, home):
     """Opens a terminal: a shell in the home folder which knows nothing but the venv, and in which commands are typed."""
 
     def environment():
-        kept = {name: value for name, value in os.environ.items() if name.startswith(("ROS_", "TURTLEWIRE_TEST"))}
+        kept = {
+            name: value
+            for name, value in os.environ.items()
+            if name.startswith(("ROS_", "TURTLEWIRE_TEST"))
+        }
         nowhere = "http://127.0.0.1:9"
-        offline = {"http_proxy": nowhere, "https_proxy": nowhere, "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(WHEELHOUSE)}
+        offline = {
+            "http_proxy": nowhere,
+            "https_proxy": nowhere,
+            "PIP_NO_INDEX": "1",
+            "PIP_FIND_LINKS": str(WHEELHOUSE),
+        }
         screen = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "LANG": "C.UTF-8"}
-        return [f"{name}={value}" for name, value in ({"HOME": home, "PATH": "/usr/bin:/bin"} | kept | offline | screen).items()]
+        return [
+            f"{name}={value}"
+            for name, value in (
+                {"HOME": home, "PATH": "/usr/bin:/bin"} | kept | offline | screen
+            ).items()
+        ]
 
     def start(*lines, **options):
         script = "\n".join(["set -e", f"source {venv}/setup.bash", "cd ~/ros2_ws", *lines])
-        return run("env", "-i", *environment(), "TERM=dumb", "bash", "--norc", "-c", script, cwd=home, **options)
+        return run(
+            "env",
+            "-i",
+            *environment(),
+            "TERM=dumb",
+            "bash",
+            "--norc",
+            "-c",
+            script,
+            cwd=home,
+            **options,
+        )
 
     return start
 
 
 def built(bash):
     """Types the tutorial's build section."""
-    build = bash("rosdep install -i --from-path src --rosdistro jazzy -y", "colcon build --symlink-install")
+    build = bash(
+        "rosdep install -i --from-path src --rosdistro jazzy -y", "colcon build --symlink-install"
+    )
     assert build.wait(120) == 0, build.text
     lines = build.text.splitlines()
     assert lines[0] == "#All required rosdeps installed successfully"
@@ -99,9 +137,13 @@ def drive(turtles, teleop, key, arrived):
 
 def test_the_five_commands(bash, turtles):
     built(bash)
-    launch = bash("source install/local_setup.bash", "ros2 launch learning_tf2_py turtle_tf2_demo.launch.py")
+    launch = bash(
+        "source install/local_setup.bash", "ros2 launch learning_tf2_py turtle_tf2_demo.launch.py"
+    )
     launch.wait_for("Could not retrieve transform")  # the listings spawn no turtle2
-    spawn = bash("ros2 service call /spawn turtlesim/srv/Spawn \"{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}\"")
+    spawn = bash(
+        "ros2 service call /spawn turtlesim/srv/Spawn \"{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}\""
+    )
     assert spawn.wait() == 0, spawn.text
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 0.1)
 
@@ -137,7 +179,13 @@ ros2 run p n
 def test_the_how_to_page_has_the_commands():
     page = (ROOT / "docs/how-to/terminal.md").read_text()
     here = Path(__file__).read_text()
-    for command in ("rosdep install -i", "colcon build", "source install", "ros2 launch learning_tf2_py", "ros2 run turtlesim"):
+    for command in (
+        "rosdep install -i",
+        "colcon build",
+        "source install",
+        "ros2 launch learning_tf2_py",
+        "ros2 run turtlesim",
+    ):
         (line,) = [line for line in page.splitlines() if line.startswith(command)]
         assert f'"{line}"' in here
 
@@ -161,7 +209,10 @@ def test_the_package_is_installed_by_pip(bash, how):
         "pip uninstall -q -y learning_tf2_py",
     )
     assert shell.wait(120) == 0, shell.text
-    assert "learning_tf2_py turtle_tf2_broadcaster\nlearning_tf2_py turtle_tf2_listener\n" in shell.text
+    assert (
+        "learning_tf2_py turtle_tf2_broadcaster\nlearning_tf2_py turtle_tf2_listener\n"
+        in shell.text
+    )
     assert "  No arguments." in shell.text
 
 
@@ -173,6 +224,8 @@ def test_the_tutorial_s_br_in_package_xml_is_named_with_its_line(bash, home):
     told = f"package.xml:{line}: <br> is never closed; remove it, or add </br>"
     build = bash("colcon build --symlink-install")
     assert build.wait(120) == 1
-    assert [line for line in build.text.splitlines() if "br" in line] == [line for line in build.text.splitlines() if told in line]
+    assert [line for line in build.text.splitlines() if "br" in line] == [
+        line for line in build.text.splitlines() if told in line
+    ]
     assert "ERROR:colcon:src/learning_tf2_py/" + told in build.text
     assert "1 package failed: learning_tf2_py" in build.text

@@ -37,11 +37,19 @@ def test_the_listings_are_the_tutorial_s_to_the_byte():
 
 
 def test_it_reports_the_missing_turtle_then_follows_it_and_stops_at_ctrl_c(run, workspace, turtles):
-    launch = run(ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=workspace(VERBATIM))
+    launch = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "turtle_tf2_demo.launch.py",
+        environment=workspace(VERBATIM),
+    )
 
     reports = launch.wait_for(COULD_NOT, count=25)
     golden = (GOLDEN / "launch.stdout.txt").read_text()
-    assert {report[2] for report in reports} == {line[2] for line in re.finditer(COULD_NOT, golden, re.MULTILINE)}
+    assert {report[2] for report in reports} == {
+        line[2] for line in re.finditer(COULD_NOT, golden, re.MULTILINE)
+    }
     stamps = [float(report[1]) for report in reports]
     assert 0.09 < median(later - earlier for earlier, later in pairwise(stamps)) < 0.15
     launch.wait_for(re.escape(f'ros2 service call /spawn turtlesim/srv/Spawn "{SPAWN}"'))
@@ -57,6 +65,10 @@ def test_it_reports_the_missing_turtle_then_follows_it_and_stops_at_ctrl_c(run, 
     assert launch.survivors() == []
     assert "Traceback" not in launch.text
     assert launch.text.count("process has finished cleanly") == 4
-    ours = {line for line in normalised(launch.text) - normalised(golden) if "has finished cleanly" not in line}
+    ours = {
+        line
+        for line in normalised(launch.text) - normalised(golden)
+        if "has finished cleanly" not in line
+    }
     assert all(line.startswith("[turtlesim_node-1] [INFO] [TIME] [sim]: ") for line in ours), ours
     assert len(ours) <= 2, ours  # the page's address, and the command to type

@@ -93,10 +93,23 @@ def test_files_are_served_with_their_type_and_strict_headers(server):
     assert "default-src 'none'" in index.headers["Content-Security-Policy"]
     assert index.headers["X-Content-Type-Options"] == "nosniff"
     script = get(server, "/js/main.js")
-    assert (script.status, script.headers["Content-Type"]) == (200, "text/javascript; charset=utf-8")
+    assert (script.status, script.headers["Content-Type"]) == (
+        200,
+        "text/javascript; charset=utf-8",
+    )
 
 
-@pytest.mark.parametrize("path", ["/secret.txt", "/../pyproject.toml", "/js/../../x.html", "/js", "/%2e%2e/index.html", "//index.html"])
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/secret.txt",
+        "/../pyproject.toml",
+        "/js/../../x.html",
+        "/js",
+        "/%2e%2e/index.html",
+        "//index.html",
+    ],
+)
 def test_nothing_else_is_served(server, path):
     assert get(server, path).status == 404
 
@@ -118,7 +131,11 @@ def test_only_get(server):
 
 def test_what_is_not_http_leaves_the_server_alive(server):
     port = int(server.url.split(":")[2].rstrip("/"))
-    for junk in (b"\x00\xff\x16\x03\x01 nonsense\r\n\r\n", b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"G" * 20000):
+    for junk in (
+        b"\x00\xff\x16\x03\x01 nonsense\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost\r\n\r\n",
+        b"G" * 20000,
+    ):
         with socket.create_connection(("127.0.0.1", port), timeout=60) as raw:
             raw.sendall(junk)
             raw.settimeout(10)
@@ -222,4 +239,9 @@ def test_importing_the_room_stays_light():
     import sys
 
     code = "import sys, turtlewire.web; print(*[name for name in ('asyncio', 'websockets', 'http') if name in sys.modules])"
-    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout.strip() == ""
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], check=True, capture_output=True, text=True
+        ).stdout.strip()
+        == ""
+    )

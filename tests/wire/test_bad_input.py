@@ -25,15 +25,36 @@ LIMIT_S = 60
 
 #: name: message class, hostile messages in hex, what the one line says.
 CASES = {
-    "text_longer_than_the_message": (String, [HEADER + "ffffffff", HEADER + "40000000" + "61" * 8], "field 'data'"),
+    "text_longer_than_the_message": (
+        String,
+        [HEADER + "ffffffff", HEADER + "40000000" + "61" * 8],
+        "field 'data'",
+    ),
     "text_that_is_not_utf8": (String, [HEADER + "03000000" + "c32800" + "00"] * 3, "UTF-8"),
     "too_short": (Pose, [HEADER + "00000000"] * 3, "Pose"),
-    "sequence_longer_than_the_message": (ByteMultiArray, [HEADER + "00000000" * 2 + "ffffff7f" + "00" * 4] * 3, "data"),
+    "sequence_longer_than_the_message": (
+        ByteMultiArray,
+        [HEADER + "00000000" * 2 + "ffffff7f" + "00" * 4] * 3,
+        "data",
+    ),
     "layout_of_four_billion_dimensions": (ByteMultiArray, [HEADER + "ffffffff" * 2] * 3, "dim"),
     "sequence_above_its_bound": (
         ParameterDescriptor,
-        # name, type, description, additional_constraints, read_only, dynamic_typing, floating_point_range, integer_range <= 1
-        [HEADER + "01000000" + "00010000" + "01000000" + "00000000" + "01000000" + "00000000" + "00000000" + "02000000" + "00" * 52] * 3,
+        # name, type, description, additional_constraints, read_only, dynamic_typing,
+        # floating_point_range, integer_range <= 1
+        [
+            HEADER
+            + "01000000"
+            + "00010000"
+            + "01000000"
+            + "00000000"
+            + "01000000"
+            + "00000000"
+            + "00000000"
+            + "02000000"
+            + "00" * 52
+        ]
+        * 3,
         "integer_range",
     ),
     "noise": (Pose, [HEADER + "f7" * 3 + "00", HEADER + "81" * 12], "Pose"),
@@ -67,7 +88,9 @@ def victim():
 def attack(lines: list[tuple[str, str, str, str]], arrived: threading.Event) -> None:
     """Send all, from another process, and wait until the good message at the end has arrived."""
     text = "".join(" ".join(line) + "\n" for line in lines) + "\n"
-    with subprocess.Popen([sys.executable, HOSTILE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+    with subprocess.Popen(
+        [sys.executable, HOSTILE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as peer:
         assert peer.stdin is not None
         assert peer.stdout is not None
         peer.stdin.write(text)
@@ -85,7 +108,9 @@ def complaints(text: str) -> list[str]:
 def test_a_malformed_message_is_named_once_and_the_next_good_one_arrives(victim, name, capfd):
     cls, hostile, reason = CASES[name]
     got, arrived = [], threading.Event()
-    victim.create_subscription(cls, f"/{name}", lambda message: (got.append(message), arrived.set()), 100)
+    victim.create_subscription(
+        cls, f"/{name}", lambda message: (got.append(message), arrived.set()), 100
+    )
     type_name = msg.type_name(cls)
     identity = (f"/{name}", type_name, msg.type_hash(type_name))
     good = msg.serialize(cls()).hex()
@@ -120,14 +145,21 @@ def test_a_type_of_our_name_with_other_fields_is_named_once(victim, capfd, monke
 
 def test_malformed_requests_are_named_once_and_the_service_answers(victim, capfd):
     answered = threading.Event()
-    victim.create_service(AddTwoInts, "/add", lambda request, response: setattr(response, "sum", request.a + request.b) or response)
+    victim.create_service(
+        AddTwoInts,
+        "/add",
+        lambda request, response: setattr(response, "sum", request.a + request.b) or response,
+    )
     client = victim.create_client(AddTwoInts, "/add")
     part = "example_interfaces/srv/AddTwoInts_Request"
     sentinel = threading.Event()
     victim.create_subscription(String, "/sentinel", lambda _: sentinel.set(), 10)
     hostile = ("rq/addRequest", part, msg.type_hash(part), HEADER + "01" * 16 + "01020304")
     text = "std_msgs/msg/String"
-    attack([hostile] * 3 + [("/sentinel", text, msg.type_hash(text), msg.serialize(String()).hex())], sentinel)
+    attack(
+        [hostile] * 3 + [("/sentinel", text, msg.type_hash(text), msg.serialize(String()).hex())],
+        sentinel,
+    )
     assert client.wait_for_service(LIMIT_S)
     future = client.call_async(AddTwoInts.Request(a=1, b=2))
     future.add_done_callback(lambda _: answered.set())

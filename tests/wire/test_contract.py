@@ -9,11 +9,22 @@ import pytest
 
 from turtlewire.errors import WireError
 from turtlewire.wire import open_context
-from turtlewire.wire.base import Context, EventKind, EventStatus, Node, Publisher, RequestId, Subscription, TypeId
+from turtlewire.wire.base import (
+    Context,
+    EventKind,
+    EventStatus,
+    Node,
+    Publisher,
+    RequestId,
+    Subscription,
+    TypeId,
+)
 from turtlewire.wire.graph import DISCOVERY_TOPIC
 from turtlewire.wire.qos import BEST_AVAILABLE_NS, Durability, History, Liveliness, QoS, Reliability
 
-STRING = TypeId("std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18")
+STRING = TypeId(
+    "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+)
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SECOND = 1_000_000_000
@@ -60,7 +71,10 @@ def wait_until(context: Context, predicate) -> None:
 
 
 def connect(node: Node, publisher: Publisher, subscription: Subscription) -> None:
-    wait_until(node.context, lambda: publisher.subscription_count() > 0 and subscription.publisher_count() > 0)
+    wait_until(
+        node.context,
+        lambda: publisher.subscription_count() > 0 and subscription.publisher_count() > 0,
+    )
 
 
 def take_all(node: Node, subscription: Subscription, count: int) -> list[bytes]:
@@ -86,7 +100,9 @@ def test_a_message_arrives_with_its_origin(node: Node, other: Node):
     [(data, info)] = subscription.take()
     assert data == cdr("hello")
     assert info.publisher_gid == publisher.gid
-    assert before - SECOND <= info.source_timestamp_ns <= info.received_timestamp_ns <= time.time_ns()
+    assert (
+        before - SECOND <= info.source_timestamp_ns <= info.received_timestamp_ns <= time.time_ns()
+    )
     assert subscription.take() == []
     assert wait_set.wait(0) == []
 
@@ -181,7 +197,9 @@ def test_on_message_is_called_on_the_reader_thread(node: Node, other: Node):
     assert calls == [(cdr(text), publisher.gid, "turtlewire-reader") for text in ("a", "b", "c")]
 
 
-def test_a_callback_that_raises_is_said_once_and_later_messages_arrive(node: Node, other: Node, capfd):
+def test_a_callback_that_raises_is_said_once_and_later_messages_arrive(
+    node: Node, other: Node, capfd
+):
     seen: list[bytes] = []
     done = threading.Event()
 
@@ -237,17 +255,24 @@ def test_detached_and_closed_entities_are_not_reported(node: Node, other: Node):
     wait_until(other.context, lambda: publisher.subscription_count() == 2)
     wait_set.attach(first)
     take_first = [message for message, _ in first.take()]
-    assert take_first in ([], [cdr("x")])  # delivered to the other subscription of this process at about the same time
+    assert take_first in (
+        [],
+        [cdr("x")],
+    )  # delivered to the other subscription of this process at about the same time
 
 
 def test_an_entity_can_be_attached_while_a_thread_waits(node: Node, other: Node):
-    publisher = other.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    publisher = other.create_publisher(
+        "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)
+    )
     publisher.publish(cdr("x"))
     wait_set = node.context.create_wait_set()
     results: list[list] = []
     thread = threading.Thread(target=lambda: results.append(wait_set.wait(LONG)))
     thread.start()
-    subscription = node.create_subscription("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    subscription = node.create_subscription(
+        "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)
+    )
     wait_set.attach(subscription)
     thread.join(20)
     assert results == [[subscription]]
@@ -307,12 +332,16 @@ def test_a_client_without_server_is_not_ready(node: Node, other: Node):
 
 def test_the_graph_knows_nodes_and_endpoints(node: Node, other: Node):
     node.create_subscription("/chatter", STRING, QoS(depth=4))
-    publisher = other.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL, lifespan_ns=5 * SECOND))
+    publisher = other.create_publisher(
+        "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL, lifespan_ns=5 * SECOND)
+    )
     other.create_service("/switch", REQUEST, RESPONSE, QoS())
     graph = node.context.graph
 
     def complete() -> bool:
-        owners = [endpoint.node for endpoint in graph.endpoints() if endpoint.topic != DISCOVERY_TOPIC]
+        owners = [
+            endpoint.node for endpoint in graph.endpoints() if endpoint.topic != DISCOVERY_TOPIC
+        ]
         return len(owners) == 4 and None not in owners
 
     wait_until(node.context, complete)
@@ -328,7 +357,11 @@ def test_the_graph_knows_nodes_and_endpoints(node: Node, other: Node):
         "rt/chatter": ["std_msgs::msg::dds_::String_"],
     }
     [found] = [endpoint for endpoint in graph.endpoints() if endpoint.gid == publisher.gid]
-    assert (found.kind, found.topic, found.type_name, found.type_hash) == ("publisher", "/chatter", *STRING)
+    assert (found.kind, found.topic, found.type_name, found.type_hash) == (
+        "publisher",
+        "/chatter",
+        *STRING,
+    )
     assert found.node is not None
     assert found.node.name == "other"
     assert found.qos.durability == Durability.TRANSIENT_LOCAL
@@ -347,7 +380,10 @@ def test_the_graph_forgets_what_is_closed(node: Node, other: Node):
     wait_until(node.context, lambda: [info.name for info in graph.nodes()] == ["one"])
     second = other.context.create_node("second")
     second.create_publisher("/chatter", STRING, QoS())
-    wait_until(node.context, lambda: len(graph.nodes()) == 2 and "/chatter" in graph.topic_names_and_types())
+    wait_until(
+        node.context,
+        lambda: len(graph.nodes()) == 2 and "/chatter" in graph.topic_names_and_types(),
+    )
     other.context.close()
     wait_until(node.context, lambda: len(graph.nodes()) == 1 and not graph.topic_names_and_types())
 
@@ -414,9 +450,21 @@ def test_close_from_the_reader_thread_returns(node: Node, other: Node):
     assert done.wait(20)
 
 
-@pytest.mark.parametrize("data", [b"", b"\x00\x01", b"\x00\x01\x00\x00", b"\x00\x00\x00\x00abcd", b"\x00\x07\x00\x00abcd", b"hello world!"])
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"\x00\x01",
+        b"\x00\x01\x00\x00",
+        b"\x00\x00\x00\x00abcd",
+        b"\x00\x07\x00\x00abcd",
+        b"hello world!",
+    ],
+)
 def test_bytes_that_are_no_message_are_refused(node: Node, data: bytes):
-    publisher = node.create_publisher("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
+    publisher = node.create_publisher(
+        "/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL)
+    )
     with pytest.raises(WireError, match=r"/chatter.*no message"):
         publisher.publish(data)
     late = node.create_subscription("/chatter", STRING, QoS(durability=Durability.TRANSIENT_LOCAL))
@@ -433,7 +481,9 @@ def test_two_types_on_one_topic_keep_apart(node: Node, other: Node):
     publisher.publish(cdr("x"))
     assert take_all(node, numbers, 1) == [cdr("x")]
     assert strings.take() == []
-    wait_until(node.context, lambda: len(node.context.graph.topic_names_and_types().get("/mixed", [])) == 2)
+    wait_until(
+        node.context, lambda: len(node.context.graph.topic_names_and_types().get("/mixed", [])) == 2
+    )
 
 
 def test_topics_without_ros_prefix(node: Node, other: Node):
@@ -497,13 +547,19 @@ def test_what_happened_before_the_event_was_created_is_reported(node: Node, othe
         (QoS(), QoS(durability=Durability.TRANSIENT_LOCAL), 2),
     ],
 )
-def test_incompatible_qos_events(node: Node, other: Node, offered: QoS, requested: QoS, policy: int):
+def test_incompatible_qos_events(
+    node: Node, other: Node, offered: QoS, requested: QoS, policy: int
+):
     publisher = node.create_publisher("/chatter", STRING, offered)
     subscription = other.create_subscription("/chatter", STRING, requested)
     of_publisher = publisher.create_event(EventKind.INCOMPATIBLE_QOS)
     of_subscription = subscription.create_event(EventKind.INCOMPATIBLE_QOS)
-    assert wait_for_event(node, of_publisher, lambda _: True) == EventStatus(1, 1, last_policy_kind=policy)
-    assert wait_for_event(other, of_subscription, lambda _: True) == EventStatus(1, 1, last_policy_kind=policy)
+    assert wait_for_event(node, of_publisher, lambda _: True) == EventStatus(
+        1, 1, last_policy_kind=policy
+    )
+    assert wait_for_event(other, of_subscription, lambda _: True) == EventStatus(
+        1, 1, last_policy_kind=policy
+    )
 
 
 def test_events_and_messages_are_reported_by_one_wait_set(node: Node, other: Node):
@@ -543,8 +599,14 @@ def test_best_available_qos_fits_who_is_there(node: Node, other: Node):
     )
     subscription = node.create_subscription("/scan", STRING, wanted)
     publisher = node.create_publisher("/new", STRING, wanted)
-    wait_until(node.context, lambda: subscription.publisher_count() == 1 and "/new" in graph.topic_names_and_types())
+    wait_until(
+        node.context,
+        lambda: subscription.publisher_count() == 1 and "/new" in graph.topic_names_and_types(),
+    )
     [chosen] = [endpoint.qos for endpoint in graph.endpoints() if endpoint.gid == subscription.gid]
     assert (chosen.reliability, chosen.durability) == (Reliability.BEST_EFFORT, Durability.VOLATILE)
     [chosen] = [endpoint.qos for endpoint in graph.endpoints() if endpoint.gid == publisher.gid]
-    assert (chosen.reliability, chosen.durability) == (Reliability.RELIABLE, Durability.TRANSIENT_LOCAL)
+    assert (chosen.reliability, chosen.durability) == (
+        Reliability.RELIABLE,
+        Durability.TRANSIENT_LOCAL,
+    )

@@ -25,7 +25,9 @@ def contexts():
 def connected(contexts: list[Context], qos: QoS):
     publisher = contexts[0].create_node("talker").create_publisher("/chatter", STRING, qos)
     subscription = contexts[1].create_node("listener").create_subscription("/chatter", STRING, qos)
-    assert contexts[0].graph.wait_for(lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1, LONG)
+    assert contexts[0].graph.wait_for(
+        lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1, LONG
+    )
     return publisher, subscription
 
 
@@ -44,8 +46,14 @@ def test_a_missed_deadline_is_reported_on_both_sides(contexts: list[Context]):
     offered = publisher.create_event(EventKind.DEADLINE_MISSED)
     requested = subscription.create_event(EventKind.DEADLINE_MISSED)
     publisher.publish(MESSAGE)
-    assert wait_for(contexts[0], offered, lambda status: status.total_count >= 2).total_count_change >= 1
-    assert wait_for(contexts[1], requested, lambda status: status.total_count >= 2).total_count_change >= 1
+    assert (
+        wait_for(contexts[0], offered, lambda status: status.total_count >= 2).total_count_change
+        >= 1
+    )
+    assert (
+        wait_for(contexts[1], requested, lambda status: status.total_count >= 2).total_count_change
+        >= 1
+    )
 
 
 def test_lost_liveliness_is_reported_on_both_sides(contexts: list[Context]):
@@ -62,12 +70,16 @@ def test_lost_liveliness_is_reported_on_both_sides(contexts: list[Context]):
 
 def test_an_incompatible_deadline_names_its_policy(contexts: list[Context]):
     publisher = contexts[0].create_node("talker").create_publisher("/chatter", STRING, QoS())
-    contexts[1].create_node("listener").create_subscription("/chatter", STRING, QoS(deadline_ns=MILLISECOND))
+    contexts[1].create_node("listener").create_subscription(
+        "/chatter", STRING, QoS(deadline_ns=MILLISECOND)
+    )
     event = publisher.create_event(EventKind.INCOMPATIBLE_QOS)
     assert wait_for(contexts[0], event, lambda _: True).last_policy_kind == 4
 
 
 def test_message_lost_can_be_watched(contexts: list[Context]):
     """Cyclone 11 has the counter but never raises it; nodes that install the callback must work."""
-    subscription = contexts[0].create_node("listener").create_subscription("/chatter", STRING, QoS())
+    subscription = (
+        contexts[0].create_node("listener").create_subscription("/chatter", STRING, QoS())
+    )
     assert subscription.create_event(EventKind.MESSAGE_LOST).take() is None

@@ -11,7 +11,9 @@ import pytest
 
 from turtlewire.wire.cyclone.log import CycloneLog, explain
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there Cyclone writes on stderr itself")
+pytestmark = pytest.mark.skipif(
+    sys.platform == "win32", reason="there Cyclone writes on stderr itself"
+)
 
 
 def test_a_datagram_that_the_network_refuses_is_explained():
@@ -30,7 +32,9 @@ def test_what_cyclone_says_of_a_domain_goes_into_the_pipe():
         "    assert dds.create_domain(3, b'<Nonsense>') < 0\n"
         "print(log.unread(), log.unread())\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+    )
     assert "Nonsense: unknown element" in done.stdout
     assert done.stdout.endswith("] []\n")
     assert done.stderr == ""
@@ -51,7 +55,10 @@ def test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends(monkeypatch)
     log.start()
     log.start()
     for number in range(500):
-        os.write(log._write_end, f"1795266048.35{number} [64]        tev: thing {number} failed\n".encode())
+        os.write(
+            log._write_end,
+            f"1795266048.35{number} [64]        tev: thing {number} failed\n".encode(),
+        )
     os.write(log._write_end, b"1795266048.352094 [64]        tev: another thing\n")
     assert all_read.wait(60)
     log.stop()

@@ -16,7 +16,13 @@ from turtlewire.wire import environment, open_context, report
 from turtlewire.wire.cyclone.configuration import domain_configuration
 from turtlewire.wire.environment import Discovery, Range
 
-VARIABLES = ["ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY", "CYCLONEDDS_URI"]
+VARIABLES = [
+    "ROS_DOMAIN_ID",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_STATIC_PEERS",
+    "ROS_LOCALHOST_ONLY",
+    "CYCLONEDDS_URI",
+]
 OWN_DOMAIN = os.environ["ROS_DOMAIN_ID"]
 
 
@@ -36,7 +42,9 @@ def test_domain_id(monkeypatch: pytest.MonkeyPatch):
 @pytest.mark.parametrize("text", ["233", "-1", "seven", "1.5", "٣"])
 def test_a_bad_domain_id_is_named(monkeypatch: pytest.MonkeyPatch, text: str):
     monkeypatch.setenv("ROS_DOMAIN_ID", text)
-    with pytest.raises(WireError, match="ROS_DOMAIN_ID is not an integral number from 0 to 232") as caught:
+    with pytest.raises(
+        WireError, match="ROS_DOMAIN_ID is not an integral number from 0 to 232"
+    ) as caught:
         environment.domain_id()
     assert text in str(caught.value)
 
@@ -49,14 +57,18 @@ def test_the_range_is_localhost_unless_said_otherwise(monkeypatch: pytest.Monkey
         assert environment.discovery() == Discovery(Range[name], ("10.0.0.1", "robot.local"))
 
 
-def test_an_invalid_range_warns_once_and_is_localhost(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+def test_an_invalid_range_warns_once_and_is_localhost(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "UNIVERSE")
     assert environment.discovery().range == Range.LOCALHOST
     assert environment.discovery().range == Range.LOCALHOST
     assert capsys.readouterr().err.count("UNIVERSE") == 1
 
 
-def test_localhost_only_is_honoured_and_deprecated(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+def test_localhost_only_is_honoured_and_deprecated(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
     monkeypatch.setenv("ROS_LOCALHOST_ONLY", "1")
     assert environment.discovery() == Discovery(Range.LOCALHOST, ())
@@ -106,12 +118,16 @@ def test_heartbeats_are_left_as_they_are_and_buffers_are_large(chosen: Range):
     """Rarer heartbeats made `ros2 node list` beside 50 processes take 2.9 s instead of 0.5 s."""
     domain = configuration(Discovery(chosen, ()))
     assert domain.find("Internal/HeartbeatInterval") is None
-    assert [buffer.attrib for buffer in domain.iter("SocketReceiveBufferSize")] == [{"max": "10 MB"}]
+    assert [buffer.attrib for buffer in domain.iter("SocketReceiveBufferSize")] == [
+        {"max": "10 MB"}
+    ]
 
 
 def test_the_users_configuration_comes_last(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "file:///my.xml")
-    assert domain_configuration(7, Discovery(Range.SUBNET, ())).endswith("</CycloneDDS>,file:///my.xml")
+    assert domain_configuration(7, Discovery(Range.SUBNET, ())).endswith(
+        "</CycloneDDS>,file:///my.xml"
+    )
 
 
 def test_a_static_peer_must_be_an_address():
@@ -126,10 +142,15 @@ def test_what_cannot_be_an_address_is_refused(peer: str):
 
 
 def test_static_peers_are_resolved():
-    assert peers(configuration(Discovery(Range.SUBNET, ("localhost", "localhost:7410")))) == ["127.0.0.1", "127.0.0.1:7410"]
+    assert peers(configuration(Discovery(Range.SUBNET, ("localhost", "localhost:7410")))) == [
+        "127.0.0.1",
+        "127.0.0.1:7410",
+    ]
 
 
-def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture):
+def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+):
     def nobody(*_: object) -> None:
         raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
 
@@ -137,7 +158,9 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(monkeypatc
     for _ in range(2):
         assert peers(configuration(Discovery(Range.LOCALHOST, ("robot",)))) == ["localhost"]
     [line] = capsys.readouterr().err.splitlines()
-    assert line.endswith("ROS_STATIC_PEERS: robot is left out, it has no IPv4 address: Name or service not known")
+    assert line.endswith(
+        "ROS_STATIC_PEERS: robot is left out, it has no IPv4 address: Name or service not known"
+    )
 
 
 @pytest.mark.parametrize("peer", ["a..b", "0.0.0.0"])  # no name server is asked for these
@@ -145,7 +168,14 @@ def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
     """In a process of its own, which has to survive it."""
     code = "from turtlewire.wire import open_context; open_context().close(); open_context().close(); print('alive')"
     variables = os.environ | {"ROS_STATIC_PEERS": f"{peer};localhost", "ROS_DOMAIN_ID": OWN_DOMAIN}
-    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
     assert (done.returncode, done.stdout) == (0, "alive\n")
     [line] = done.stderr.splitlines()
     assert f"ROS_STATIC_PEERS: {peer} is left out" in line
@@ -155,31 +185,54 @@ def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
 def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
     code = "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
     variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": OWN_DOMAIN}
-    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
     assert (done.stdout, done.stderr) == ("1\n", "")
 
 
 def test_a_broken_configuration_of_the_user_is_one_clear_error():
     code = "from turtlewire.wire import open_context; open_context()"
     variables = os.environ | {"CYCLONEDDS_URI": "<Nonsense>"}
-    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
     assert done.returncode == 1
     assert "WireError: join domain" in done.stderr
-    assert "Cyclone DDS says config: //CycloneDDS/Domain: Nonsense: unknown element" in done.stderr or sys.platform == "win32"
+    assert (
+        "Cyclone DDS says config: //CycloneDDS/Domain: Nonsense: unknown element" in done.stderr
+        or sys.platform == "win32"
+    )
     assert "CYCLONEDDS_URI is set" in done.stderr
 
 
 def test_a_domain_that_is_full_says_so():
     """Configured for one process, with a neighbour that is there already."""
-    code = "from turtlewire.wire.cyclone import participant; participant.max_processes = lambda _: 1\n"
+    code = (
+        "from turtlewire.wire.cyclone import participant; participant.max_processes = lambda _: 1\n"
+    )
     code += "from turtlewire.wire import open_context; c = open_context(); print('there', flush=True); input()"
     limit = "<Discovery><MaxAutoParticipantIndex>1</MaxAutoParticipantIndex></Discovery>"
     variables = os.environ | {"ROS_DOMAIN_ID": OWN_DOMAIN, "CYCLONEDDS_URI": limit}
     command = [sys.executable, "-c", code]
-    with subprocess.Popen(command, env=variables, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as neighbour:
+    with subprocess.Popen(
+        command, env=variables, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as neighbour:
         assert neighbour.stdout is not None
         neighbour.stdout.readline()  # nothing, if the one place is taken already
-        done = subprocess.run(command, env=variables, capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run(
+            command, env=variables, capture_output=True, text=True, timeout=60, check=False
+        )
         neighbour.communicate(b"\n")
     assert done.returncode == 1
     assert f"WireError: join domain {OWN_DOMAIN}" in done.stderr
@@ -188,13 +241,17 @@ def test_a_domain_that_is_full_says_so():
 
 def test_the_last_domain_works():
     code = "from turtlewire.wire import open_context; c = open_context(232); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
     assert (done.stdout, done.stderr) == ("1\n", "")
 
 
 def test_a_platform_without_cyclone_gets_one_clear_line():
     code = "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom turtlewire.wire import open_context\nopen_context()\n"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
     assert "WireError: Cyclone DDS is not available for Python" in done.stderr
     assert "pip install cyclonedds==11.0.1" in done.stderr or sys.version_info < (3, 11)
 

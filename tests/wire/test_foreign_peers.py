@@ -27,7 +27,11 @@ RMW_CYCLONEDDS_LOCALHOST = (
     "<General><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
     '<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="localhost"/></Peers></Discovery>'
 )
-TYPES = {"tf": "tf2_msgs/msg/TFMessage", "pose": "turtlesim/msg/Pose", "twist": "geometry_msgs/msg/Twist"}
+TYPES = {
+    "tf": "tf2_msgs/msg/TFMessage",
+    "pose": "turtlesim/msg/Pose",
+    "twist": "geometry_msgs/msg/Twist",
+}
 NEEDED = {
     "c": (["gcc", "idlc"], "/usr/include/dds/dds.h", "cyclonedds-dev and cyclonedds-tools"),
     "fast": (["g++"], "/usr/include/fastdds/dds/domain/DomainParticipant.hpp", "libfastrtps-dev"),
@@ -43,11 +47,36 @@ def build(vendor: str, folder: Path) -> Path:
     if vendor == "c":
         subprocess.run(["idlc", PEERS / "cyclone" / "ros.idl"], cwd=folder, check=True)
         subprocess.run(
-            ["gcc", "-Wall", "-Wextra", "-I.", "-o", program, PEERS / "cyclone" / "peer.c", "ros.c", "-lddsc"], cwd=folder, check=True
+            [
+                "gcc",
+                "-Wall",
+                "-Wextra",
+                "-I.",
+                "-o",
+                program,
+                PEERS / "cyclone" / "peer.c",
+                "ros.c",
+                "-lddsc",
+            ],
+            cwd=folder,
+            check=True,
         )
     else:
         source = PEERS / "fastdds" / "peer.cpp"
-        subprocess.run(["g++", "-std=c++20", "-Wall", "-Wextra", "-o", program, source, "-lfastrtps", "-lfastcdr"], check=True)
+        subprocess.run(
+            [
+                "g++",
+                "-std=c++20",
+                "-Wall",
+                "-Wextra",
+                "-o",
+                program,
+                source,
+                "-lfastrtps",
+                "-lfastcdr",
+            ],
+            check=True,
+        )
     return program
 
 
@@ -118,43 +147,66 @@ def test_messages_go_both_ways(program: Path, vendor: str, context: Context, nam
     publisher = node.create_publisher(f"/to_{vendor}/{name}", type_id(name), LIVE)
     subscription = node.create_subscription(f"/from_{vendor}/{name}", type_id(name), LIVE)
     with running(program, context):
-        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1, LONG)
+        assert context.graph.wait_for(
+            lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1,
+            LONG,
+        )
         for number in range(20):
             publisher.publish(msg.serialize(example(name, float(number))))
-        received = [msg.deserialize(msg.get_message(TYPES[name]), data) for data in take(context, subscription, 20)]
+        received = [
+            msg.deserialize(msg.get_message(TYPES[name]), data)
+            for data in take(context, subscription, 20)
+        ]
     assert received == [example(name, number + 1.0) for number in range(20)]
 
 
 @pytest.mark.parametrize("name", TYPES)
-def test_late_joiners_receive_what_is_latched(program: Path, vendor: str, context: Context, name: str):
+def test_late_joiners_receive_what_is_latched(
+    program: Path, vendor: str, context: Context, name: str
+):
     node = context.create_node("ours")
     latched = node.create_publisher(f"/latched/{name}", type_id(name), LATCHED)
     latched.publish(msg.serialize(example(name, 5.0)))
     with running(program, context):
         answer = node.create_subscription(f"/from_{vendor}/{name}", type_id(name), LATCHED)
-        assert msg.deserialize(msg.get_message(TYPES[name]), take(context, answer)[0]) == example(name, 6.0)
+        assert msg.deserialize(msg.get_message(TYPES[name]), take(context, answer)[0]) == example(
+            name, 6.0
+        )
         theirs = node.create_subscription(f"/latched_{vendor}/{name}", type_id(name), LATCHED)
         message = msg.deserialize(msg.get_message(TYPES[name]), take(context, theirs)[0])
     if name == "tf":
         [transform] = message.transforms
-        assert (transform.header.frame_id, transform.header.stamp.sec, transform.transform.translation.x) == ("world", 3, 1.5)
+        assert (
+            transform.header.frame_id,
+            transform.header.stamp.sec,
+            transform.transform.translation.x,
+        ) == ("world", 3, 1.5)
     else:
         assert (message.x if name == "pose" else message.linear.x) == 1.5
 
 
-def test_the_graph_shows_endpoints_that_no_node_claims(program: Path, vendor: str, context: Context):
+def test_the_graph_shows_endpoints_that_no_node_claims(
+    program: Path, vendor: str, context: Context
+):
     graph = context.graph
     with running(program, context):
         topic = f"/latched_{vendor}/pose"
         assert graph.wait_for(lambda: topic in graph.topic_names_and_types(), LONG)
         [endpoint] = [endpoint for endpoint in graph.endpoints() if endpoint.topic == topic]
-        assert (endpoint.kind, endpoint.type_name, endpoint.type_hash, endpoint.node) == ("publisher", TYPES["pose"], "", None)
+        assert (endpoint.kind, endpoint.type_name, endpoint.type_hash, endpoint.node) == (
+            "publisher",
+            TYPES["pose"],
+            "",
+            None,
+        )
         assert endpoint.qos.durability == Durability.TRANSIENT_LOCAL
         assert graph.nodes() == []
 
 
 @pytest.mark.parametrize("vendor", ["fast"], indirect=True)  # Cyclone DDS refuses to send them
-def test_payloads_that_are_no_messages_are_dropped_and_said_once(program: Path, context: Context, capfd, monkeypatch):
+def test_payloads_that_are_no_messages_are_dropped_and_said_once(
+    program: Path, context: Context, capfd, monkeypatch
+):
     monkeypatch.setattr(report, "_said", set())
     string = msg.get_message("std_msgs/msg/String")
     identity = TypeId("std_msgs/msg/String", msg.type_hash("std_msgs/msg/String"))
@@ -169,5 +221,7 @@ def test_payloads_that_are_no_messages_are_dropped_and_said_once(program: Path, 
                 except CdrError:
                     errors += 1
     assert received == ["good"]
-    assert errors == 2  # the big-endian one comes with the header of a little-endian one: to us its string is far too long
+    assert (
+        errors == 2
+    )  # the big-endian one comes with the header of a little-endian one: to us its string is far too long
     assert capfd.readouterr().err.count("dropped a message on /broken") == 1

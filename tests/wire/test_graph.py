@@ -11,7 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire.errors import CdrError
-from turtlewire.wire.graph import NodeEndpoints, format_user_data, pack_discovery_info, parse_user_data, unpack_discovery_info
+from turtlewire.wire.graph import (
+    NodeEndpoints,
+    format_user_data,
+    pack_discovery_info,
+    parse_user_data,
+    unpack_discovery_info,
+)
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "wire"
 SAMPLES = json.loads((GOLDEN / "discovery_info.json").read_text())
@@ -46,7 +52,10 @@ def test_the_samples_of_a_real_ros_2_are_reproduced():
 
 @given(gid, nodes)
 def test_what_is_packed_can_be_unpacked(participant: bytes, expected: list[NodeEndpoints]):
-    assert unpack_discovery_info(pack_discovery_info(participant, expected)) == (participant, expected)
+    assert unpack_discovery_info(pack_discovery_info(participant, expected)) == (
+        participant,
+        expected,
+    )
 
 
 @given(st.sampled_from(SAMPLES), st.data())
@@ -70,7 +79,13 @@ def test_a_broken_sample_says_what_is_wrong():
 
 def test_user_data():
     assert format_user_data(enclave="/") == b"enclave=/;"
-    assert format_user_data(clientid=" 1.2", typehash="RIHS01_ab") == b"clientid= 1.2;typehash=RIHS01_ab;"
+    assert (
+        format_user_data(clientid=" 1.2", typehash="RIHS01_ab")
+        == b"clientid= 1.2;typehash=RIHS01_ab;"
+    )
     assert parse_user_data(b"enclave=/;\x00") == {"enclave": "/"}
-    assert parse_user_data(b"serviceid= 1.10.b5;typehash=RIHS01_ab;") == {"serviceid": " 1.10.b5", "typehash": "RIHS01_ab"}
+    assert parse_user_data(b"serviceid= 1.10.b5;typehash=RIHS01_ab;") == {
+        "serviceid": " 1.10.b5",
+        "typehash": "RIHS01_ab",
+    }
     assert parse_user_data(b"\xff\x00 nonsense") == {}

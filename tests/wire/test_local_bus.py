@@ -23,10 +23,21 @@ def context():
 def test_endpoints_of_other_topics_are_not_looked_at(context, monkeypatch):
     compared = []
     meet = bus._meet
-    monkeypatch.setattr(bus, "_meet", lambda publisher, subscription: (compared.append(publisher.topic), meet(publisher, subscription)))
+    monkeypatch.setattr(
+        bus,
+        "_meet",
+        lambda publisher, subscription: (
+            compared.append(publisher.topic),
+            meet(publisher, subscription),
+        ),
+    )
     node = context.create_node("one")
-    publishers = [node.create_publisher(f"/topic{number}", STRING, QoS()) for number in range(TOPICS)]
-    subscriptions = [node.create_subscription(f"/topic{number}", STRING, QoS()) for number in range(TOPICS)]
+    publishers = [
+        node.create_publisher(f"/topic{number}", STRING, QoS()) for number in range(TOPICS)
+    ]
+    subscriptions = [
+        node.create_subscription(f"/topic{number}", STRING, QoS()) for number in range(TOPICS)
+    ]
     assert compared == [f"/topic{number}" for number in range(TOPICS)]
     assert {publisher.subscription_count() for publisher in publishers} == {1}
     assert {subscription.publisher_count() for subscription in subscriptions} == {1}

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from turtlewire.wire import names
 
 DIGIT = "topic name token must not start with a number"
-CHARACTERS = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+CHARACTERS = (
+    "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+)
 BRACES = "topic name must not have unmatched (unbalanced) curly braces '{}'"
 INSIDE = "substitution name must not contain characters other than alphanumerics or '_'"
 
@@ -25,7 +27,11 @@ INSIDE = "substitution name must not contain characters other than alphanumerics
         ("/foo-bar", CHARACTERS, 4),
         ("grün", CHARACTERS, 2),
         ("foo/~", "topic name must not have tilde '~' unless it is the first character", 4),
-        ("~foo", "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1),
+        (
+            "~foo",
+            "topic name must not have a tilde '~' that is not followed by a forward slash '/'",
+            1,
+        ),
         ("foo/7bar", DIGIT, 4),
         ("{foo", BRACES, 0),
         ("foo}", BRACES, 3),
@@ -39,7 +45,9 @@ def test_topic_names_that_are_refused(name: str, message: str, index: int):
     assert names.validate_topic_name(name) == (message, index)
 
 
-@pytest.mark.parametrize("name", ["a", "/a", "~", "~/a", "{node}/x", "a/{ns}_b", "_hidden", "/a/_b1/c"])
+@pytest.mark.parametrize(
+    "name", ["a", "/a", "~", "~/a", "{node}/x", "a/{ns}_b", "_hidden", "/a/_b1/c"]
+)
 def test_topic_names_that_are_allowed(name: str):
     assert names.validate_topic_name(name) is None
 
@@ -129,7 +137,8 @@ def test_dds_names():
     assert names.topic_from_dds("ros_discovery_info") is None
     assert names.service_from_dds("rt/spawnRequest") is None
     assert (
-        names.type_to_dds("turtlesim/action/RotateAbsolute_SendGoal_Request") == "turtlesim::action::dds_::RotateAbsolute_SendGoal_Request_"
+        names.type_to_dds("turtlesim/action/RotateAbsolute_SendGoal_Request")
+        == "turtlesim::action::dds_::RotateAbsolute_SendGoal_Request_"
     )
     assert names.type_from_dds("HelloWorld") == "HelloWorld"
     assert names.type_to_dds("HelloWorld") == "HelloWorld"
@@ -154,6 +163,11 @@ def test_names_survive_the_way_to_dds_and_back(name: str, package: str, base: st
 
 @given(st.text(max_size=20))
 def test_a_fault_points_into_the_name(name: str):
-    for check in (names.validate_topic_name, names.validate_full_topic_name, names.validate_namespace, names.validate_node_name):
+    for check in (
+        names.validate_topic_name,
+        names.validate_full_topic_name,
+        names.validate_namespace,
+        names.validate_node_name,
+    ):
         fault = check(name)
         assert fault is None or 0 <= fault.invalid_index <= max(len(name) - 1, 0)

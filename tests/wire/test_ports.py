@@ -59,7 +59,9 @@ def test_a_graph_is_complete_when_it_knows_all_processes(participant):
     context = open_context()
     try:
         deadline = time.monotonic() + 60
-        while not context.graph.is_complete():  # ports of other processes come and go without a change of the graph
+        while (
+            not context.graph.is_complete()
+        ):  # ports of other processes come and go without a change of the graph
             assert time.monotonic() < deadline
             time.sleep(0.01)
         assert names <= {info.name for info in context.graph.nodes()}

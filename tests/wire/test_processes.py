@@ -32,7 +32,13 @@ def context():
 
 @contextmanager
 def echo_peer(**environment: str):
-    peer = subprocess.Popen([sys.executable, ECHO], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | environment)
+    peer = subprocess.Popen(
+        [sys.executable, ECHO],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | environment,
+    )
     try:
         assert peer.stdout is not None
         assert peer.stdout.readline() == "ready\n"
@@ -62,7 +68,10 @@ def test_messages_go_both_ways(context: Context):
     publisher = node.create_publisher("/to_peer", STRING, QoS(depth=1000))
     subscription = node.create_subscription("/from_peer", STRING, QoS(depth=1000))
     with echo_peer():
-        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1, LONG)
+        assert context.graph.wait_for(
+            lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1,
+            LONG,
+        )
         sent = [message(number) for number in range(300)]
         for data in sent:
             publisher.publish(data)
@@ -73,7 +82,9 @@ def test_messages_go_both_ways(context: Context):
 def test_a_late_joiner_receives_the_latched_message(context: Context):
     with echo_peer():
         node = context.create_node("here")
-        subscription = node.create_subscription("/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL))
+        subscription = node.create_subscription(
+            "/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
+        )
         [(data, _)] = take_all(context, subscription, 1)
         assert data[8:14] == b"hello\x00"
 
@@ -92,7 +103,9 @@ def test_the_first_request_of_a_new_client_is_always_answered(context: Context):
     """The server may know of the request before it knows the client's end of the reply topic."""
     with echo_peer():
         for number in range(20):
-            client = context.create_node(f"here{number}").create_client("/peer/service", REQUEST, RESPONSE, QoS())
+            client = context.create_node(f"here{number}").create_client(
+                "/peer/service", REQUEST, RESPONSE, QoS()
+            )
             assert context.graph.wait_for(client.is_ready, LONG)
             sequence_number = client.send_request(message(number))
             assert take_all(context, client, 1) == [(sequence_number, message(number))]
@@ -100,12 +113,16 @@ def test_the_first_request_of_a_new_client_is_always_answered(context: Context):
 
 
 def test_a_killed_peer_disappears_after_its_lease(context: Context):
-    with echo_peer(CYCLONEDDS_URI="<Discovery><LeaseDuration>1s</LeaseDuration></Discovery>") as peer:
+    with echo_peer(
+        CYCLONEDDS_URI="<Discovery><LeaseDuration>1s</LeaseDuration></Discovery>"
+    ) as peer:
         graph = context.graph
         assert graph.wait_for(lambda: [node.name for node in graph.nodes()] == ["echo"], LONG)
         assert graph.wait_for(lambda: "/latched" in graph.topic_names_and_types(), LONG)
         peer.kill()
-        assert graph.wait_for(lambda: graph.nodes() == [] and "/latched" not in graph.topic_names_and_types(), LONG)
+        assert graph.wait_for(
+            lambda: graph.nodes() == [] and "/latched" not in graph.topic_names_and_types(), LONG
+        )
 
 
 def test_a_peer_killed_in_the_middle_of_a_message_harms_nobody(context: Context):
@@ -137,8 +154,12 @@ def test_a_peer_that_leaves_is_gone_at_once(context: Context):
 
 def test_a_process_that_forgets_to_close_ends_and_says_goodbye(context: Context):
     graph = context.graph
-    code = "from turtlewire.wire import open_context; open_context().create_node('forgetful'); input()"
-    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, text=True) as process:
+    code = (
+        "from turtlewire.wire import open_context; open_context().create_node('forgetful'); input()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, text=True
+    ) as process:
         assert graph.wait_for(lambda: len(graph.nodes()) == 1, LONG)
         process.communicate("\n", timeout=20)
     assert process.returncode == 0
@@ -158,8 +179,12 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
         "else:\n"
         "    os.wait()\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True)
-    assert done.stdout == "create node child: the context was opened before this process was forked\n"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True
+    )
+    assert (
+        done.stdout == "create node child: the context was opened before this process was forked\n"
+    )
     assert done.stderr == ""
 
 
@@ -181,14 +206,24 @@ def forked(before: str) -> str:
         "    os.wait()\n"
     )
     variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}
-    done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
     assert done.stderr == ""
     return done.stdout
 
 
 def test_a_forked_child_opens_a_context_only_where_the_parent_has_none():
     """Cyclone would wait for threads that the child does not have, for ever."""
-    assert forked("context = open_context()") == "open a context: this process was forked from one with an open context\n"
+    assert (
+        forked("context = open_context()")
+        == "open a context: this process was forked from one with an open context\n"
+    )
     assert forked("open_context().close()") == "['child']\n"
     assert forked("") == "['child']\n"
 
@@ -196,8 +231,12 @@ def test_a_forked_child_opens_a_context_only_where_the_parent_has_none():
 def test_a_process_with_discovery_off_is_not_seen(context: Context):
     graph = context.graph
     with echo_peer(ROS_AUTOMATIC_DISCOVERY_RANGE="OFF"), echo_peer():
-        assert graph.wait_for(lambda: len(graph.nodes()) == 1 and "/latched" in graph.topic_names_and_types(), LONG)
-        assert len([endpoint for endpoint in graph.endpoints() if endpoint.topic == "/latched"]) == 1
+        assert graph.wait_for(
+            lambda: len(graph.nodes()) == 1 and "/latched" in graph.topic_names_and_types(), LONG
+        )
+        assert (
+            len([endpoint for endpoint in graph.endpoints() if endpoint.topic == "/latched"]) == 1
+        )
 
 
 def test_domains_do_not_see_each_other(context: Context, other_domain: int):

@@ -43,8 +43,16 @@ def test_a_thousand_endpoints_take_a_handful_of_announcements(contexts: list[Con
             if announcements[-1] == 1000:
                 complete.set()
 
-    everything = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL, avoid_ros_namespace_conventions=True)
-    watcher = contexts[1].create_node("watcher").create_subscription(DISCOVERY_TOPIC, DISCOVERY_TYPE, everything, on_announcement)
+    everything = QoS(
+        history=History.KEEP_ALL,
+        durability=Durability.TRANSIENT_LOCAL,
+        avoid_ros_namespace_conventions=True,
+    )
+    watcher = (
+        contexts[1]
+        .create_node("watcher")
+        .create_subscription(DISCOVERY_TOPIC, DISCOVERY_TYPE, everything, on_announcement)
+    )
     assert contexts[1].graph.wait_for(lambda: watcher.publisher_count() == 2, LONG)
     started = time.monotonic_ns()
     node = contexts[0].create_node("talker")
@@ -64,12 +72,20 @@ def test_a_publisher_gives_up_on_a_subscription_that_stands_still(contexts: list
     context = contexts[0]
     keep_all = QoS(history=History.KEEP_ALL)
     publisher = context.create_node("talker").create_publisher("/to_peer", STRING, keep_all)
-    with subprocess.Popen([sys.executable, PEERS / "echo.py"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+    with subprocess.Popen(
+        [sys.executable, PEERS / "echo.py"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as peer:
         assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
         peer.send_signal(signal.SIGSTOP)
         big = MESSAGE + bytes(100_000)
         try:
-            with pytest.raises(WireError, match=r"/to_peer: not sent, a reliable subscription did not keep up for 1 s") as caught:
+            with pytest.raises(
+                WireError,
+                match=r"/to_peer: not sent, a reliable subscription did not keep up for 1 s",
+            ) as caught:
                 publish_often(publisher, big)
             assert "KEEP_LAST" in caught.value.hint
         finally:
@@ -80,7 +96,9 @@ def test_a_publisher_gives_up_on_a_subscription_that_stands_still(contexts: list
 
 def test_close_is_not_held_up_by_a_blocked_publisher(contexts: list[Context]):
     context = contexts[0]
-    publisher = context.create_node("talker").create_publisher("/to_peer", STRING, QoS(history=History.KEEP_ALL))
+    publisher = context.create_node("talker").create_publisher(
+        "/to_peer", STRING, QoS(history=History.KEEP_ALL)
+    )
     errors: list[str] = []
 
     def flood() -> None:
@@ -90,7 +108,12 @@ def test_close_is_not_held_up_by_a_blocked_publisher(contexts: list[Context]):
         except WireError as error:
             errors.append(str(error))
 
-    with subprocess.Popen([sys.executable, PEERS / "echo.py"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as peer:
+    with subprocess.Popen(
+        [sys.executable, PEERS / "echo.py"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as peer:
         assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
         peer.send_signal(signal.SIGSTOP)
         try:
@@ -129,12 +152,21 @@ def test_threads_may_publish_take_and_close_at_the_same_time(contexts: list[Cont
         by_callback = listener.create_subscription("/busy", STRING, QoS(), lambda *_: None)
         wait_set = listener.context.create_wait_set()
         wait_set.attach(subscription)
-        works = [lambda: publisher.publish(MESSAGE), lambda: publisher.publish(MESSAGE), subscription.take, wait_set.wait]  # noqa: B023
+        works = [
+            lambda: publisher.publish(MESSAGE),  # noqa: B023
+            lambda: publisher.publish(MESSAGE),  # noqa: B023
+            subscription.take,
+            wait_set.wait,
+        ]
         threads = [threading.Thread(target=guarded, args=(work,)) for work in works]
         for thread in threads:
             thread.start()
         threads[0].join(0.02)
-        for entity in (publisher, subscription, by_callback) if round_number % 2 else (by_callback, subscription, publisher):
+        for entity in (
+            (publisher, subscription, by_callback)
+            if round_number % 2
+            else (by_callback, subscription, publisher)
+        ):
             entity.close()
         closing.set()
         wait_set.close()
@@ -149,7 +181,9 @@ class Member:
 
     def __init__(self, *counts: int) -> None:
         command = [sys.executable, PEERS / "crowd.py", *map(str, counts)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
         self.started = time.time()
 
     def next_time(self) -> float:

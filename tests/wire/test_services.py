@@ -9,7 +9,9 @@ from turtlewire.wire.base import RequestId
 from turtlewire.wire.cyclone.services import format_service_id
 from turtlewire.wire.services import join_header, split_header
 
-CALLS = json.loads((Path(__file__).parents[1] / "golden" / "wire" / "service_calls.json").read_text())
+CALLS = json.loads(
+    (Path(__file__).parents[1] / "golden" / "wire" / "service_calls.json").read_text()
+)
 
 
 def test_the_headers_of_a_real_ros_2_are_reproduced():
@@ -17,7 +19,9 @@ def test_the_headers_of_a_real_ros_2_are_reproduced():
     for call in CALLS:
         for part in (call["request"], call["response"]):
             payload = bytes.fromhex(part["bytes"])
-            request_id = RequestId(int.from_bytes(bytes.fromhex(part["header_guid"]), "little"), part["header_seq"])
+            request_id = RequestId(
+                int.from_bytes(bytes.fromhex(part["header_guid"]), "little"), part["header_seq"]
+            )
             cdr = bytes.fromhex(part["encapsulation"] + part["payload"])
             assert split_header(payload) == (request_id, cdr)
             assert join_header(request_id, cdr) == payload

@@ -9,7 +9,9 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.cyclone import taking
 from turtlewire.wire.qos import History, QoS
 
-STRING = TypeId("std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18")
+STRING = TypeId(
+    "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+)
 LONG_NS = 30_000_000_000
 
 
@@ -28,7 +30,10 @@ def pair():
     context = wire.open_context(middleware="rmw_cyclonedds_cpp")
     node = context.create_node("node")
     qos = QoS(history=History.KEEP_ALL)
-    publisher, subscription = node.create_publisher("/texts", STRING, qos), node.create_subscription("/texts", STRING, qos)
+    publisher, subscription = (
+        node.create_publisher("/texts", STRING, qos),
+        node.create_subscription("/texts", STRING, qos),
+    )
     assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG_NS)
     yield publisher, subscription
     context.close()

@@ -18,19 +18,32 @@ if TYPE_CHECKING:
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="network namespaces need root"),
-    pytest.mark.skipif(shutil.which("ip") is None, reason="network namespaces need the command ip (iproute2)"),
+    pytest.mark.skipif(
+        not hasattr(os, "geteuid") or os.geteuid() != 0, reason="network namespaces need root"
+    ),
+    pytest.mark.skipif(
+        shutil.which("ip") is None, reason="network namespaces need the command ip (iproute2)"
+    ),
 ]
 
 PEERS = Path(__file__).parent / "peers"
 HOSTS = {"here": "10.77.0.1", "there": "10.77.0.2"}
 ROOT = Path(__file__).parents[2]
 
-#: Which host runs which node of the follow demo, and its arguments: each arrow of the data flow crosses the cable.
+#: Which host runs which node of the follow demo, and its arguments: each arrow of the data flow
+#: crosses the cable.
 DEMO = [
     ("here", "turtlesim.turtlesim_node", []),
-    ("there", "learning_tf2_py.turtle_tf2_broadcaster", ["-r", "__node:=broadcaster1", "-p", "turtlename:=turtle1"]),
-    ("here", "learning_tf2_py.turtle_tf2_broadcaster", ["-r", "__node:=broadcaster2", "-p", "turtlename:=turtle2"]),
+    (
+        "there",
+        "learning_tf2_py.turtle_tf2_broadcaster",
+        ["-r", "__node:=broadcaster1", "-p", "turtlename:=turtle1"],
+    ),
+    (
+        "here",
+        "learning_tf2_py.turtle_tf2_broadcaster",
+        ["-r", "__node:=broadcaster2", "-p", "turtlename:=turtle2"],
+    ),
     ("there", "learning_tf2_py.turtle_tf2_listener", ["-p", "target_frame:=turtle1"]),
 ]
 
@@ -51,7 +64,20 @@ def hosts() -> Iterator[None]:
         pytest.skip(f"this container has no network namespaces: {error.stderr.decode().strip()}")
     try:
         ip("netns", "add", namespace("there"))
-        ip("link", "add", "tw-here", "netns", namespace("here"), "type", "veth", "peer", "name", "tw-there", "netns", namespace("there"))
+        ip(
+            "link",
+            "add",
+            "tw-here",
+            "netns",
+            namespace("here"),
+            "type",
+            "veth",
+            "peer",
+            "name",
+            "tw-there",
+            "netns",
+            namespace("there"),
+        )
         for host, address in HOSTS.items():
             ip("-n", namespace(host), "addr", "add", f"{address}/24", "dev", f"tw-{host}")
             ip("-n", namespace(host), "link", "set", f"tw-{host}", "up")
@@ -59,7 +85,9 @@ def hosts() -> Iterator[None]:
         yield
     finally:
         for host in HOSTS:
-            subprocess.run(["ip", "netns", "delete", namespace(host)], check=False, capture_output=True)
+            subprocess.run(
+                ["ip", "netns", "delete", namespace(host)], check=False, capture_output=True
+            )
 
 
 def command(host: str, script: str) -> list[str]:
@@ -69,7 +97,11 @@ def command(host: str, script: str) -> list[str]:
 @contextmanager
 def echo_there(**environment: str) -> Iterator[None]:
     peer = subprocess.Popen(
-        command("there", "echo.py"), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | environment
+        command("there", "echo.py"),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | environment,
     )
     try:
         assert peer.stdout is not None
@@ -81,7 +113,12 @@ def echo_there(**environment: str) -> Iterator[None]:
 
 def probe_here(**environment: str) -> int:
     done = subprocess.run(
-        command("here", "probe.py"), env=os.environ | environment, capture_output=True, text=True, timeout=100, check=False
+        command("here", "probe.py"),
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     return int(done.stdout)
@@ -99,7 +136,9 @@ def test_static_peers_find_the_other_host_without_multicast(chosen: str):
     for host in HOSTS:
         ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "off")
     with echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["here"]):
-        assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["there"]) == 1
+        assert (
+            probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE=chosen, ROS_STATIC_PEERS=HOSTS["there"]) == 1
+        )
     for host in HOSTS:
         ip("-n", namespace(host), "link", "set", f"tw-{host}", "multicast", "on")
 
@@ -110,7 +149,9 @@ def test_nobody_from_outside_gets_in_by_default():
     with ExitStack() as stack:
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=""))
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"))
-        assert probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
+        assert (
+            probe_here(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET", ROS_STATIC_PEERS=HOSTS["there"]) == 1
+        )
 
 
 class Asker:
@@ -148,8 +189,12 @@ def link() -> Iterator[Callable[[str], None]]:
 
 
 @pytest.mark.usefixtures("hosts")
-@pytest.mark.parametrize("lease", ["20s", "2s"], ids=["shorter than the lease", "longer than the lease"])
-def test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive(link, lease: str, tmp_path: Path):
+@pytest.mark.parametrize(
+    "lease", ["20s", "2s"], ids=["shorter than the lease", "longer than the lease"]
+)
+def test_a_link_that_goes_down_and_up_is_named_once_and_later_messages_arrive(
+    link, lease: str, tmp_path: Path
+):
     environment = {
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
         "CYCLONEDDS_URI": f"<Discovery><LeaseDuration>{lease}</LeaseDuration></Discovery>",
@@ -190,9 +235,21 @@ def split_demo(tmp_path) -> Iterator[list[subprocess.Popen[bytes]]]:
     try:
         for number, (host, module, arguments) in enumerate(DEMO):
             program = f"from {module} import main; main()"
-            run = ["ip", "netns", "exec", namespace(host), sys.executable, "-c", program, "--ros-args", *arguments]
+            run = [
+                "ip",
+                "netns",
+                "exec",
+                namespace(host),
+                sys.executable,
+                "-c",
+                program,
+                "--ros-args",
+                *arguments,
+            ]
             with (tmp_path / f"{number}.txt").open("wb") as output:
-                processes.append(subprocess.Popen(run, env=environment, stdout=output, stderr=subprocess.STDOUT))
+                processes.append(
+                    subprocess.Popen(run, env=environment, stdout=output, stderr=subprocess.STDOUT)
+                )
         yield processes
     finally:
         for process in processes:
@@ -205,7 +262,9 @@ def split_demo(tmp_path) -> Iterator[list[subprocess.Popen[bytes]]]:
 def test_the_follow_demo_runs_split_over_both_hosts(split_demo, tmp_path):
     run = command("here", "follow.py")
     environment = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
-    done = subprocess.run(run, env=environment, capture_output=True, text=True, timeout=100, check=False)
+    done = subprocess.run(
+        run, env=environment, capture_output=True, text=True, timeout=100, check=False
+    )
     said = "".join(path.read_text() for path in sorted(tmp_path.glob("*.txt")))
     assert done.returncode == 0, done.stderr + said
     way_of_turtle2, final_distance = (float(word) for word in done.stdout.split())

@@ -41,11 +41,15 @@ class AppendEnvironmentVariable(Action):
         super().__init__(**kwargs)
         self._name = normalize_to_list_of_substitutions(name)
         self._value = normalize_to_list_of_substitutions(value)
-        self._prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
+        self._prepend = normalize_to_list_of_substitutions(
+            str(prepend) if isinstance(prepend, bool) else prepend
+        )
         self._separator = normalize_to_list_of_substitutions(separator)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
         """Read an ``append_env`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))

@@ -47,15 +47,21 @@ class DeclareLaunchArgument(Action):
         super().__init__(**kwargs)
         self._name = name
         self._logger = logging.get_logger("launch.actions.declare_launch_argument")
-        self._default_value = None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        self._default_value = (
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
         self._choices = None if choices is None else list(choices)
         if self._choices is not None and not self._choices:
-            raise ValueError("Provided choices are empty. Please provide at least one choice or omit them.")
+            raise ValueError(
+                "Provided choices are empty. Please provide at least one choice or omit them."
+            )
         self._description = _described(description, self._choices)
         self._conditionally_included = False
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
         """Read an ``arg`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
@@ -67,7 +73,9 @@ class DeclareLaunchArgument(Action):
             kwargs["description"] = parser.escape_characters(description)
         choices = entity.get_attr("choice", data_type=list[Entity], optional=True)
         if choices is not None:
-            kwargs["choices"] = [parser.escape_characters(choice.get_attr("value")) for choice in choices]
+            kwargs["choices"] = [
+                parser.escape_characters(choice.get_attr("value")) for choice in choices
+            ]
             for choice in choices:
                 choice.assert_entity_completely_parsed()
         return cls, kwargs
@@ -100,9 +108,15 @@ class DeclareLaunchArgument(Action):
         """
         if self._name not in context.launch_configurations:
             if self._default_value is None:
-                self._logger.error('Required launch argument "%s" (description: "%s") was not provided', self._name, self._description)
+                self._logger.error(
+                    'Required launch argument "%s" (description: "%s") was not provided',
+                    self._name,
+                    self._description,
+                )
                 raise RuntimeError(f'Required launch argument "{self._name}" was not provided.')
-            context.launch_configurations[self._name] = perform_substitutions(context, self._default_value)
+            context.launch_configurations[self._name] = perform_substitutions(
+                context, self._default_value
+            )
         value = context.launch_configurations[self._name]
         if self._choices is not None and value not in self._choices:
             message = f'Argument "{self._name}" provided value "{value}" is not valid. Valid options are: {self._choices}'

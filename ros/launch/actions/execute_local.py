@@ -54,14 +54,16 @@ class ExecuteLocal(Action):
         shell: Whether a shell interprets the command line.
         sigterm_timeout: Seconds between SIGINT and SIGTERM.
         sigkill_timeout: Seconds between SIGTERM and SIGKILL.
-        emulate_tty: Whether the process finds a terminal at its output (many programs then show colours) and, when the launch runs in
-            a terminal, reads what is typed there: so a launched ``turtle_teleop_key`` works. A launch configuration of this name goes
-            before.
-        output: Where its output goes: ``log`` (stderr on the screen too), ``screen``, ``both``, ``own_log``, ``full``, or a mapping.
+        emulate_tty: Whether the process finds a terminal at its output (many programs then show
+            colours) and, when the launch runs in a terminal, reads what is typed there: so a
+            launched ``turtle_teleop_key`` works. A launch configuration of this name goes before.
+        output: Where its output goes: ``log`` (stderr on the screen too), ``screen``, ``both``,
+            ``own_log``, ``full``, or a mapping.
         output_format: How its lines are shown.
         cached_output: Whether all output is kept for :meth:`get_stdout` and :meth:`get_stderr`.
         log_cmd: Whether the command line is logged at the start.
-        on_exit: What happens at its end: actions, or a function of event and context that returns some.
+        on_exit: What happens at its end: actions, or a function of event and context that returns
+            some.
         respawn: Whether it is started again after its end.
         respawn_delay: Seconds before that.
         respawn_max_retries: How often at most; -1 for no limit.
@@ -94,7 +96,9 @@ class ExecuteLocal(Action):
         self._emulate_tty = emulate_tty
         override = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
         chosen: Any = override or output
-        self._output = dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
+        self._output = (
+            dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
+        )
         self._output_format = output_format
         self._cached_output = cached_output
         self._log_cmd = log_cmd
@@ -153,7 +157,9 @@ class ExecuteLocal(Action):
         """Done when the process has ended for good."""
         return self._completed
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """What happens at the end of the process."""
         if self._on_exit is None or callable(self._on_exit):
             return []
@@ -169,7 +175,9 @@ class ExecuteLocal(Action):
             Exception: A substitution of it fails.
         """
         if self._completed is not None:
-            raise RuntimeError(f"ExecuteLocal action '{self._process_description.final_name}': executed more than once: {self.describe()}")
+            raise RuntimeError(
+                f"ExecuteLocal action '{self._process_description.final_name}': executed more than once: {self.describe()}"
+            )
         if context.is_shutdown:
             return None
         try:
@@ -226,11 +234,15 @@ class ExecuteLocal(Action):
             self._logger.error("exception occurred while executing process: %s", error)  # noqa: TRY400  the text says all
             return False
         await context.emit_event(ProcessStarted(action=self, **self._event_details()))
-        if self._shutting_down.is_set():  # it was told to end while it was starting, too early for a signal
+        if (
+            self._shutting_down.is_set()
+        ):  # it was told to end while it was starting, too early for a signal
             self._stop(context, send_sigint=True)
         self._return_code = await process.wait()
         await process.close()
-        await context.emit_event(ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details()))
+        await context.emit_event(
+            ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details())
+        )
         await self._end_was_handled.wait()
         return True
 
@@ -239,7 +251,11 @@ class ExecuteLocal(Action):
         assert description.final_cmd is not None
         assert description.final_env is not None
         if self._log_cmd:
-            self._logger.info("process details: cmd='%s', cwd='%s'", " ".join(description.final_cmd), description.final_cwd)
+            self._logger.info(
+                "process details: cmd='%s', cwd='%s'",
+                " ".join(description.final_cmd),
+                description.final_cwd,
+            )
         emulate_tty = self._performed_emulate_tty(context)
         return await ChildProcess.start(
             self.command(),
@@ -255,7 +271,11 @@ class ExecuteLocal(Action):
 
     def _on_start(self, pid: int) -> None:
         description = self._process_description
-        self._process_details = {"name": self._name, "cmd": description.final_cmd, "cwd": description.final_cwd}
+        self._process_details = {
+            "name": self._name,
+            "cmd": description.final_cmd,
+            "cwd": description.final_cwd,
+        }
         self._process_details |= {"env": description.final_env, "pid": pid}
         self._logger.info("process started with pid [%s]", pid)
 
@@ -275,9 +295,13 @@ class ExecuteLocal(Action):
     def _register_handlers(self, context: LaunchContext) -> None:
         """Register for all events of the process; later ones are asked first."""
         handlers: list[BaseEventHandler] = [
-            OnProcessExit(target_action=self, on_exit=self._on_exit if self._on_exit is not None else []),
+            OnProcessExit(
+                target_action=self, on_exit=self._on_exit if self._on_exit is not None else []
+            ),
             OnProcessExit(target_action=self, on_exit=self._show_end),
-            OnProcessIO(target_action=self, on_stdout=self._show_output, on_stderr=self._show_output),
+            OnProcessIO(
+                target_action=self, on_stdout=self._show_output, on_stderr=self._show_output
+            ),
             OnShutdown(on_shutdown=self._on_shutdown),
             EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
         ]
@@ -319,7 +343,12 @@ class ExecuteLocal(Action):
         if event.returncode == 0:
             self._logger.info("process has finished cleanly [pid %s]", event.pid)
         else:
-            self._logger.error("process has died [pid %s, exit code %s, cmd '%s'].", event.pid, event.returncode, " ".join(event.cmd))
+            self._logger.error(
+                "process has died [pid %s, exit code %s, cmd '%s'].",
+                event.pid,
+                event.returncode,
+                " ".join(event.cmd),
+            )
         self._end_was_handled.set()
 
     def _log_lines(self, fd: int, lines: list[str]) -> None:
@@ -345,11 +374,16 @@ class ExecuteLocal(Action):
             return
         if send_sigint:
             self._send_signal(signal.SIGINT)
-        context.add_completion_future(context.asyncio_loop.create_task(self._escalate(context, self._process)))
+        context.add_completion_future(
+            context.asyncio_loop.create_task(self._escalate(context, self._process))
+        )
 
     async def _escalate(self, context: LaunchContext, process: ChildProcess) -> None:
         """Send SIGTERM, then SIGKILL, when the process does not end in time."""
-        steps = ((signal.SIGINT, signal.SIGTERM, self._sigterm_timeout), (signal.SIGTERM, _SIGKILL, self._sigkill_timeout))
+        steps = (
+            (signal.SIGINT, signal.SIGTERM, self._sigterm_timeout),
+            (signal.SIGTERM, _SIGKILL, self._sigkill_timeout),
+        )
         for before, after, timeout in steps:
             text = perform_substitutions(context, timeout)
             if await process.wait(float(text)) is not None:
@@ -370,16 +404,24 @@ class ExecuteLocal(Action):
     # settings that are substitutions
 
     def _output_choice(self, context: LaunchContext) -> Any:
-        return self._output if isinstance(self._output, dict) else perform_substitutions(context, self._output)
+        return (
+            self._output
+            if isinstance(self._output, dict)
+            else perform_substitutions(context, self._output)
+        )
 
     def _performed_respawn(self, context: LaunchContext) -> bool:
         if isinstance(self._respawn, bool):
             return self._respawn
-        return evaluate_condition_expression(context, normalize_to_list_of_substitutions(self._respawn))
+        return evaluate_condition_expression(
+            context, normalize_to_list_of_substitutions(self._respawn)
+        )
 
     def _performed_emulate_tty(self, context: LaunchContext) -> bool:
         fallback = str(self._emulate_tty)
-        return evaluate_condition_expression(context, [LaunchConfiguration("emulate_tty", default=fallback)])
+        return evaluate_condition_expression(
+            context, [LaunchConfiguration("emulate_tty", default=fallback)]
+        )
 
 
 _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
@@ -388,7 +430,9 @@ _SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
 def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:
     if value is None:
         return normalize_to_list_of_substitutions(LaunchConfiguration(configuration, default=5))
-    return normalize_to_list_of_substitutions(str(value) if isinstance(value, (int, float)) else value)
+    return normalize_to_list_of_substitutions(
+        str(value) if isinstance(value, (int, float)) else value
+    )
 
 
 def _stdin_is_terminal() -> bool:

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ExecuteProcess"]
 
-# Stands for a substitution while a command line is split; private-use characters occur in no command.
+# Stands for a substitution while a command line is split; private-use characters occur in no
+# command.
 _PLACEHOLDER = 0xE000
 
 
@@ -49,11 +50,15 @@ class ExecuteProcess(ExecuteLocal):
         additional_env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
-        description = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
+        description = Executable(
+            cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
+        )
         super().__init__(process_description=description, **kwargs)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type[ExecuteProcess], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+    ) -> tuple[type[ExecuteProcess], dict[str, Any]]:
         """Read an ``executable`` element.
 
         Args:
@@ -64,18 +69,28 @@ class ExecuteProcess(ExecuteLocal):
         _, kwargs = super().parse(entity, parser)
         if "cmd" not in ignore:
             kwargs["cmd"] = split_command_line(parser.parse_substitution(entity.get_attr("cmd")))
-        for attribute, keyword in (("cwd", "cwd"), ("name", "name"), ("launch-prefix", "prefix"), ("output", "output")):
+        for attribute, keyword in (
+            ("cwd", "cwd"),
+            ("name", "name"),
+            ("launch-prefix", "prefix"),
+            ("output", "output"),
+        ):
             value = None if attribute in ignore else entity.get_attr(attribute, optional=True)
             if value is not None:
                 kwargs[keyword] = parser.parse_substitution(value)
-        if "output_format" not in ignore and (layout := entity.get_attr("output_format", optional=True)) is not None:
+        if (
+            "output_format" not in ignore
+            and (layout := entity.get_attr("output_format", optional=True)) is not None
+        ):
             kwargs["output_format"] = layout
         kwargs |= _typed_attributes(entity, parser)
         if "env" not in ignore:
             variables = entity.get_attr("env", data_type=list[Entity], optional=True)
             if variables is not None:
                 kwargs["additional_env"] = {
-                    tuple(parser.parse_substitution(item.get_attr("name"))): parser.parse_substitution(item.get_attr("value"))
+                    tuple(
+                        parser.parse_substitution(item.get_attr("name"))
+                    ): parser.parse_substitution(item.get_attr("value"))
                     for item in variables
                 }
                 for item in variables:
@@ -112,7 +127,8 @@ def split_command_line(line: Iterable[Substitution]) -> list[list[Substitution]]
     """Split at blanks, as a shell does; substitutions stay whole."""
     substitutions = list(line)
     marked = "".join(
-        part.text if isinstance(part, TextSubstitution) else chr(_PLACEHOLDER + number) for number, part in enumerate(substitutions)
+        part.text if isinstance(part, TextSubstitution) else chr(_PLACEHOLDER + number)
+        for number, part in enumerate(substitutions)
     )
     return [_unmarked(word, substitutions) for word in shlex.split(marked)]
 
@@ -137,7 +153,12 @@ def _typed_attributes(entity: Entity, parser: Parser) -> dict[str, Any]:
         value = entity.get_attr(attribute, data_type=float, optional=True, can_be_str=True)
         if value is not None:
             kwargs[attribute] = parser.parse_if_substitutions(value)
-    for attribute, data_type in (("respawn_delay", float), ("respawn_max_retries", int), ("shell", bool), ("emulate_tty", bool)):
+    for attribute, data_type in (
+        ("respawn_delay", float),
+        ("respawn_max_retries", int),
+        ("shell", bool),
+        ("emulate_tty", bool),
+    ):
         value = entity.get_attr(attribute, data_type=data_type, optional=True, can_be_str=False)
         if value is not None:
             kwargs[attribute] = value
@@ -149,6 +170,8 @@ def _typed_attributes(entity: Entity, parser: Parser) -> dict[str, Any]:
         from launch.actions.shutdown_action import Shutdown
 
         if on_exit != "shutdown":
-            raise ValueError('Attribute on_exit of Entity node expected to be "shutdown" but got `' + f"{on_exit}`")
+            raise ValueError(
+                f'Attribute on_exit of Entity node expected to be "shutdown" but got `{on_exit}`'
+            )
         kwargs["on_exit"] = [Shutdown()]
     return kwargs

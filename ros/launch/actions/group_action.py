@@ -63,10 +63,14 @@ class GroupAction(Action):
         kept = [child for child in entity.children if child.type_name == "keep"]
         if kept:
             kwargs["launch_configurations"] = {
-                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value"))
+                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(
+                    child.get_attr("value")
+                )
                 for child in kept
             }
-        kwargs["actions"] = [parser.parse_action(child) for child in entity.children if child.type_name != "keep"]
+        kwargs["actions"] = [
+            parser.parse_action(child) for child in entity.children if child.type_name != "keep"
+        ]
         return cls, kwargs
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -78,7 +82,10 @@ class GroupAction(Action):
         return self._sub_entities()
 
     def _sub_entities(self) -> list[LaunchDescriptionEntity]:
-        settings = [SetLaunchConfiguration(name, value) for name, value in self._launch_configurations.items()]
+        settings = [
+            SetLaunchConfiguration(name, value)
+            for name, value in self._launch_configurations.items()
+        ]
         if not self._scoped:
             return [*settings, *self._actions]
         inside: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]

@@ -43,7 +43,8 @@ class IncludeLaunchDescription(Action):
         self,
         launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
         *,
-        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None = None,
+        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
+        | None = None,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
@@ -55,14 +56,19 @@ class IncludeLaunchDescription(Action):
         self._launch_arguments = list(launch_arguments or ())
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
         """Read an ``include`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         arguments = entity.get_attr("arg", data_type=list[Entity], optional=True) or []
         arguments += entity.get_attr("let", data_type=list[Entity], optional=True) or []
         kwargs["launch_arguments"] = [
-            (parser.parse_substitution(argument.get_attr("name")), parser.parse_substitution(argument.get_attr("value")))
+            (
+                parser.parse_substitution(argument.get_attr("name")),
+                parser.parse_substitution(argument.get_attr("value")),
+            )
             for argument in arguments
         ]
         for argument in arguments:
@@ -95,16 +101,31 @@ class IncludeLaunchDescription(Action):
             RuntimeError: An argument that it requires is missing.
         """
         description = self._source.get_launch_description(context)
-        before = {name: value for name, value in context.get_locals_as_dict().items() if name in _PATH_LOCALS}
+        before = {
+            name: value
+            for name, value in context.get_locals_as_dict().items()
+            if name in _PATH_LOCALS
+        }
         path = self._source.location
-        context.extend_locals({"current_launch_file_path": path, "current_launch_file_directory": os.path.dirname(os.path.abspath(path))})
+        context.extend_locals(
+            {
+                "current_launch_file_path": path,
+                "current_launch_file_directory": os.path.dirname(os.path.abspath(path)),
+            }
+        )
         self._check_arguments(description, context)
         settings = [SetLaunchConfiguration(name, value) for name, value in self._launch_arguments]
         return [*settings, description, OpaqueFunction(function=_restore_paths, args=(before,))]
 
     def _check_arguments(self, description: LaunchDescription, context: LaunchContext) -> None:
-        given = [perform_substitutions(context, normalize_to_list_of_substitutions(name)) for name, _ in self._launch_arguments]
-        for argument, inclusions in description.get_launch_arguments_with_include_launch_description_actions():
+        given = [
+            perform_substitutions(context, normalize_to_list_of_substitutions(name))
+            for name, _ in self._launch_arguments
+        ]
+        for (
+            argument,
+            inclusions,
+        ) in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None or inclusions:
                 continue
             if argument.name not in context.launch_configurations and argument.name not in given:

@@ -38,7 +38,9 @@ class OpaqueCoroutine(Action):
     ) -> None:
         super().__init__(**left_over_kwargs)
         if not asyncio.iscoroutinefunction(coroutine):
-            raise TypeError(f"OpaqueCoroutine expected a coroutine function for 'coroutine', got '{type(coroutine)}' instead")
+            raise TypeError(
+                f"OpaqueCoroutine expected a coroutine function for 'coroutine', got '{type(coroutine)}' instead"
+            )
         self._coroutine = coroutine
         self._args = tuple(args or ())
         self._kwargs = dict(kwargs or {})

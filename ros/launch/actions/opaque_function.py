@@ -35,7 +35,9 @@ class OpaqueFunction(Action):
     ) -> None:
         super().__init__(**left_over_kwargs)
         if not callable(function):
-            raise TypeError(f"OpaqueFunction expected a callable for 'function', got '{type(function)}' instead.")
+            raise TypeError(
+                f"OpaqueFunction expected a callable for 'function', got '{type(function)}' instead."
+            )
         self._function = function
         self._args = tuple(args or ())
         self._kwargs = dict(kwargs or {})

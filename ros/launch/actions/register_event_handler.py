@@ -37,7 +37,9 @@ class RegisterEventHandler(Action):
         """Register it."""
         context.register_event_handler(self._event_handler)
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """What the handler returns, as far as it is known."""
         entities = self._event_handler.describe()[1]
         return [(f"{self._event_handler.matcher_description}", entities)] if entities else []

@@ -23,20 +23,29 @@ class ResetLaunchConfigurations(Action):
     """Forgets all launch configurations but those given.
 
     Args:
-        launch_configurations: Names and values that are set afterwards; their substitutions still see the forgotten ones.
+        launch_configurations: Names and values that are set afterwards; their substitutions still
+            see the forgotten ones.
         **kwargs: See :class:`Action`.
     """
 
-    def __init__(self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
         super().__init__(**kwargs)
         self._launch_configurations = dict(launch_configurations or {})
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
         """Read a ``reset`` element with ``keep`` children."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_configurations"] = {
-            tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(child.get_attr("value"))
+            tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(
+                child.get_attr("value")
+            )
             for child in entity.children
             if child.type_name == "keep"
         }
@@ -45,9 +54,9 @@ class ResetLaunchConfigurations(Action):
     def execute(self, context: LaunchContext) -> None:
         """Forget, and set the given ones."""
         kept = {
-            perform_substitutions(context, normalize_to_list_of_substitutions(name)): perform_substitutions(
-                context, normalize_to_list_of_substitutions(value)
-            )
+            perform_substitutions(
+                context, normalize_to_list_of_substitutions(name)
+            ): perform_substitutions(context, normalize_to_list_of_substitutions(value))
             for name, value in self._launch_configurations.items()
         }
         context.launch_configurations.clear()

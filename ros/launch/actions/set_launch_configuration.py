@@ -27,13 +27,17 @@ class SetLaunchConfiguration(Action):
         **kwargs: See :class:`Action`.
     """
 
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(
+        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any
+    ) -> None:
         super().__init__(**kwargs)
         self._name = normalize_to_list_of_substitutions(name)
         self._value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetLaunchConfiguration], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[SetLaunchConfiguration], dict[str, Any]]:
         """Read a ``let`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -52,4 +56,6 @@ class SetLaunchConfiguration(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""
-        context.launch_configurations[perform_substitutions(context, self._name)] = perform_substitutions(context, self._value)
+        context.launch_configurations[perform_substitutions(context, self._name)] = (
+            perform_substitutions(context, self._value)
+        )

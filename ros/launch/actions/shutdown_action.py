@@ -42,5 +42,7 @@ class Shutdown(EmitEvent):
         """End it; as the reaction to the end of a process, say which."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):
-            logging.get_logger("launch").info("process[%s] was required: shutting down launched system", event.process_name)
+            logging.get_logger("launch").info(
+                "process[%s] was required: shutting down launched system", event.process_name
+            )
         super().execute(context)

@@ -33,7 +33,8 @@ class TimerAction(Action):
     Args:
         period: Seconds: a number, or a text that is one.
         actions: The actions.
-        cancel_on_shutdown: Whether the end of the launch cancels it: true or false, or a text that says so.
+        cancel_on_shutdown: Whether the end of the launch cancels it: true or false, or a text that
+            says so.
         **kwargs: See :class:`Action`.
     """
 
@@ -46,9 +47,13 @@ class TimerAction(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self._period = normalize_to_list_of_substitutions(str(period) if isinstance(period, (int, float)) else period)
+        self._period = normalize_to_list_of_substitutions(
+            str(period) if isinstance(period, (int, float)) else period
+        )
         self._actions = entity_list(actions)
-        text = str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
+        text = (
+            str(cancel_on_shutdown) if isinstance(cancel_on_shutdown, bool) else cancel_on_shutdown
+        )
         self._cancel_on_shutdown = normalize_to_list_of_substitutions(text)
         self._completed: asyncio.Future[None] | None = None
         self._timer: Any = None
@@ -59,7 +64,9 @@ class TimerAction(Action):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
         """Read a ``timer`` element."""
         _, kwargs = super().parse(entity, parser)
-        kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
+        kwargs["period"] = parser.parse_if_substitutions(
+            entity.get_attr("period", data_type=float, can_be_str=True)
+        )
         kwargs["actions"] = [parser.parse_action(child) for child in entity.children]
         return cls, kwargs
 
@@ -78,7 +85,9 @@ class TimerAction(Action):
         period = " + ".join(part.describe() for part in self._period)
         return f"TimerAction(period={period}, actions=<actions>)"
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """The actions, after the time."""
         period = " + ".join(part.describe() for part in self._period)
         return [(f"after {period} sec", self._actions)]
@@ -125,6 +134,10 @@ class TimerAction(Action):
     def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
         from launch.conditions import evaluate_condition_expression
 
-        if self._completed is not None and not self._completed.done() and evaluate_condition_expression(context, self._cancel_on_shutdown):
+        if (
+            self._completed is not None
+            and not self._completed.done()
+            and evaluate_condition_expression(context, self._cancel_on_shutdown)
+        ):
             self._logger.debug("canceling %s because of shutdown", self)
             self.cancel()

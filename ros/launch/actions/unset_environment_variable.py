@@ -31,7 +31,9 @@ class UnsetEnvironmentVariable(Action):
         self._name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
         """Read an ``unset_env`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))

@@ -31,7 +31,9 @@ class UnsetLaunchConfiguration(Action):
         self._name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetLaunchConfiguration], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[UnsetLaunchConfiguration], dict[str, Any]]:
         """Read an ``unset`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))

@@ -19,7 +19,9 @@ _TRUE = ("true", "1")
 _FALSE = ("false", "0")
 
 
-def evaluate_condition_expression(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
+def evaluate_condition_expression(
+    context: LaunchContext, expression: Iterable[Substitution]
+) -> bool:
     """Perform the substitutions and read the text as ``true``, ``1``, ``false`` or ``0``, in small or capital letters.
 
     Raises:

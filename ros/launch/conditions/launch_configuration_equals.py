@@ -18,15 +18,22 @@ class LaunchConfigurationEquals(Condition):
     """Takes place when a launch configuration has a value. Deprecated in ROS 2: ``IfCondition`` with ``EqualsSubstitution`` says the same.
 
     Args:
-        launch_configuration_name: Name of the configuration; one that is not set equals nothing but None.
+        launch_configuration_name: Name of the configuration; one that is not set equals nothing but
+            None.
         expected_value: The value.
     """
 
-    def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
+    def __init__(
+        self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None
+    ) -> None:
         self._name = launch_configuration_name
-        self._expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+        self._expected = (
+            None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+        )
         super().__init__(predicate=self._predicate_func)
 
     def _predicate_func(self, context: LaunchContext) -> bool:
-        expected = None if self._expected is None else perform_substitutions(context, self._expected)
+        expected = (
+            None if self._expected is None else perform_substitutions(context, self._expected)
+        )
         return context.launch_configurations.get(self._name) == expected

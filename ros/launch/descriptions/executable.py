@@ -29,7 +29,8 @@ class Executable:
 
     Args:
         cmd: Program and arguments.
-        prefix: What is put before it, for example a debugger; by default the launch configuration ``launch-prefix``.
+        prefix: What is put before it, for example a debugger; by default the launch configuration
+            ``launch-prefix``.
         name: Names the process; by default the program's file name.
         cwd: Working directory; by default that of the launch.
         env: The whole environment; by default that of the launch.
@@ -48,10 +49,14 @@ class Executable:
         additional_env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
-        self._cmd = [normalize_to_list_of_substitutions(part) for part in (*cmd, *(arguments or ()))]
+        self._cmd = [
+            normalize_to_list_of_substitutions(part) for part in (*cmd, *(arguments or ()))
+        ]
         default_prefix = LaunchConfiguration("launch-prefix", default="")
         self._prefix_is_default = prefix is None
-        self._prefix = normalize_to_list_of_substitutions(default_prefix if prefix is None else prefix)
+        self._prefix = normalize_to_list_of_substitutions(
+            default_prefix if prefix is None else prefix
+        )
         self._prefix_filter = [LaunchConfiguration("launch-prefix-filter", default="")]
         self._name = None if name is None else normalize_to_list_of_substitutions(name)
         self._cwd = None if cwd is None else normalize_to_list_of_substitutions(cwd)
@@ -126,7 +131,9 @@ class Executable:
         self.prefix_length = len(prefix)
         self._final_cmd = [*prefix, *cmd]
         self._final_cwd = None if self._cwd is None else perform_substitutions(context, self._cwd)
-        self._final_env = dict(context.environment) if self._env is None else _performed(context, self._env)
+        self._final_env = (
+            dict(context.environment) if self._env is None else _performed(context, self._env)
+        )
         self._final_env.update(_performed(context, self._additional_env or []))
         self._final_name = f"{name}-{next(_process_numbers)}"
 
@@ -141,8 +148,16 @@ def _variables(
     env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType],
 ) -> list[tuple[list[Substitution], list[Substitution]]]:
     pairs: Any = env.items() if hasattr(env, "items") else env
-    return [(normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value)) for name, value in pairs]
+    return [
+        (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
+        for name, value in pairs
+    ]
 
 
-def _performed(context: LaunchContext, variables: Iterable[tuple[list[Substitution], list[Substitution]]]) -> dict[str, str]:
-    return {perform_substitutions(context, name): perform_substitutions(context, value) for name, value in variables}
+def _performed(
+    context: LaunchContext, variables: Iterable[tuple[list[Substitution], list[Substitution]]]
+) -> dict[str, str]:
+    return {
+        perform_substitutions(context, name): perform_substitutions(context, value)
+        for name, value in variables
+    }

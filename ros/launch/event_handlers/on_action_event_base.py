@@ -37,8 +37,14 @@ class OnActionEventBase(BaseEventHandler):
         target_action_cls: type[Action],
         **kwargs: Any,
     ) -> None:
-        if not (callable(action_matcher) or isinstance(action_matcher, target_action_cls) or action_matcher is None):
-            raise ValueError(f"action_matcher must be a '{target_action_cls.__name__}' instance or a callable, not {action_matcher!r}")
+        if not (
+            callable(action_matcher)
+            or isinstance(action_matcher, target_action_cls)
+            or action_matcher is None
+        ):
+            raise ValueError(
+                f"action_matcher must be a '{target_action_cls.__name__}' instance or a callable, not {action_matcher!r}"
+            )
         self._action_matcher = action_matcher
         self._target_event_cls = target_event_cls
         self._function = on_event if callable(on_event) else None

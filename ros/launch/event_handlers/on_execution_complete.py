@@ -30,11 +30,16 @@ class OnExecutionComplete(OnActionEventBase):
         self,
         *,
         target_action: Callable[[Action], bool] | Action | None = None,
-        on_completion: SomeEntitiesType | Callable[[ExecutionComplete, LaunchContext], SomeEntitiesType | None],
+        on_completion: SomeEntitiesType
+        | Callable[[ExecutionComplete, LaunchContext], SomeEntitiesType | None],
         **kwargs: Any,
     ) -> None:
         from launch.action import Action
 
         super().__init__(
-            action_matcher=target_action, on_event=on_completion, target_event_cls=ExecutionComplete, target_action_cls=Action, **kwargs
+            action_matcher=target_action,
+            on_event=on_completion,
+            target_event_cls=ExecutionComplete,
+            target_action_cls=Action,
+            **kwargs,
         )

@@ -23,7 +23,9 @@ class OnIncludeLaunchDescription(BaseEventHandler):
     """
 
     def __init__(self, **kwargs: Any) -> None:
-        super().__init__(matcher=lambda event: isinstance(event, IncludeLaunchDescription), **kwargs)
+        super().__init__(
+            matcher=lambda event: isinstance(event, IncludeLaunchDescription), **kwargs
+        )
 
     @property
     def matcher_description(self) -> str:

@@ -30,11 +30,16 @@ class OnProcessExit(OnActionEventBase):
         self,
         *,
         target_action: Callable[[Action], bool] | Action | None = None,
-        on_exit: SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None],
+        on_exit: SomeEntitiesType
+        | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None],
         **kwargs: Any,
     ) -> None:
         from launch.actions import ExecuteLocal
 
         super().__init__(
-            action_matcher=target_action, on_event=on_exit, target_event_cls=ProcessExited, target_action_cls=ExecuteLocal, **kwargs
+            action_matcher=target_action,
+            on_event=on_exit,
+            target_event_cls=ProcessExited,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
         )

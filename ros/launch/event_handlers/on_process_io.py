@@ -39,9 +39,15 @@ class OnProcessIO(OnActionEventBase):
         from launch.actions import ExecuteLocal
 
         def on_event(event: ProcessIO, _context: object) -> SomeEntitiesType | None:
-            function = on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
+            function = (
+                on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin
+            )
             return None if function is None else function(event)
 
         super().__init__(
-            action_matcher=target_action, on_event=on_event, target_event_cls=ProcessIO, target_action_cls=ExecuteLocal, **kwargs
+            action_matcher=target_action,
+            on_event=on_event,
+            target_event_cls=ProcessIO,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
         )

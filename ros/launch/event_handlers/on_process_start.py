@@ -30,11 +30,16 @@ class OnProcessStart(OnActionEventBase):
         self,
         *,
         target_action: Callable[[Action], bool] | Action | None = None,
-        on_start: SomeEntitiesType | Callable[[ProcessStarted, LaunchContext], SomeEntitiesType | None],
+        on_start: SomeEntitiesType
+        | Callable[[ProcessStarted, LaunchContext], SomeEntitiesType | None],
         **kwargs: Any,
     ) -> None:
         from launch.actions import ExecuteLocal
 
         super().__init__(
-            action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, target_action_cls=ExecuteLocal, **kwargs
+            action_matcher=target_action,
+            on_event=on_start,
+            target_event_cls=ProcessStarted,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
         )

@@ -24,8 +24,15 @@ class OnShutdown(EventHandler):
         **kwargs: See :class:`BaseEventHandler`.
     """
 
-    def __init__(self, *, on_shutdown: SomeEntitiesType | Callable[[Any, LaunchContext], SomeEntitiesType | None], **kwargs: Any) -> None:
-        super().__init__(matcher=lambda event: isinstance(event, Shutdown), entities=on_shutdown, **kwargs)
+    def __init__(
+        self,
+        *,
+        on_shutdown: SomeEntitiesType | Callable[[Any, LaunchContext], SomeEntitiesType | None],
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(
+            matcher=lambda event: isinstance(event, Shutdown), entities=on_shutdown, **kwargs
+        )
 
     @property
     def matcher_description(self) -> str:

@@ -8,4 +8,11 @@ from launch.events.include_launch_description import IncludeLaunchDescription
 from launch.events.shutdown import Shutdown
 from launch.events.timer_event import TimerEvent
 
-__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matchers", "process"]
+__all__ = [
+    "ExecutionComplete",
+    "IncludeLaunchDescription",
+    "Shutdown",
+    "TimerEvent",
+    "matchers",
+    "process",
+]

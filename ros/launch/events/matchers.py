@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.events.process.process_targeted_event import matches_executable, matches_name, matches_pid
+from launch.events.process.process_targeted_event import (
+    matches_executable,
+    matches_name,
+    matches_pid,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,4 +6,10 @@ from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action, expose_substitution
 from launch.frontend.parser import InvalidFrontendLaunchFileError, Parser
 
-__all__ = ["Entity", "InvalidFrontendLaunchFileError", "Parser", "expose_action", "expose_substitution"]
+__all__ = [
+    "Entity",
+    "InvalidFrontendLaunchFileError",
+    "Parser",
+    "expose_action",
+    "expose_substitution",
+]

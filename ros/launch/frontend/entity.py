@@ -39,14 +39,18 @@ class Entity:
         """
         raise NotImplementedError
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(
+        self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
+    ) -> Any:
         """The value of an attribute.
 
         Args:
             name: Its name.
-            data_type: ``str``, ``int``, ``float``, ``bool``, ``List[...]`` of these, or ``List[Entity]`` for child elements.
+            data_type: ``str``, ``int``, ``float``, ``bool``, ``List[...]`` of these, or
+                ``List[Entity]`` for child elements.
             optional: Return None when it is not there.
-            can_be_str: Return text as it is when it is not of the type, since it may hold substitutions.
+            can_be_str: Return text as it is when it is not of the type, since it may hold
+                substitutions.
 
         Raises:
             AttributeError: It is not there.

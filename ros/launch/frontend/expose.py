@@ -7,13 +7,20 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["action_parse_methods", "expose_action", "expose_substitution", "substitution_parse_methods"]
+__all__ = [
+    "action_parse_methods",
+    "expose_action",
+    "expose_substitution",
+    "substitution_parse_methods",
+]
 
 _Exposed = TypeVar("_Exposed")
 
-#: Name of an action to the function that reads it: ``(entity, parser) -> (class, keyword arguments)``.
+#: Name of an action to the function that reads it: ``(entity, parser) -> (class, keyword
+#: arguments)``.
 action_parse_methods: dict[str, Callable[..., Any]] = {}
-#: Name of a substitution to the function that reads it: ``(arguments) -> (class, keyword arguments)``.
+#: Name of a substitution to the function that reads it: ``(arguments) -> (class, keyword
+#: arguments)``.
 substitution_parse_methods: dict[str, Callable[..., Any]] = {}
 
 
@@ -27,11 +34,15 @@ def expose_substitution(name: str) -> Callable[[_Exposed], _Exposed]:
     return _expose(name, substitution_parse_methods, "substitution")
 
 
-def _expose(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Callable[[_Exposed], _Exposed]:
+def _expose(
+    name: str, methods: dict[str, Callable[..., Any]], kind: str
+) -> Callable[[_Exposed], _Exposed]:
     def decorate(exposed: _Exposed) -> _Exposed:
         method = getattr(exposed, "parse", exposed)
         if not callable(method):
-            raise RuntimeError(f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method")  # noqa: TRY004  as in ROS 2
+            raise RuntimeError(  # noqa: TRY004  as in ROS 2
+                f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method"
+            )
         if name in methods and methods[name] != method:
             raise RuntimeError(f"Two {kind}s are exposed as '{name}'")
         methods[name] = method

@@ -1,7 +1,8 @@
 r"""Reads text with substitutions, ``hello $(var name)``, of launch files in XML and YAML.
 
-``$(name argument ...)``: arguments are separated by blanks, quoted by ``'`` or ``"`` when they contain some, and may hold further
-substitutions. ``\\$``, ``\\'``, ``\\"`` and ``\\\\`` stand for the character alone.
+``$(name argument ...)``: arguments are separated by blanks, quoted by ``'`` or ``"`` when they
+contain some, and may hold further substitutions. ``\\$``, ``\\'``, ``\\"`` and ``\\\\`` stand for
+the character alone.
 """
 
 from __future__ import annotations
@@ -57,11 +58,17 @@ class _Reader:
 
     def expect_end(self) -> None:
         if self._at != len(self._text):
-            raise SyntaxError(f"unexpected '{self._text[self._at]}' at position {self._at} of '{self._text}'")
+            raise SyntaxError(
+                f"unexpected '{self._text[self._at]}' at position {self._at} of '{self._text}'"
+            )
 
     def _character(self) -> str:
         character = self._text[self._at]
-        if character == "\\" and self._text[self._at + 1 : self._at + 2] in _ESCAPABLE and self._at + 1 < len(self._text):
+        if (
+            character == "\\"
+            and self._text[self._at + 1 : self._at + 2] in _ESCAPABLE
+            and self._at + 1 < len(self._text)
+        ):
             self._at += 1
             character = self._text[self._at]
         self._at += 1
@@ -72,7 +79,9 @@ class _Reader:
         self._at += 2
         self._skip_blanks()
         name_start = self._at
-        while self._at < len(self._text) and (self._text[self._at].isalnum() or self._text[self._at] in "-_"):
+        while self._at < len(self._text) and (
+            self._text[self._at].isalnum() or self._text[self._at] in "-_"
+        ):
             self._at += 1
         name = self._text[name_start : self._at]
         arguments: list[list[Substitution]] = []

@@ -15,7 +15,11 @@ _FALSE = ("no", "false", "off")
 
 def list_item_type(data_type: Any) -> Any:
     """What the items of a list type are, or None when the type is no list."""
-    return typing.get_args(data_type)[0] if typing.get_origin(data_type) is list and typing.get_args(data_type) else None
+    return (
+        typing.get_args(data_type)[0]
+        if typing.get_origin(data_type) is list and typing.get_args(data_type)
+        else None
+    )
 
 
 def is_entity_list(data_type: Any) -> bool:

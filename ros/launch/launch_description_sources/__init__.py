@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from launch.launch_description_sources.any_launch_description_source import AnyLaunchDescriptionSource
-from launch.launch_description_sources.any_launch_file_utilities import get_launch_description_from_any_launch_file
-from launch.launch_description_sources.frontend_launch_description_source import FrontendLaunchDescriptionSource
+from launch.launch_description_sources.any_launch_description_source import (
+    AnyLaunchDescriptionSource,
+)
+from launch.launch_description_sources.any_launch_file_utilities import (
+    get_launch_description_from_any_launch_file,
+)
+from launch.launch_description_sources.frontend_launch_description_source import (
+    FrontendLaunchDescriptionSource,
+)
 from launch.launch_description_sources.frontend_launch_file_utilities import (
     InvalidFrontendLaunchFileError,
     get_launch_description_from_frontend_launch_file,
 )
-from launch.launch_description_sources.python_launch_description_source import PythonLaunchDescriptionSource
+from launch.launch_description_sources.python_launch_description_source import (
+    PythonLaunchDescriptionSource,
+)
 from launch.launch_description_sources.python_launch_file_utilities import (
     InvalidPythonLaunchFileError,
     get_launch_description_from_python_launch_file,

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_description_sources.any_launch_file_utilities import get_launch_description_from_any_launch_file
+from launch.launch_description_sources.any_launch_file_utilities import (
+    get_launch_description_from_any_launch_file,
+)
 
 if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription

@@ -7,8 +7,12 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.parser import Parser
 from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_description_sources.frontend_launch_file_utilities import get_launch_description_from_frontend_launch_file
-from launch.launch_description_sources.python_launch_file_utilities import get_launch_description_from_python_launch_file
+from launch.launch_description_sources.frontend_launch_file_utilities import (
+    get_launch_description_from_frontend_launch_file,
+)
+from launch.launch_description_sources.python_launch_file_utilities import (
+    get_launch_description_from_python_launch_file,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +30,9 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
         ValueError: There is no such file.
     """
     if not os.path.isfile(launch_file_path):
-        raise ValueError(f"file not found: [Errno 2] No such file or directory: '{launch_file_path}'")
+        raise ValueError(
+            f"file not found: [Errno 2] No such file or directory: '{launch_file_path}'"
+        )
     extension = os.path.splitext(launch_file_path)[1]
     loaders: list[Callable[[str], LaunchDescription]] = [
         get_launch_description_from_frontend_launch_file,

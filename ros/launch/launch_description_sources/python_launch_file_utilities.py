@@ -13,7 +13,11 @@ if TYPE_CHECKING:
 
     from launch.launch_description import LaunchDescription
 
-__all__ = ["InvalidPythonLaunchFileError", "get_launch_description_from_python_launch_file", "load_python_launch_file_as_module"]
+__all__ = [
+    "InvalidPythonLaunchFileError",
+    "get_launch_description_from_python_launch_file",
+    "load_python_launch_file_as_module",
+]
 
 
 class InvalidPythonLaunchFileError(Exception):
@@ -34,7 +38,9 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     return module
 
 
-def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
+def get_launch_description_from_python_launch_file(
+    python_launch_file_path: str,
+) -> LaunchDescription:
     """What the file's ``generate_launch_description()`` returns.
 
     Raises:

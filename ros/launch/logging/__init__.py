@@ -8,7 +8,14 @@ from __future__ import annotations
 from logging import CRITICAL, DEBUG, ERROR, INFO, NOTSET, WARNING, Logger, getLevelName
 from logging import getLogger as getLogger
 
-from launch.logging.config import LaunchConfig, get_logger, get_output_loggers, launch_config, log_launch_config, reset
+from launch.logging.config import (
+    LaunchConfig,
+    get_logger,
+    get_output_loggers,
+    launch_config,
+    log_launch_config,
+    reset,
+)
 from launch.logging.directory import default_log_dir
 
 __all__ = [

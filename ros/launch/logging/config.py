@@ -13,12 +13,27 @@ from launch.logging.directory import default_log_dir, make_launch_log_dir
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["LaunchConfig", "get_logger", "get_output_loggers", "launch_config", "log_launch_config", "reset"]
+__all__ = [
+    "LaunchConfig",
+    "get_logger",
+    "get_output_loggers",
+    "launch_config",
+    "log_launch_config",
+    "reset",
+]
 
 _SCREEN_FORMAT = "[{levelname}] [{name}]: {message}"
 _LOG_FORMAT = "{created:.7f} [{levelname}] [{name}]: {message}"
-_NAMED_FORMATS = {"default": _SCREEN_FORMAT, "default_with_timestamp": "{created:.7f} [{levelname}] [{name}]: {message}"}
-_COLORS = {logging.DEBUG: "\033[32m", logging.WARNING: "\033[33m", logging.ERROR: "\033[31m", logging.CRITICAL: "\033[31m"}
+_NAMED_FORMATS = {
+    "default": _SCREEN_FORMAT,
+    "default_with_timestamp": "{created:.7f} [{levelname}] [{name}]: {message}",
+}
+_COLORS = {
+    logging.DEBUG: "\033[32m",
+    logging.WARNING: "\033[33m",
+    logging.ERROR: "\033[31m",
+    logging.CRITICAL: "\033[31m",
+}
 
 #: Where the two streams of a process go for each short form; ``both`` are the two in one.
 _OUTPUTS: dict[str, dict[str, set[str]]] = {
@@ -39,7 +54,11 @@ class _Formatter(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         if getattr(record, "from_process", False):
-            return f"{record.created:.7f} {record.getMessage()}" if self._has_time() else record.getMessage()
+            return (
+                f"{record.created:.7f} {record.getMessage()}"
+                if self._has_time()
+                else record.getMessage()
+            )
         color = _COLORS.get(record.levelno) if self._colored else None
         if color is None:
             return super().format(record)
@@ -60,7 +79,9 @@ class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes 
     def __init__(self) -> None:
         super().__init__(sys.stdout)
         if hasattr(self.stream, "reconfigure"):
-            self.stream.reconfigure(errors="backslashreplace")  # processes write what the terminal's encoding may not have
+            self.stream.reconfigure(
+                errors="backslashreplace"
+            )  # processes write what the terminal's encoding may not have
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         if isinstance(sys.exc_info()[1], BrokenPipeError):
@@ -128,7 +149,9 @@ class LaunchConfig:
         if self._screen_handler is None:
             self._screen_handler = _ScreenHandler()
             layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
-            self._screen_handler.setFormatter(_Formatter(layout, colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR")))
+            self._screen_handler.setFormatter(
+                _Formatter(layout, colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR"))
+            )
         return self._screen_handler
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
@@ -138,7 +161,9 @@ class LaunchConfig:
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
         """The handler that writes to a log file of this launch; files are made at their first line."""
         if file_name not in self._log_handlers:
-            handler = logging.FileHandler(self.get_log_file_path(file_name), encoding="utf-8", delay=True)
+            handler = logging.FileHandler(
+                self.get_log_file_path(file_name), encoding="utf-8", delay=True
+            )
             handler.setFormatter(_Formatter(_NAMED_FORMATS.get(self._log_format, self._log_format)))
             self._log_handlers[file_name] = handler
         return self._log_handlers[file_name]
@@ -174,13 +199,16 @@ def get_logger(name: str | None = None) -> logging.Logger:
     return logger
 
 
-def get_output_loggers(process_name: str, output_config: str | Mapping[str, Any]) -> tuple[logging.Logger, logging.Logger]:
+def get_output_loggers(
+    process_name: str, output_config: str | Mapping[str, Any]
+) -> tuple[logging.Logger, logging.Logger]:
     """The loggers of the two output streams of a process.
 
     Args:
         process_name: Names the process, and its own log files.
-        output_config: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a mapping of ``stdout``, ``stderr``, ``both`` to a
-            choice or a set of choices among ``screen``, ``log``, ``own_log``.
+        output_config: ``screen``, ``log``, ``both``, ``own_log``, ``full``, or a mapping of
+            ``stdout``, ``stderr``, ``both`` to a choice or a set of choices among ``screen``,
+            ``log``, ``own_log``.
 
     Raises:
         ValueError: It is none of these.
@@ -220,15 +248,21 @@ def reset() -> None:
 def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
     if isinstance(output_config, str):
         if output_config not in _OUTPUTS:
-            raise ValueError(f"'{output_config}' is not a valid standard output config i.e. one of: {', '.join(_OUTPUTS)}")
+            raise ValueError(
+                f"'{output_config}' is not a valid standard output config i.e. one of: {', '.join(_OUTPUTS)}"
+            )
         return _OUTPUTS[output_config]
     normalized = {}
     for stream, choice in output_config.items():
         choices = {choice} if isinstance(choice, str) else set(choice)
         if stream not in ("stdout", "stderr", "both"):
-            raise ValueError(f"'{stream}' is not a valid output source: one of stdout, stderr, both")
+            raise ValueError(
+                f"'{stream}' is not a valid output source: one of stdout, stderr, both"
+            )
         if not choices <= {"screen", "log", "own_log"}:
-            raise ValueError(f"'{choice}' is not a valid output destination: some of screen, log, own_log")
+            raise ValueError(
+                f"'{choice}' is not a valid output destination: some of screen, log, own_log"
+            )
         normalized[stream] = choices
     return normalized
 

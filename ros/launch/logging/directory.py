@@ -30,8 +30,11 @@ def make_launch_log_dir(parent: str) -> str:
     try:
         base.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise RuntimeError(f"cannot make the log folder {base} ({error.strerror}); ROS_LOG_DIR can name another place") from error
-    # Not every file system has links, and another launch may make it at the same time: logging works without.
+        raise RuntimeError(
+            f"cannot make the log folder {base} ({error.strerror}); ROS_LOG_DIR can name another place"
+        ) from error
+    # Not every file system has links, and another launch may make it at the same time: logging
+    # works without.
     with contextlib.suppress(OSError):
         link = Path(parent) / f".latest-{os.getpid()}"
         link.symlink_to(base.name, target_is_directory=True)

@@ -53,5 +53,7 @@ class AnonName(Substitution):
         key = f"anon{base}"
         if key not in context.launch_configurations:
             unique = f"{base}_{socket.gethostname()}_{os.getpid()}_{secrets.randbits(63)}"
-            context.launch_configurations[key] = "".join(character if character.isalnum() else "_" for character in unique)
+            context.launch_configurations[key] = "".join(
+                character if character.isalnum() else "_" for character in unique
+            )
         return context.launch_configurations[key]

@@ -15,7 +15,13 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["AllSubstitution", "AndSubstitution", "AnySubstitution", "NotSubstitution", "OrSubstitution"]
+__all__ = [
+    "AllSubstitution",
+    "AndSubstitution",
+    "AnySubstitution",
+    "NotSubstitution",
+    "OrSubstitution",
+]
 
 
 def as_bool(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
@@ -48,7 +54,9 @@ class NotSubstitution(Substitution):
         self._value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[NotSubstitution], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[NotSubstitution], dict[str, Any]]:
         """Read ``$(not value)``."""
         if len(data) != 1:
             raise TypeError("not substitution expects 1 argument")
@@ -99,7 +107,9 @@ class _Two(Substitution):
 
     def describe(self) -> str:
         """Name the operands."""
-        left, right = (" + ".join(part.describe() for part in side) for side in (self._left, self._right))
+        left, right = (
+            " + ".join(part.describe() for part in side) for side in (self._left, self._right)
+        )
         return f"{type(self).__name__}({left} {right})"
 
 

@@ -26,10 +26,13 @@ class Command(Substitution):
 
     Args:
         command: The command line.
-        on_stderr: What output to stderr means: ``fail``, ``ignore``, ``warn`` or ``capture`` (it belongs to the text).
+        on_stderr: What output to stderr means: ``fail``, ``ignore``, ``warn`` or ``capture`` (it
+            belongs to the text).
     """
 
-    def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
+    def __init__(
+        self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail"
+    ) -> None:
         self._command = normalize_to_list_of_substitutions(command)
         self._on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
@@ -58,7 +61,8 @@ class Command(Substitution):
         """Run the command; its output.
 
         Raises:
-            SubstitutionFailure: It cannot be run, fails, or writes to stderr where that counts as a failure.
+            SubstitutionFailure: It cannot be run, fails, or writes to stderr where that counts as a
+                failure.
         """
         import subprocess
 
@@ -69,11 +73,15 @@ class Command(Substitution):
         stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
         command: str | list[str] = line if os.name == "nt" else shlex.split(line)
         try:
-            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False)  # noqa: S603
+            result = subprocess.run(  # noqa: S603
+                command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False
+            )
         except FileNotFoundError as error:
             raise SubstitutionFailure(f"file not found: {error}") from error
         if result.returncode != 0:
-            message = f"executed command failed. Command: {line}\nCaptured stderr output: {result.stderr}"
+            message = (
+                f"executed command failed. Command: {line}\nCaptured stderr output: {result.stderr}"
+            )
             raise SubstitutionFailure(message)
         if result.stderr:
             message = f"executed command showed stderr output. Command: {line}\nCaptured stderr output:\n{result.stderr}"

@@ -27,12 +27,18 @@ class EnvironmentVariable(Substitution):
         default_value: What stands in when it is not set; None makes that an error.
     """
 
-    def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
+    def __init__(
+        self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
+    ) -> None:
         self._name = normalize_to_list_of_substitutions(name)
-        self._default_value = None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        self._default_value = (
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[EnvironmentVariable], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[EnvironmentVariable], dict[str, Any]]:
         """Read ``$(env NAME [default])``."""
         if not 1 <= len(data) <= 2:
             raise TypeError("env substitution expects 1 or 2 arguments")

@@ -49,7 +49,9 @@ class EqualsSubstitution(Substitution):
 
     def describe(self) -> str:
         """Name the operands."""
-        left, right = (" + ".join(part.describe() for part in side) for side in (self._left, self._right))
+        left, right = (
+            " + ".join(part.describe() for part in side) for side in (self._left, self._right)
+        )
         return f"{type(self).__name__}({left} {right})"
 
     def perform(self, context: LaunchContext) -> str:
@@ -57,7 +59,10 @@ class EqualsSubstitution(Substitution):
         return "true" if self._equal(context) else "false"
 
     def _equal(self, context: LaunchContext) -> bool:
-        left, right = perform_substitutions(context, self._left), perform_substitutions(context, self._right)
+        left, right = (
+            perform_substitutions(context, self._left),
+            perform_substitutions(context, self._right),
+        )
         if left == right:
             return True
         try:

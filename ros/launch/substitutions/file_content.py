@@ -30,7 +30,9 @@ class FileContent(Substitution):
         self._path = normalize_to_list_of_substitutions(path)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FileContent], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[FileContent], dict[str, Any]]:
         """Read ``$(file-content path)``."""
         if len(data) != 1:
             raise TypeError("file-content substitution expects 1 argument")

@@ -31,7 +31,9 @@ class FindExecutable(Substitution):
         self._name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindExecutable], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[FindExecutable], dict[str, Any]]:
         """Read ``$(find-exec name)``."""
         if len(data) != 1:
             raise AttributeError("find-exec substitution expects 1 argument")

@@ -29,7 +29,10 @@ class IfElseSubstitution(Substitution):
     """
 
     def __init__(
-        self, condition: SomeSubstitutionsType, if_value: SomeSubstitutionsType = "", else_value: SomeSubstitutionsType = ""
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = "",
+        else_value: SomeSubstitutionsType = "",
     ) -> None:
         if if_value == "" and else_value == "":
             raise RuntimeError("One of if_value and else_value must be specified")
@@ -38,11 +41,17 @@ class IfElseSubstitution(Substitution):
         self._else_value = normalize_to_list_of_substitutions(else_value)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[IfElseSubstitution], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[IfElseSubstitution], dict[str, Any]]:
         """Read ``$(if condition if_value [else_value])``."""
         if not 2 <= len(data) <= 3:
             raise TypeError("if substitution expects 2 or 3 arguments")
-        return cls, {"condition": data[0], "if_value": data[1], "else_value": data[2] if len(data) == 3 else ""}
+        return cls, {
+            "condition": data[0],
+            "if_value": data[1],
+            "else_value": data[2] if len(data) == 3 else "",
+        }
 
     @property
     def condition(self) -> list[Substitution]:
@@ -61,9 +70,14 @@ class IfElseSubstitution(Substitution):
 
     def describe(self) -> str:
         """Name the operands."""
-        parts = (" + ".join(part.describe() for part in side) for side in (self._condition, self._if_value, self._else_value))
+        parts = (
+            " + ".join(part.describe() for part in side)
+            for side in (self._condition, self._if_value, self._else_value)
+        )
         return f"IfElseSubstitution({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:
         """The chosen text."""
-        return perform_substitutions(context, self._if_value if as_bool(context, self._condition) else self._else_value)
+        return perform_substitutions(
+            context, self._if_value if as_bool(context, self._condition) else self._else_value
+        )

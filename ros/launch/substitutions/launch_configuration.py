@@ -24,15 +24,20 @@ class LaunchConfiguration(Substitution):
 
     Args:
         variable_name: Its name.
-        default: What stands in when it is not set; None makes that an error. Other values than text are written as text.
+        default: What stands in when it is not set; None makes that an error. Other values than text
+            are written as text.
     """
 
     def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any | None = None) -> None:
         self._variable_name = normalize_to_list_of_substitutions(variable_name)
-        self._default = None if default is None else normalize_to_list_of_substitutions(_as_text(default))
+        self._default = (
+            None if default is None else normalize_to_list_of_substitutions(_as_text(default))
+        )
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[LaunchConfiguration], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[LaunchConfiguration], dict[str, Any]]:
         """Read ``$(var name [default])``."""
         if not 1 <= len(data) <= 2:
             raise TypeError("var substitution expects 1 or 2 arguments")

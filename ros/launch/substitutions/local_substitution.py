@@ -23,7 +23,9 @@ class LocalSubstitution(Substitution):
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         if not isinstance(expression, str):
-            raise TypeError(f"LocalSubstitution expected Text object got '{type(expression)}' instead.")
+            raise TypeError(
+                f"LocalSubstitution expected Text object got '{type(expression)}' instead."
+            )
         self._expression = expression
         self._description = description
 

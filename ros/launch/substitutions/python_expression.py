@@ -23,24 +23,33 @@ __all__ = ["PythonExpression"]
 class PythonExpression(Substitution):
     """The value of a Python expression, as text.
 
-    The names in ``math`` can be used bare. A launch file runs code by its nature; this is no less trusted than it.
+    The names in ``math`` can be used bare. A launch file runs code by its nature; this is no less
+    trusted than it.
 
     Args:
         expression: The expression.
         python_modules: Names of modules that it may use.
     """
 
-    def __init__(self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)) -> None:
+    def __init__(
+        self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)
+    ) -> None:
         self._expression = normalize_to_list_of_substitutions(expression)
-        modules: Any = [python_modules] if isinstance(python_modules, (str, Substitution)) else python_modules
+        modules: Any = (
+            [python_modules] if isinstance(python_modules, (str, Substitution)) else python_modules
+        )
         self._modules = [normalize_to_list_of_substitutions(module) for module in modules]
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[PythonExpression], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[PythonExpression], dict[str, Any]]:
         """Read ``$(eval 'expression' [module ...])``."""
         if not 1 <= len(data) <= 2:
             raise TypeError("eval substitution expects 1 or 2 arguments")
-        return cls, {"expression": data[0]} | ({"python_modules": data[1]} if len(data) == 2 else {})
+        return cls, {"expression": data[0]} | (
+            {"python_modules": data[1]} if len(data) == 2 else {}
+        )
 
     @property
     def expression(self) -> list[Substitution]:
@@ -55,7 +64,9 @@ class PythonExpression(Substitution):
     def describe(self) -> str:
         """Show the expression."""
         expression = " + ".join(part.describe() for part in self._expression)
-        modules = ", ".join(" + ".join(part.describe() for part in module) for module in self._modules)
+        modules = ", ".join(
+            " + ".join(part.describe() for part in module) for module in self._modules
+        )
         return f"PythonExpr({expression}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
@@ -69,10 +80,14 @@ class PythonExpression(Substitution):
         for part in self._modules:
             module_name = perform_substitutions(context, part)
             module = importlib.import_module(module_name)
-            names[module_name.partition(".")[0]] = importlib.import_module(module_name.partition(".")[0])
+            names[module_name.partition(".")[0]] = importlib.import_module(
+                module_name.partition(".")[0]
+            )
             if module_name == "math":
                 names.update(vars(module))
         try:
             return str(eval(expression, {}, names))  # noqa: S307
         except Exception as error:
-            raise SubstitutionFailure(f"Failed to evaluate python expression '{expression}' with {error!r}") from error
+            raise SubstitutionFailure(
+                f"Failed to evaluate python expression '{expression}' with {error!r}"
+            ) from error

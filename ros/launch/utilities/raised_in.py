@@ -20,8 +20,8 @@ def raised_in(error: BaseException) -> str:
         error: What a launch file raised, or what reading it raised.
 
     Returns:
-        A line break and ``raised in <file>:<line>``: the innermost line of a Python launch file, or the element of one in another
-        language; empty when neither was on the way.
+        A line break and ``raised in <file>:<line>``: the innermost line of a Python launch file, or
+        the element of one in another language; empty when neither was on the way.
     """
     for one in _errors(error):
         found = f"\n  raised in {one.launch_file_line}" if hasattr(one, "launch_file_line") else ""

@@ -26,7 +26,9 @@ def normalize_to_list_of_substitutions(subst: SomeSubstitutionsType) -> list[Sub
         return [_substitution(subst)]
     if hasattr(subst, "__iter__"):
         return [_substitution(item) for item in subst]
-    raise TypeError(f"'{subst}' is neither text nor a substitution nor a list of them, but {type(subst).__name__}")
+    raise TypeError(
+        f"'{subst}' is neither text nor a substitution nor a list of them, but {type(subst).__name__}"
+    )
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:

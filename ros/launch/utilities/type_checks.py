@@ -20,7 +20,12 @@ def is_a_subclass(obj: Any, entity_type: type) -> bool:
     return isinstance(obj, entity_type) or (inspect.isclass(obj) and issubclass(obj, entity_type))
 
 
-def ensure_argument_type(argument: Any, types: type | tuple[type, ...] | list[type], argument_name: str, caller: str | None = None) -> None:
+def ensure_argument_type(
+    argument: Any,
+    types: type | tuple[type, ...] | list[type],
+    argument_name: str,
+    caller: str | None = None,
+) -> None:
     """Refuse an argument that has none of the types.
 
     Raises:
@@ -32,4 +37,6 @@ def ensure_argument_type(argument: Any, types: type | tuple[type, ...] | list[ty
     names = ", ".join(f"'{kind.__name__}'" for kind in allowed)
     expected = names if len(allowed) == 1 else f"one of [{names}]"
     where = "" if caller is None else f" of {caller}"
-    raise TypeError(f"Expected '{argument_name}'{where} to be of type {expected}, but got '{argument}' of type '{type(argument)}'")
+    raise TypeError(
+        f"Expected '{argument_name}'{where} to be of type {expected}, but got '{argument}' of type '{type(argument)}'"
+    )

@@ -29,7 +29,8 @@ class ComposableNodeContainer(Node):
         ComposableNodeContainer(
             name="demo",
             composable_node_descriptions=[
-                ComposableNode(package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode", name="sim"),
+                ComposableNode(package="turtlesim", plugin="turtlesim.turtlesim_node.TurtlesimNode",
+                name="sim"),
             ],
         )
 
@@ -52,15 +53,21 @@ class ComposableNodeContainer(Node):
         executable: SomeSubstitutionsType = "component_container",
         **kwargs: Any,
     ) -> None:
-        super().__init__(package=package, executable=executable, name=name, namespace=namespace, **kwargs)
+        super().__init__(
+            package=package, executable=executable, name=name, namespace=namespace, **kwargs
+        )
         self._descriptions = list(composable_node_descriptions or ())
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type[ComposableNodeContainer], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+    ) -> tuple[type[ComposableNodeContainer], dict[str, Any]]:
         """Read a ``node_container`` element."""
         _, kwargs = super().parse(entity, parser, ignore)
         nodes = entity.get_attr("composable_node", data_type=list[Entity], optional=True) or ()
-        kwargs["composable_node_descriptions"] = [ComposableNode.parse(parser, node) for node in nodes]
+        kwargs["composable_node_descriptions"] = [
+            ComposableNode.parse(parser, node) for node in nodes
+        ]
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -68,4 +75,9 @@ class ComposableNodeContainer(Node):
         entities = super().execute(context) or []
         if not self._descriptions:
             return entities
-        return [*entities, LoadComposableNodes(composable_node_descriptions=self._descriptions, target_container=self)]
+        return [
+            *entities,
+            LoadComposableNodes(
+                composable_node_descriptions=self._descriptions, target_container=self
+            ),
+        ]

@@ -28,7 +28,9 @@ class LifecycleNode(Node):
         **kwargs: See :class:`Node`.
     """
 
-    def __init__(self, *, name: SomeSubstitutionsType, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(
+        self, *, name: SomeSubstitutionsType, namespace: SomeSubstitutionsType, **kwargs: Any
+    ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -37,7 +39,9 @@ class LifecycleNode(Node):
 
         node = get_ros_node(context)
         entities = super().execute(context)
-        context.register_event_handler(EventHandler(matcher=self._is_mine, entities=self._on_change_state))
+        context.register_event_handler(
+            EventHandler(matcher=self._is_mine, entities=self._on_change_state)
+        )
         node.create_subscription(
             TransitionEvent,
             f"{self.node_name}/transition_event",
@@ -65,15 +69,26 @@ async def change_state(context: LaunchContext, node_name: str, transition_id: in
     request = ChangeStateService.Request(transition=Transition(id=transition_id))
     response = await call_service(context, ChangeStateService, f"{node_name}/change_state", request)
     if response is None:
-        logger.warning("Abandoning wait for the '%s/change_state' service response, due to shutdown.", node_name)
+        logger.warning(
+            "Abandoning wait for the '%s/change_state' service response, due to shutdown.",
+            node_name,
+        )
         return False
     if not response.success:
-        logger.error("Failed to make transition '%s' for LifecycleNode '%s'", _transition_name(transition_id), node_name)
+        logger.error(
+            "Failed to make transition '%s' for LifecycleNode '%s'",
+            _transition_name(transition_id),
+            node_name,
+        )
     return bool(response.success)
 
 
 def _transition_name(transition_id: int) -> str:
     from lifecycle_msgs.msg import Transition
 
-    names = [name for name in dir(Transition) if name.startswith("TRANSITION_") and getattr(Transition, name) == transition_id]
+    names = [
+        name
+        for name in dir(Transition)
+        if name.startswith("TRANSITION_") and getattr(Transition, name) == transition_id
+    ]
     return names[0] if names else str(transition_id)

@@ -32,7 +32,13 @@ class LifecycleTransition(Action):
         RuntimeError: No nodes or no transitions are given.
     """
 
-    def __init__(self, *, lifecycle_node_names: Iterable[SomeSubstitutionsType], transition_ids: Iterable[int], **kwargs: Any) -> None:
+    def __init__(
+        self,
+        *,
+        lifecycle_node_names: Iterable[SomeSubstitutionsType],
+        transition_ids: Iterable[int],
+        **kwargs: Any,
+    ) -> None:
         super().__init__(**kwargs)
         self._names = [normalize_to_list_of_substitutions(name) for name in lifecycle_node_names]
         self._transitions = [int(transition) for transition in transition_ids]
@@ -51,7 +57,9 @@ class LifecycleTransition(Action):
         if context.is_shutdown:
             return
         get_ros_node(context)
-        names = [make_namespace_absolute(perform_substitutions(context, name)) for name in self._names]
+        names = [
+            make_namespace_absolute(perform_substitutions(context, name)) for name in self._names
+        ]
         self._done = asyncio.gather(*(self._change(context, name) for name in names))
 
     async def _change(self, context: LaunchContext, name: str) -> None:

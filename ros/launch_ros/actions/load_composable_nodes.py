@@ -37,7 +37,11 @@ class LoadComposableNodes(Action):
     """
 
     def __init__(
-        self, *, composable_node_descriptions: Iterable[ComposableNode], target_container: SomeSubstitutionsType | Node, **kwargs: Any
+        self,
+        *,
+        composable_node_descriptions: Iterable[ComposableNode],
+        target_container: SomeSubstitutionsType | Node,
+        **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         self._descriptions = list(composable_node_descriptions)
@@ -46,12 +50,16 @@ class LoadComposableNodes(Action):
         self._task: asyncio.Task[None] | None = None
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[LoadComposableNodes], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[LoadComposableNodes], dict[str, Any]]:
         """Read a ``load_composable_node`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
         nodes = entity.get_attr("composable_node", data_type=list[Entity])
-        kwargs["composable_node_descriptions"] = [ComposableNode.parse(parser, node) for node in nodes]
+        kwargs["composable_node_descriptions"] = [
+            ComposableNode.parse(parser, node) for node in nodes
+        ]
         return cls, kwargs
 
     def get_asyncio_future(self) -> asyncio.Task[None] | None:
@@ -63,11 +71,19 @@ class LoadComposableNodes(Action):
         if context.is_shutdown:
             return
         assert context.asyncio_loop is not None
-        requests = [description.load_request(context) for description in self._descriptions if description.is_wanted(context)]
+        requests = [
+            description.load_request(context)
+            for description in self._descriptions
+            if description.is_wanted(context)
+        ]
         get_ros_node(context)
-        self._task = context.asyncio_loop.create_task(self._load(context, self._container_name(context), requests))
+        self._task = context.asyncio_loop.create_task(
+            self._load(context, self._container_name(context), requests)
+        )
         if isinstance(self._container, Node):
-            context.register_event_handler(OnProcessExit(target_action=self._container, on_exit=self._abandon))
+            context.register_event_handler(
+                OnProcessExit(target_action=self._container, on_exit=self._abandon)
+            )
 
     def _abandon(self, *_: Any) -> None:
         """Stop waiting: nobody would answer any more."""
@@ -78,18 +94,27 @@ class LoadComposableNodes(Action):
         if isinstance(self._container, Node):
             return self._container.node_name
         name = perform_substitutions(context, normalize_to_list_of_substitutions(self._container))
-        return make_namespace_absolute(prefix_namespace(context.launch_configurations.get("ros_namespace"), name) or name)
+        return make_namespace_absolute(
+            prefix_namespace(context.launch_configurations.get("ros_namespace"), name) or name
+        )
 
     async def _load(self, context: LaunchContext, container: str, requests: list[Any]) -> None:
         from composition_interfaces.srv import LoadNode
 
         for request in requests:
-            response = await call_service(context, LoadNode, f"{container}/_container/load_node", request)
+            response = await call_service(
+                context, LoadNode, f"{container}/_container/load_node", request
+            )
             if response is None:
-                self._logger.warning("Abandoning wait for the '%s' service, due to shutdown.", f"{container}/_container/load_node")
+                self._logger.warning(
+                    "Abandoning wait for the '%s' service, due to shutdown.",
+                    f"{container}/_container/load_node",
+                )
                 return
             if response.success:
-                self._logger.info("Loaded node '%s' in container '%s'", response.full_node_name, container)
+                self._logger.info(
+                    "Loaded node '%s' in container '%s'", response.full_node_name, container
+                )
                 self._warn_of_equal_names(context, response.full_node_name)
             else:
                 self._logger.error(
@@ -100,4 +125,8 @@ class LoadComposableNodes(Action):
     def _warn_of_equal_names(self, context: LaunchContext, name: str) -> None:
         count = add_node_name(context, name)
         if count > 1:
-            self._logger.warning("there are now at least %s nodes with the name %s created within this launch context", count, name)
+            self._logger.warning(
+                "there are now at least %s nodes with the name %s created within this launch context",
+                count,
+                name,
+            )

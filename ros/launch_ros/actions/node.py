@@ -57,7 +57,11 @@ class Node(ExecuteProcess):
         arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
-        program: SomeSubstitutionsType = executable if package is None else ExecutableInPackage(package=package, executable=executable)
+        program: SomeSubstitutionsType = (
+            executable
+            if package is None
+            else ExecutableInPackage(package=package, executable=executable)
+        )
         cmd = [program, *(arguments or ()), "--ros-args", *(ros_arguments or ())]
         if exec_name is None and package is not None:
             exec_name = executable
@@ -68,7 +72,9 @@ class Node(ExecuteProcess):
         self._expanded_remappings: list[tuple[str, str]] = []
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type[Node], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+    ) -> tuple[type[Node], dict[str, Any]]:
         """Read a ``node`` element."""
         _, kwargs = super().parse(entity, parser, ignore=["cmd", "name", *ignore])
         arguments = entity.get_attr("args", optional=True)
@@ -77,8 +83,17 @@ class Node(ExecuteProcess):
         ros_arguments = entity.get_attr("ros_args", optional=True)
         if ros_arguments is not None:
             kwargs["ros_arguments"] = split_command_line(parser.parse_substitution(ros_arguments))
-        for attribute, keyword in (("exec", "executable"), ("pkg", "package"), ("name", "name"), ("namespace", "namespace")):
-            text = None if attribute in ignore else entity.get_attr(attribute, optional=attribute != "exec")
+        for attribute, keyword in (
+            ("exec", "executable"),
+            ("pkg", "package"),
+            ("name", "name"),
+            ("namespace", "namespace"),
+        ):
+            text = (
+                None
+                if attribute in ignore
+                else entity.get_attr(attribute, optional=attribute != "exec")
+            )
             if text is not None:
                 kwargs[keyword] = parser.parse_substitution(text)
         exec_name = entity.get_attr("exec_name", optional=True)
@@ -124,7 +139,9 @@ class Node(ExecuteProcess):
             count = add_node_name(context, self.node_name)
             if count > 1:
                 self._logger.warning(
-                    "there are now at least %s nodes with the name %s created within this launch context", count, self.node_name
+                    "there are now at least %s nodes with the name %s created within this launch context",
+                    count,
+                    self.node_name,
                 )
         return result
 
@@ -135,7 +152,11 @@ class Node(ExecuteProcess):
         assert final_cmd is not None
         final_cmd += self._ros.expand_names(context) + self._ros.expand_parameters(context)
         self._expanded_remappings = self._ros.expand_remappings(context)
-        final_cmd += [word for source, target in self._expanded_remappings for word in ("-r", f"{source}:={target}")]
+        final_cmd += [
+            word
+            for source, target in self._expanded_remappings
+            for word in ("-r", f"{source}:={target}")
+        ]
 
     def command(self) -> list[str]:
         """The command; a Python script is run by this interpreter."""

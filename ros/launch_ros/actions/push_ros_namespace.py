@@ -46,7 +46,10 @@ class PushROSNamespace(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Join it to that of the scope."""
-        joined = prefix_namespace(context.launch_configurations.get("ros_namespace"), perform_substitutions(context, self._namespace))
+        joined = prefix_namespace(
+            context.launch_configurations.get("ros_namespace"),
+            perform_substitutions(context, self._namespace),
+        )
         if joined is not None:
             context.launch_configurations["ros_namespace"] = make_namespace_absolute(joined)
 

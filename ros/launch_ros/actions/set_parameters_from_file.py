@@ -31,7 +31,9 @@ class SetParametersFromFile(Action):
         self._filename = normalize_to_list_of_substitutions(filename)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
         """Read a ``set_parameters_from_file`` element."""
         _, kwargs = super().parse(entity, parser)
         kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))

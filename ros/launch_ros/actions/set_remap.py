@@ -28,7 +28,9 @@ class SetRemap(Action):
         **kwargs: See :class:`launch.Action`.
     """
 
-    def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(
+        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any
+    ) -> None:
         super().__init__(**kwargs)
         self._src = normalize_to_list_of_substitutions(src)
         self._dst = normalize_to_list_of_substitutions(dst)
@@ -53,4 +55,8 @@ class SetRemap(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remap it."""
-        add_remap(context, perform_substitutions(context, self._src), perform_substitutions(context, self._dst))
+        add_remap(
+            context,
+            perform_substitutions(context, self._src),
+            perform_substitutions(context, self._dst),
+        )

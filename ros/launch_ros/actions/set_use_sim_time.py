@@ -30,5 +30,7 @@ class SetUseSimTime(SetParameter):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetUseSimTime], dict[str, Any]]:
         """Read a ``set_use_sim_time`` element."""
         _, kwargs = super(SetParameter, cls).parse(entity, parser)
-        kwargs["value"] = parser.parse_if_substitutions(entity.get_attr("value", data_type=bool, can_be_str=True))
+        kwargs["value"] = parser.parse_if_substitutions(
+            entity.get_attr("value", data_type=bool, can_be_str=True)
+        )
         return cls, kwargs

@@ -28,7 +28,8 @@ class ComposableNode:
 
     Args:
         package: The package.
-        plugin: The class: ``package.module.Class`` for a container of ours, ``package::Class`` for a C++ one.
+        plugin: The class: ``package.module.Class`` for a container of ours, ``package::Class`` for
+            a C++ one.
         name: Remaps the node's name.
         namespace: The node's namespace, within that of the scope.
         parameters: Files and mappings of parameters.
@@ -71,7 +72,10 @@ class ComposableNode:
         kwargs["parameters"] = parse_parameters(entity, parser)
         kwargs["remappings"] = parse_remappings(entity, parser)
         extra = entity.get_attr("extra_arg", data_type=list[type(entity)], optional=True) or ()  # type: ignore[misc]
-        kwargs["extra_arguments"] = [{tuple(parser.parse_substitution(item.get_attr("name"))): parse_value(item, parser)} for item in extra]
+        kwargs["extra_arguments"] = [
+            {tuple(parser.parse_substitution(item.get_attr("name"))): parse_value(item, parser)}
+            for item in extra
+        ]
         entity.assert_entity_completely_parsed()
         return cls(**kwargs)
 
@@ -96,15 +100,23 @@ class ComposableNode:
         self._ros.expand_names(context)
         request.node_name = self._ros.name or ""
         request.node_namespace = self._ros.namespace or ""
-        request.remap_rules = [f"{source}:={target}" for source, target in self._ros.expand_remappings(context)]
+        request.remap_rules = [
+            f"{source}:={target}" for source, target in self._ros.expand_remappings(context)
+        ]
         try:
             words = self._ros.expand_parameters(context)
-            values = Arguments.parse_local(["--ros-args", *words]).parameter_overrides(self._ros.full_name)
+            values = Arguments.parse_local(["--ros-args", *words]).parameter_overrides(
+                self._ros.full_name
+            )
         finally:
             self._ros.clean_up()
-        request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        request.parameters = [
+            Parameter(name, value=value).to_parameter_msg() for name, value in values.items()
+        ]
         extra: dict[str, Any] = {}
         for mapping in self._extra_arguments:
             extra |= evaluate_parameter_dict(context, mapping)
-        request.extra_arguments = [Parameter(name, value=value).to_parameter_msg() for name, value in extra.items()]
+        request.extra_arguments = [
+            Parameter(name, value=value).to_parameter_msg() for name, value in extra.items()
+        ]
         return request

@@ -40,13 +40,21 @@ class OnStateTransition(EventHandler):
         goal_state: str | None = None,
         **kwargs: Any,
     ) -> None:
-        self._wanted = {"action": target_lifecycle_node, "transition": transition, "start_state": start_state, "goal_state": goal_state}
+        self._wanted = {
+            "action": target_lifecycle_node,
+            "transition": transition,
+            "start_state": start_state,
+            "goal_state": goal_state,
+        }
         super().__init__(matcher=self._is_wanted, entities=entities, **kwargs)
 
     def _is_wanted(self, event: Event) -> bool:
         if not isinstance(event, StateTransition):
             return False
-        return all(wanted is None or getattr(event, name) == wanted for name, wanted in self._wanted.items())
+        return all(
+            wanted is None or getattr(event, name) == wanted
+            for name, wanted in self._wanted.items()
+        )
 
     @property
     def matcher_description(self) -> str:

@@ -35,7 +35,9 @@ class ExecutableInPackage(Substitution):
         self._package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ExecutableInPackage], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[ExecutableInPackage], dict[str, Any]]:
         """Read ``$(exec-in-pkg executable package)``."""
         if len(data) != 2:
             raise AttributeError("exec-in-pkg substitution expects 2 arguments")
@@ -53,7 +55,10 @@ class ExecutableInPackage(Substitution):
 
     def describe(self) -> str:
         """Name both."""
-        package, executable = (" + ".join(part.describe() for part in name) for name in (self._package, self._executable))
+        package, executable = (
+            " + ".join(part.describe() for part in name)
+            for name in (self._package, self._executable)
+        )
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:
@@ -67,11 +72,15 @@ class ExecutableInPackage(Substitution):
         package = perform_substitutions(context, self._package)
         prefix = get_package_prefix(package)
         names = (executable, f"{executable}.exe")
-        found = [path for path in executable_paths(package) or () if os.path.basename(path) in names]
+        found = [
+            path for path in executable_paths(package) or () if os.path.basename(path) in names
+        ]
         if not found:
             raise SubstitutionFailure(
                 f"executable '{executable}' not found on the libexec directory '{libexec_directory(prefix, package)}' "
             )
         if len(found) > 1:
-            raise SubstitutionFailure(f"multiple executables named '{executable}' found in the package '{package}': {found}")
+            raise SubstitutionFailure(
+                f"multiple executables named '{executable}' found in the package '{package}': {found}"
+            )
         return found[0]

@@ -29,7 +29,9 @@ class FindPackage(Substitution):
         self._package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindPackage], dict[str, Any]]:
+    def parse(
+        cls, data: Sequence[SomeSubstitutionsType]
+    ) -> tuple[type[FindPackage], dict[str, Any]]:
         """Read the name of the package."""
         if len(data) != 1:
             raise AttributeError("find package substitution expects 1 argument")

@@ -27,7 +27,9 @@ class Parameter(Substitution):
         default: What stands in when it is not set; None makes that an error.
     """
 
-    def __init__(self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None) -> None:
+    def __init__(
+        self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None
+    ) -> None:
         self._name = normalize_to_list_of_substitutions(name)
         self._default = None if default is None else normalize_to_list_of_substitutions(default)
 

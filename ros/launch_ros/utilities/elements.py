@@ -18,11 +18,18 @@ _TYPES: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
 _TYPES |= {f"list_of_{name}": list[kind] for name, kind in _TYPES.items()}  # type: ignore[valid-type]
 
 
-def parse_remappings(entity: Entity, parser: Parser) -> list[tuple[list[Substitution], list[Substitution]]]:
+def parse_remappings(
+    entity: Entity, parser: Parser
+) -> list[tuple[list[Substitution], list[Substitution]]]:
     """The pairs of the ``remap`` elements in an element."""
     pairs = []
     for rule in entity.get_attr("remap", data_type=list[Entity], optional=True) or ():
-        pairs.append((parser.parse_substitution(rule.get_attr("from")), parser.parse_substitution(rule.get_attr("to"))))
+        pairs.append(
+            (
+                parser.parse_substitution(rule.get_attr("from")),
+                parser.parse_substitution(rule.get_attr("to")),
+            )
+        )
         rule.assert_entity_completely_parsed()
     return pairs
 
@@ -47,7 +54,9 @@ def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
     return parsed
 
 
-def parse_value(entity: Entity, parser: Parser, data_type: Any = None, *, optional: bool = False) -> Any:
+def parse_value(
+    entity: Entity, parser: Parser, data_type: Any = None, *, optional: bool = False
+) -> Any:
     """The attribute ``value`` of an element: numbers, truth values and plain text as they are, else substitutions."""
     return _parsed(entity.get_attr("value", data_type=data_type, optional=optional), parser)
 

@@ -45,19 +45,25 @@ class NodeArguments:
         parameters: SomeParameters | None,
         remappings: SomeRemapRules | None,
     ) -> None:
-        if parameters is not None and (isinstance(parameters, (str, Path, Substitution)) or not hasattr(parameters, "__iter__")):
+        if parameters is not None and (
+            isinstance(parameters, (str, Path, Substitution)) or not hasattr(parameters, "__iter__")
+        ):
             raise TypeError("Expecting a list of parameter files or parameter dictionaries")
         self._name = None if name is None else normalize_to_list_of_substitutions(name)
-        self._namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
+        self._namespace = (
+            None if namespace is None else normalize_to_list_of_substitutions(namespace)
+        )
         self._parameters = [parameters] if hasattr(parameters, "items") else list(parameters or ())
         self._remappings = [
-            (normalize_to_list_of_substitutions(source), normalize_to_list_of_substitutions(target)) for source, target in remappings or ()
+            (normalize_to_list_of_substitutions(source), normalize_to_list_of_substitutions(target))
+            for source, target in remappings or ()
         ]
         self._made_files: list[str] = []
         self._parameter_files: list[ParameterFile] = []
         #: Known once :meth:`expand_names` ran; None when the launch file leaves it to the program.
         self.name: str | None = None
-        #: Known once :meth:`expand_names` ran; None when neither the launch file nor the scope has one.
+        #: Known once :meth:`expand_names` ran; None when neither the launch file nor the scope has
+        #: one.
         self.namespace: str | None = None
 
     @property
@@ -90,7 +96,10 @@ class NodeArguments:
 
     def expand_remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
         """``(from, to)`` pairs: those of the scope, then the node's own."""
-        own = [(perform_substitutions(context, source), perform_substitutions(context, target)) for source, target in self._remappings]
+        own = [
+            (perform_substitutions(context, source), perform_substitutions(context, target))
+            for source, target in self._remappings
+        ]
         return remaps(context) + own
 
     def clean_up(self) -> None:
@@ -108,12 +117,17 @@ class NodeArguments:
             return ["-p", f"{name}:={_yaml_text(value)}"]
         if hasattr(parameter, "items"):
             return ["--params-file", self._file_of(evaluate_parameter_dict(context, parameter))]
-        # A file of our own: several nodes may be given the same one, and each removes its copy at its end.
-        file = parameter.copy() if isinstance(parameter, ParameterFile) else ParameterFile(parameter)
+        # A file of our own: several nodes may be given the same one, and each removes its copy at
+        # its end.
+        file = (
+            parameter.copy() if isinstance(parameter, ParameterFile) else ParameterFile(parameter)
+        )
         self._parameter_files.append(file)
         path = file.evaluate(context)
         if not path.is_file():
-            logging.get_logger("launch_ros.actions.node").warning("Parameter file path is not a file: %s", path)
+            logging.get_logger("launch_ros.actions.node").warning(
+                "Parameter file path is not a file: %s", path
+            )
             return []
         return ["--params-file", str(path)]
 
@@ -121,8 +135,15 @@ class NodeArguments:
         import yaml
 
         key = "/**" if self.name is None else self.full_name
-        with tempfile.NamedTemporaryFile("w", prefix="launch_params_", delete=False, encoding="utf-8") as file:
-            yaml.safe_dump({key: {"ros__parameters": values}}, file, default_flow_style=False, allow_unicode=True)
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="launch_params_", delete=False, encoding="utf-8"
+        ) as file:
+            yaml.safe_dump(
+                {key: {"ros__parameters": values}},
+                file,
+                default_flow_style=False,
+                allow_unicode=True,
+            )
         self._made_files.append(file.name)
         return file.name
 
@@ -131,4 +152,8 @@ def _yaml_text(value: Any) -> str:
     """A value as YAML on one line, as it stands after ``:=``."""
     import yaml
 
-    return yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True).removesuffix("...\n").strip()
+    return (
+        yaml.safe_dump(value, default_flow_style=True, width=10**6, allow_unicode=True)
+        .removesuffix("...\n")
+        .strip()
+    )

@@ -18,7 +18,9 @@ __all__ = ["evaluate_parameter_dict", "evaluate_value", "typed"]
 _SCALARS = (str, bool, int, float, bytes)
 
 
-def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
+def evaluate_parameter_dict(
+    context: LaunchContext, parameters: Mapping[Any, Any]
+) -> dict[str, Any]:
     """Flat names, joined by dots, with performed values.
 
     Raises:
@@ -28,7 +30,10 @@ def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any
     for key, value in parameters.items():
         name = perform_substitutions(context, normalize_to_list_of_substitutions(key))
         if hasattr(value, "items"):
-            flat |= {f"{name}.{inner}": item for inner, item in evaluate_parameter_dict(context, value).items()}
+            flat |= {
+                f"{name}.{inner}": item
+                for inner, item in evaluate_parameter_dict(context, value).items()
+            }
         else:
             flat[name] = evaluate_value(context, value, name)
     return flat
@@ -37,8 +42,8 @@ def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any
 def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
     """The value of a parameter.
 
-    Text stays text. Substitutions, and lists of text and substitutions, are joined and mean what YAML makes of them. Other sequences must
-    hold values of one type.
+    Text stays text. Substitutions, and lists of text and substitutions, are joined and mean what
+    YAML makes of them. Other sequences must hold values of one type.
 
     Args:
         context: The launch.
@@ -60,8 +65,14 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
             "substitutions, and sequences of one of these"
         )
     items = list(value)
-    if items and any(isinstance(item, Substitution) for item in items) and all(isinstance(item, (str, Substitution)) for item in items):
-        return typed(perform_substitutions(context, normalize_to_list_of_substitutions(items)), None)
+    if (
+        items
+        and any(isinstance(item, Substitution) for item in items)
+        and all(isinstance(item, (str, Substitution)) for item in items)
+    ):
+        return typed(
+            perform_substitutions(context, normalize_to_list_of_substitutions(items)), None
+        )
     return _uniform([evaluate_value(context, item, name) for item in items], name)
 
 
@@ -93,5 +104,7 @@ def _uniform(items: list[Any], name: str) -> list[Any]:
         return [float(item) for item in items]
     if len(kinds) > 1 or not kinds <= set(_SCALARS):
         found = ", ".join(sorted(kind.__name__ for kind in kinds))
-        raise TypeError(f"the sequence of the parameter '{name}' must hold values of one type, but has {found}: {items}")
+        raise TypeError(
+            f"the sequence of the parameter '{name}' must hold values of one type, but has {found}: {items}"
+        )
     return items

@@ -1,7 +1,11 @@
 """Actions: goals that take time, with feedback and cancelling."""
 
 from .client import ActionClient
-from .graph import get_action_client_names_and_types_by_node, get_action_names_and_types, get_action_server_names_and_types_by_node
+from .graph import (
+    get_action_client_names_and_types_by_node,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
 from .server import ActionServer, CancelResponse, GoalResponse
 
 __all__ = [

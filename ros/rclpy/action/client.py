@@ -119,22 +119,46 @@ class ActionClient(Waitable):
         self._action_type = action_type
         self._action_name = action_name
         self._lock = threading.Lock()
-        self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = weakref.WeakValueDictionary()
+        self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = (
+            weakref.WeakValueDictionary()
+        )
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
         self._finished: deque[bytes] = deque()
         impl = action_type.Impl
-        self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_service_qos_profile)
-        self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile)
-        self._result_client = self._make_client(impl.GetResultService, "get_result", result_service_qos_profile)
+        self._goal_client = self._make_client(
+            impl.SendGoalService, "send_goal", goal_service_qos_profile
+        )
+        self._cancel_client = self._make_client(
+            impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile
+        )
+        self._result_client = self._make_client(
+            impl.GetResultService, "get_result", result_service_qos_profile
+        )
         subscribe = node._rclpy_endpoints.make_subscription
         name, group = f"{action_name}/_action", self.callback_group
-        self._feedback = subscribe(impl.FeedbackMessage, f"{name}/feedback", self._on_feedback, feedback_sub_qos_profile, group)
-        self._status = subscribe(impl.GoalStatusMessage, f"{name}/status", self._on_status, status_sub_qos_profile, group)
-        self._parts = [self._goal_client, self._cancel_client, self._result_client, self._feedback, self._status]
+        self._feedback = subscribe(
+            impl.FeedbackMessage,
+            f"{name}/feedback",
+            self._on_feedback,
+            feedback_sub_qos_profile,
+            group,
+        )
+        self._status = subscribe(
+            impl.GoalStatusMessage, f"{name}/status", self._on_status, status_sub_qos_profile, group
+        )
+        self._parts = [
+            self._goal_client,
+            self._cancel_client,
+            self._result_client,
+            self._feedback,
+            self._status,
+        ]
         node.add_waitable(self)
 
     def _make_client(self, service_type: Any, name: str, qos: QoSProfile) -> Client:
-        return self._node._rclpy_endpoints.make_client(service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group)
+        return self._node._rclpy_endpoints.make_client(
+            service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group
+        )
 
     def server_is_ready(self) -> bool:
         """Whether an action server is there."""
@@ -155,10 +179,17 @@ class ActionClient(Waitable):
         Returns:
             Whether a server is there.
         """
-        timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        timeout_ns = (
+            None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+        )
         return self._node.context._wait_for_graph(self.server_is_ready, timeout_ns)
 
-    def send_goal_async(self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None) -> Future:
+    def send_goal_async(
+        self,
+        goal: Any,
+        feedback_callback: Callable[[Any], Any] | None = None,
+        goal_uuid: Any = None,
+    ) -> Future:
         """Send a goal.
 
         Args:
@@ -175,7 +206,9 @@ class ActionClient(Waitable):
         if not isinstance(goal, self._action_type.Goal):
             hint = f"A goal of action '{self._action_name}' is a {self._action_type.__name__}.Goal(), not {described(goal)}"
             raise with_hint(TypeError(), hint)
-        request = self._action_type.Impl.SendGoalService.Request(goal=goal, goal_id=goal_uuid or _random_uuid())
+        request = self._action_type.Impl.SendGoalService.Request(
+            goal=goal, goal_id=goal_uuid or _random_uuid()
+        )
         goal_id = bytes(request.goal_id.uuid)
         if feedback_callback is not None:
             self._feedback_callbacks[goal_id] = feedback_callback
@@ -198,14 +231,21 @@ class ActionClient(Waitable):
         if handle.accepted:
             with self._lock:
                 if key in self._goal_handles:
-                    future.set_exception(RuntimeError(f"Two goals were accepted with the same ID ({handle})"))
+                    future.set_exception(
+                        RuntimeError(f"Two goals were accepted with the same ID ({handle})")
+                    )
                     return
                 self._goal_handles[key] = handle
         else:
             self._feedback_callbacks.pop(key, None)
         future.set_result(handle)
 
-    def send_goal(self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None) -> Any:
+    def send_goal(
+        self,
+        goal: Any,
+        feedback_callback: Callable[[Any], Any] | None = None,
+        goal_uuid: Any = None,
+    ) -> Any:
         """Send a goal and block until it is finished; another thread has to spin.
 
         Returns:

@@ -7,7 +7,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ["get_action_client_names_and_types_by_node", "get_action_names_and_types", "get_action_server_names_and_types_by_node"]
+__all__ = [
+    "get_action_client_names_and_types_by_node",
+    "get_action_names_and_types",
+    "get_action_server_names_and_types_by_node",
+]
 
 _FEEDBACK = "/_action/feedback"
 _FEEDBACK_TYPE = "_FeedbackMessage"
@@ -20,14 +24,22 @@ def get_action_names_and_types(node: Node) -> NamesAndTypes:
     return _actions(node.get_topic_names_and_types())
 
 
-def get_action_client_names_and_types_by_node(node: Node, remote_node_name: str, remote_node_namespace: str) -> NamesAndTypes:
+def get_action_client_names_and_types_by_node(
+    node: Node, remote_node_name: str, remote_node_namespace: str
+) -> NamesAndTypes:
     """Actions of which a node is a client; raises ``NodeNameNonExistentError``."""
-    return _actions(node.get_subscriber_names_and_types_by_node(remote_node_name, remote_node_namespace))
+    return _actions(
+        node.get_subscriber_names_and_types_by_node(remote_node_name, remote_node_namespace)
+    )
 
 
-def get_action_server_names_and_types_by_node(node: Node, remote_node_name: str, remote_node_namespace: str) -> NamesAndTypes:
+def get_action_server_names_and_types_by_node(
+    node: Node, remote_node_name: str, remote_node_namespace: str
+) -> NamesAndTypes:
     """Actions that a node offers; raises ``NodeNameNonExistentError``."""
-    return _actions(node.get_publisher_names_and_types_by_node(remote_node_name, remote_node_namespace))
+    return _actions(
+        node.get_publisher_names_and_types_by_node(remote_node_name, remote_node_namespace)
+    )
 
 
 def _actions(topics: NamesAndTypes) -> NamesAndTypes:

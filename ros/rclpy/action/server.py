@@ -75,11 +75,14 @@ class ActionServer(Waitable):
         node: The node that offers the action.
         action_type: The action class.
         action_name: Name of the action.
-        execute_callback: Called with a :class:`ServerGoalHandle`, returns the result; may be ``async``.
-        callback_group: Of the other callbacks; None takes the node's default. Executions run beside all groups.
+        execute_callback: Called with a :class:`ServerGoalHandle`, returns the result; may be
+            ``async``.
+        callback_group: Of the other callbacks; None takes the node's default. Executions run beside
+            all groups.
         goal_callback: Called with the goal, decides whether it is accepted (default: yes).
         handle_accepted_callback: Called with the handle of an accepted goal (default: executes it).
-        cancel_callback: Called with the handle of a goal that a client wants cancelled, decides whether it may (default: no).
+        cancel_callback: Called with the handle of a goal that a client wants cancelled, decides
+            whether it may (default: no).
         goal_service_qos_profile: Quality of service of goal requests.
         result_service_qos_profile: Quality of service of result requests.
         cancel_service_qos_profile: Quality of service of cancel requests.
@@ -97,7 +100,8 @@ class ActionServer(Waitable):
         *,
         callback_group: CallbackGroup | None = None,
         goal_callback: Callable[[Any], Any] | None = default_goal_callback,
-        handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = default_handle_accepted_callback,
+        handle_accepted_callback: Callable[[ServerGoalHandle], Any]
+        | None = default_handle_accepted_callback,
         cancel_callback: Callable[[ServerGoalHandle], Any] | None = default_cancel_callback,
         goal_service_qos_profile: QoSProfile = qos_profile_services_default,
         result_service_qos_profile: QoSProfile = qos_profile_services_default,
@@ -129,22 +133,48 @@ class ActionServer(Waitable):
         node.add_waitable(self)
 
     def _make_endpoints(
-        self, goal_qos: QoSProfile, result_qos: QoSProfile, cancel_qos: QoSProfile, feedback_qos: QoSProfile, status_qos: QoSProfile
+        self,
+        goal_qos: QoSProfile,
+        result_qos: QoSProfile,
+        cancel_qos: QoSProfile,
+        feedback_qos: QoSProfile,
+        status_qos: QoSProfile,
     ) -> None:
         impl = self._action_type.Impl
-        self._goal_service = self._make_service(impl.SendGoalService, "send_goal", self._on_goal, goal_qos)
-        self._cancel_service = self._make_service(impl.CancelGoalService, "cancel_goal", self._on_cancel, cancel_qos)
-        self._result_service = self._make_service(impl.GetResultService, "get_result", self._on_result, result_qos)
+        self._goal_service = self._make_service(
+            impl.SendGoalService, "send_goal", self._on_goal, goal_qos
+        )
+        self._cancel_service = self._make_service(
+            impl.CancelGoalService, "cancel_goal", self._on_cancel, cancel_qos
+        )
+        self._result_service = self._make_service(
+            impl.GetResultService, "get_result", self._on_result, result_qos
+        )
         endpoints = self._node._rclpy_endpoints
-        self._feedback_publisher = endpoints.make_publisher(impl.FeedbackMessage, f"{self._action_name}/_action/feedback", feedback_qos)
-        self._status_publisher = endpoints.make_publisher(impl.GoalStatusMessage, f"{self._action_name}/_action/status", status_qos)
+        self._feedback_publisher = endpoints.make_publisher(
+            impl.FeedbackMessage, f"{self._action_name}/_action/feedback", feedback_qos
+        )
+        self._status_publisher = endpoints.make_publisher(
+            impl.GoalStatusMessage, f"{self._action_name}/_action/status", status_qos
+        )
         clock = self._node.get_clock()
-        self._expiry = Timer(self._expire_goals, self.callback_group, 0, clock, context=self._node.context, autostart=False)
+        self._expiry = Timer(
+            self._expire_goals,
+            self.callback_group,
+            0,
+            clock,
+            context=self._node.context,
+            autostart=False,
+        )
         self._parts = [self._goal_service, self._cancel_service, self._result_service, self._expiry]
 
-    def _make_service(self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile) -> Service:
+    def _make_service(
+        self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile
+    ) -> Service:
         full_name = f"{self._action_name}/_action/{name}"
-        return self._node._rclpy_endpoints.make_service(service_type, full_name, callback, qos, self.callback_group, _DeferredService)
+        return self._node._rclpy_endpoints.make_service(
+            service_type, full_name, callback, qos, self.callback_group, _DeferredService
+        )
 
     @property
     def action_type(self) -> Any:
@@ -155,15 +185,23 @@ class ActionServer(Waitable):
         """Replace the goal callback; None takes the default."""
         self._goal_callback = goal_callback or default_goal_callback
 
-    def register_handle_accepted_callback(self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+    def register_handle_accepted_callback(
+        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
         """Replace the callback for accepted goals; None takes the default."""
-        self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+        self._handle_accepted_callback = (
+            handle_accepted_callback or default_handle_accepted_callback
+        )
 
-    def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+    def register_cancel_callback(
+        self, cancel_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
         """Replace the cancel callback; None takes the default."""
         self._cancel_callback = cancel_callback or default_cancel_callback
 
-    def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any]) -> None:
+    def register_execute_callback(
+        self, execute_callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
         """Replace the execute callback.
 
         Raises:
@@ -182,7 +220,9 @@ class ActionServer(Waitable):
         response = impl.SendGoalService.Response(accepted=accepted)
         if accepted:
             response.stamp = self._node.get_clock().now().to_msg()
-            goal_info = _message("action_msgs/msg/GoalInfo")(goal_id=request.goal_id, stamp=response.stamp)
+            goal_info = _message("action_msgs/msg/GoalInfo")(
+                goal_id=request.goal_id, stamp=response.stamp
+            )
             goal_handle = ServerGoalHandle(self, goal_info, request.goal)
             with self._lock:
                 self._goal_handles[goal_id] = goal_handle
@@ -194,17 +234,29 @@ class ActionServer(Waitable):
     async def _is_accepted(self, goal: Any) -> bool:
         decision = await await_or_execute(self._goal_callback, goal)
         if not isinstance(decision, GoalResponse):
-            self._logger.warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
+            self._logger.warning(
+                "Goal request callback did not return a GoalResponse type. Rejecting goal."
+            )
         return decision is GoalResponse.ACCEPT
 
-    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+    def notify_execute(
+        self,
+        goal_handle: ServerGoalHandle,
+        execute_callback: Callable[[ServerGoalHandle], Any] | None,
+    ) -> None:
         """Have a goal executed on the executor, by ``execute_callback`` or by that of the server."""
         executor = self._node.executor
         if executor is None:
-            raise RuntimeError(f"The node {self._node.get_name()} is in no executor that could execute the goal")
-        executor.create_task(self._execute_goal, execute_callback or self._execute_callback, goal_handle)
+            raise RuntimeError(
+                f"The node {self._node.get_name()} is in no executor that could execute the goal"
+            )
+        executor.create_task(
+            self._execute_goal, execute_callback or self._execute_callback, goal_handle
+        )
 
-    async def _execute_goal(self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle) -> None:
+    async def _execute_goal(
+        self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle
+    ) -> None:
         goal_id = goal_handle.goal_id.uuid
         try:
             result = await await_or_execute(execute_callback, goal_handle)
@@ -217,7 +269,9 @@ class ActionServer(Waitable):
         if goal_handle.is_active:
             self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_id}")
             goal_handle.abort()
-        response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
+        response = self._action_type.Impl.GetResultService.Response(
+            status=goal_handle.status, result=result
+        )
         goal_handle._result.set_result(response)
 
     def notify_goal_done(self) -> None:
@@ -229,7 +283,9 @@ class ActionServer(Waitable):
     def _on_result(self, header: RequestId, request: Any) -> None:
         goal_handle = self._goal_handles.get(bytes(request.goal_id.uuid))
         if goal_handle is None:
-            self._result_service.send_response(self._action_type.Impl.GetResultService.Response(), header)
+            self._result_service.send_response(
+                self._action_type.Impl.GetResultService.Response(), header
+            )
         else:
             goal_handle._result.add_done_callback(partial(self._send_result, header))
 
@@ -241,9 +297,15 @@ class ActionServer(Waitable):
         if self._result_timeout_ns < 0 or self._destroyed:
             return
         with self._lock:
-            finished = [handle._finished_ns for handle in self._goal_handles.values() if handle._finished_ns is not None]
+            finished = [
+                handle._finished_ns
+                for handle in self._goal_handles.values()
+                if handle._finished_ns is not None
+            ]
         if finished:
-            self._expiry.timer_period_ns = max(0, min(finished) + self._result_timeout_ns - self._now_ns())
+            self._expiry.timer_period_ns = max(
+                0, min(finished) + self._result_timeout_ns - self._now_ns()
+            )
             self._expiry.reset()
         else:
             self._expiry.cancel()
@@ -266,7 +328,11 @@ class ActionServer(Waitable):
         response = self._action_type.Impl.CancelGoalService.Response()
         wanted, response.return_code = self._goals_to_cancel(request.goal_info)
         for goal_handle in wanted:
-            if await await_or_execute(self._cancel_callback, goal_handle) is not CancelResponse.ACCEPT or not goal_handle.is_active:
+            if (
+                await await_or_execute(self._cancel_callback, goal_handle)
+                is not CancelResponse.ACCEPT
+                or not goal_handle.is_active
+            ):
                 continue
             if not goal_handle.is_cancel_requested:
                 goal_handle._update_state(GoalEvent.CANCEL_GOAL)
@@ -278,7 +344,8 @@ class ActionServer(Waitable):
     def _goals_to_cancel(self, wanted: Any) -> tuple[list[ServerGoalHandle], int]:
         """Active goals that a cancel request means, and the code of its response.
 
-        No id and no stamp mean all goals, a stamp all that were accepted until then, an id that goal; both are joined.
+        No id and no stamp mean all goals, a stamp all that were accepted until then, an id that
+        goal; both are joined.
         """
         response = self._action_type.Impl.CancelGoalService.Response
         goal_id = bytes(wanted.goal_id.uuid)
@@ -289,7 +356,11 @@ class ActionServer(Waitable):
             goal = goals.get(goal_id)
             if goal is None:
                 return [], response.ERROR_UNKNOWN_GOAL_ID
-            return ([goal], response.ERROR_NONE) if goal.is_active else ([], response.ERROR_GOAL_TERMINATED)
+            return (
+                ([goal], response.ERROR_NONE)
+                if goal.is_active
+                else ([], response.ERROR_GOAL_TERMINATED)
+            )
         found = []
         for key, goal in goals.items():
             accepted = (goal._goal_info.stamp.sec, goal._goal_info.stamp.nanosec)
@@ -304,7 +375,9 @@ class ActionServer(Waitable):
             hint = f"Feedback of action '{self._action_name}' is a {self._action_type.__name__}.Feedback(), not {described(feedback)}"
             raise with_hint(TypeError(), hint)
         if not self._destroyed:
-            self._feedback_publisher.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
+            self._feedback_publisher.publish(
+                self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback)
+            )
 
     def _publish_status(self) -> None:
         if self._destroyed:

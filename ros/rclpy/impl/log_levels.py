@@ -10,7 +10,8 @@ __all__ = ["effective", "own", "reset", "set_level"]
 
 _lock = threading.Lock()
 _own: dict[str, int] = {}
-#: What :func:`effective` has found; emptied at every change, so that a disabled message costs one look-up.
+#: What :func:`effective` has found; emptied at every change, so that a disabled message costs one
+#: look-up.
 _effective: dict[str, int] = {}
 
 

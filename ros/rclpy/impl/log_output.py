@@ -1,6 +1,7 @@
 """Where log records go: the console, a file, and ``/rosout`` through the sink of the node that owns the logger.
 
-Thread-safe: a record is one write to each place, so lines of several threads and processes do not mix.
+Thread-safe: a record is one write to each place, so lines of several threads and processes do not
+mix.
 """
 
 from __future__ import annotations
@@ -18,7 +19,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-__all__ = ["LogRecord", "add_rosout_sink", "configure", "emit", "logging_directory", "remove_rosout_sink", "shutdown"]
+__all__ = [
+    "LogRecord",
+    "add_rosout_sink",
+    "configure",
+    "emit",
+    "logging_directory",
+    "remove_rosout_sink",
+    "shutdown",
+]
 
 _COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 _RESET = "\033[0m"
@@ -54,9 +63,13 @@ class _Console:
         self.enabled = True
         self.format = LineFormat(os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT") or None)
         self._fd = _STDOUT_FD if _flag("RCUTILS_LOGGING_USE_STDOUT") else _STDERR_FD
-        _flag("RCUTILS_LOGGING_BUFFERED_STREAM")  # each line is one write anyway; a wrong value is still told
+        _flag(
+            "RCUTILS_LOGGING_BUFFERED_STREAM"
+        )  # each line is one write anyway; a wrong value is still told
         coloured = _flag("RCUTILS_COLORIZED_OUTPUT")
-        self._coloured = os.isatty(self._fd) and not os.environ.get("NO_COLOR") if coloured is None else coloured
+        self._coloured = (
+            os.isatty(self._fd) and not os.environ.get("NO_COLOR") if coloured is None else coloured
+        )
 
     def write(self, line: str, severity: int) -> None:
         if self._coloured:
@@ -85,10 +98,15 @@ class _File:
             directory = _directory()
             os.makedirs(directory, exist_ok=True)
             path = f"{directory}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
-            self._fd = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
+            self._fd = os.open(
+                path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644
+            )
         except OSError as error:
             self._failed = True
-            _write_line(_STDERR_FD, f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be written.")
+            _write_line(
+                _STDERR_FD,
+                f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be written.",
+            )
 
     def close(self) -> None:
         fd, self._fd = self._fd, None
@@ -129,7 +147,8 @@ def configure(
     """Apply what the command line says, and read the environment anew. A context calls it when it starts.
 
     Args:
-        levels: Logger name to severity; the empty name means those that neither have nor inherit one. Other levels stay.
+        levels: Logger name to severity; the empty name means those that neither have nor inherit
+            one. Other levels stay.
         console: Whether to write to the console.
         rosout: Whether to publish to ``/rosout``.
         file: Whether to write a log file.
@@ -161,7 +180,17 @@ def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
             f"the logger named '{name}' will go out over the existing publisher. As soon as any node with that name is destructed it will "
             "unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
         )
-        emit(LogRecord(time.time_ns(), LoggingSeverity.WARN, "rcl.logging_rosout", text, __file__, "add_rosout_sink", 0))
+        emit(
+            LogRecord(
+                time.time_ns(),
+                LoggingSeverity.WARN,
+                "rcl.logging_rosout",
+                text,
+                __file__,
+                "add_rosout_sink",
+                0,
+            )
+        )
         return
     _rosout_sinks[name] = sink
 
@@ -196,7 +225,10 @@ def _flag(variable: str) -> bool | None:
     """A variable that is 0, 1 or unset (None)."""
     value = os.environ.get(variable, "")
     if value not in {"", "0", "1"}:
-        _write_line(_STDERR_FD, f"{variable} has the value '{value}', which is neither 0 nor 1: it is ignored.")
+        _write_line(
+            _STDERR_FD,
+            f"{variable} has the value '{value}', which is neither 0 nor 1: it is ignored.",
+        )
     return {"0": False, "1": True}.get(value)
 
 

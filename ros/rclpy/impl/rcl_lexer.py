@@ -76,8 +76,12 @@ class Lexer:
         if found == wanted:
             return self.accept()
         if found in (Lexeme.NONE, Lexeme.EOF):
-            raise RuleError(f"Expected lexeme type ({wanted.value}) not found, search ended at index {self.index}")
-        raise RuleError(f"Expected lexeme type {wanted.value}, got {found.value} at index {self.index}")
+            raise RuleError(
+                f"Expected lexeme type ({wanted.value}) not found, search ended at index {self.index}"
+            )
+        raise RuleError(
+            f"Expected lexeme type {wanted.value}, got {found.value} at index {self.index}"
+        )
 
     def _lexeme_at(self, index: int) -> tuple[Lexeme, int]:
         if index == len(self.text):

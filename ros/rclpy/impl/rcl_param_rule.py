@@ -18,7 +18,8 @@ def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
     """Read a rule.
 
     Returns:
-        Pattern of node names (``/**`` when the rule names no node), name and value of the parameter.
+        Pattern of node names (``/**`` when the rule names no node), name and value of the
+        parameter.
 
     Raises:
         RuleError: It is malformed.

@@ -27,7 +27,8 @@ class RemapRule(NamedTuple):
     Attributes:
         kind: What it renames; a plain name means topics and services.
         node_name: The only node that it is for, None for all.
-        match: The name as written, to be expanded by the node; empty for the node's own name and namespace.
+        match: The name as written, to be expanded by the node; empty for the node's own name and
+            namespace.
         replacement: The new name as written.
     """
 
@@ -43,7 +44,9 @@ class RemapRule(NamedTuple):
         return not self.match or names.expand_topic_name(self.match, node_name, namespace) == name
 
 
-def remap(rules: list[RemapRule], kind: RemapKind, name: str, node_name: str, namespace: str) -> str:
+def remap(
+    rules: list[RemapRule], kind: RemapKind, name: str, node_name: str, namespace: str
+) -> str:
     """The new name by the first rule that applies, or ``name`` itself.
 
     Args:
@@ -117,7 +120,9 @@ def _new_namespace(lexer: Lexer) -> str:
 
 
 def _match_side(lexer: Lexer) -> tuple[RemapKind, str]:
-    kind = {Lexeme.URL_SERVICE: RemapKind.SERVICE, Lexeme.URL_TOPIC: RemapKind.TOPIC}.get(lexer.peek())
+    kind = {Lexeme.URL_SERVICE: RemapKind.SERVICE, Lexeme.URL_TOPIC: RemapKind.TOPIC}.get(
+        lexer.peek()
+    )
     if kind is not None:
         lexer.accept()
     start = lexer.index

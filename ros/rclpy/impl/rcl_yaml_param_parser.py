@@ -1,6 +1,7 @@
 """Parameter values in YAML, by the strict typing rules of ROS 2: no aliases, no mixed sequences, no nulls.
 
-A plain scalar is a bool, else an integer, else a float, else a string; a quoted one is always a string.
+A plain scalar is a bool, else an integer, else a float, else a string; a quoted one is always a
+string.
 """
 
 from __future__ import annotations
@@ -24,8 +25,12 @@ _STRING_TAG = "tag:yaml.org,2002:str"
 _TRUE = frozenset({"Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"})
 _FALSE = frozenset({"N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"})
 _INT = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
-_FLOAT = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE)
-_HEX_FLOAT = re.compile(r"[+-]?0x(?:[0-9a-f]+\.?[0-9a-f]*|\.[0-9a-f]+)(?:p[+-]?[0-9]+)?", re.IGNORECASE)
+_FLOAT = re.compile(
+    r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE
+)
+_HEX_FLOAT = re.compile(
+    r"[+-]?0x(?:[0-9a-f]+\.?[0-9a-f]*|\.[0-9a-f]+)(?:p[+-]?[0-9]+)?", re.IGNORECASE
+)
 _DOTTED = re.compile(r"[+-]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 #: More digits than 64 bits have in any base; Python refuses to convert thousands of them.
 _LONGEST_INT = 100
@@ -95,7 +100,9 @@ class _Parser:
             if isinstance(event, yaml.MappingStartEvent):
                 self._node_names("")
             elif not isinstance(event, (yaml.DocumentEndEvent, yaml.StreamEndEvent)):
-                raise RuleError(f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}")
+                raise RuleError(
+                    f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
+                )
         return self._nodes
 
     def _keys(self) -> Iterator[str]:
@@ -114,16 +121,24 @@ class _Parser:
             event = next(self._events)
             if key == _PARAMETERS_KEY:
                 if not prefix:
-                    raise RuleError(f"There are no node names before {_PARAMETERS_KEY} at line {self._line}")
+                    raise RuleError(
+                        f"There are no node names before {_PARAMETERS_KEY} at line {self._line}"
+                    )
                 if not isinstance(event, yaml.MappingStartEvent):
-                    raise RuleError(f"Expected parameters below {_PARAMETERS_KEY} at line {self._line}")
+                    raise RuleError(
+                        f"Expected parameters below {_PARAMETERS_KEY} at line {self._line}"
+                    )
                 self._parameters(self._nodes.setdefault(prefix, {}), "")
             elif isinstance(event, yaml.MappingStartEvent):
                 self._node_names(f"{prefix.rstrip('/')}/{key.lstrip('/')}" if prefix else key)
             elif isinstance(event, yaml.ScalarEvent):
-                raise RuleError(f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}")
+                raise RuleError(
+                    f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
+                )
             else:
-                raise RuleError(f"Sequences can only be values and not keys in params. Error at line {self._line}\n")
+                raise RuleError(
+                    f"Sequences can only be values and not keys in params. Error at line {self._line}\n"
+                )
 
     def _parameters(self, parameters: dict[str, ParameterValue], prefix: str) -> None:
         for key in self._keys():
@@ -164,7 +179,9 @@ def _plain_scalar(text: str) -> bool | int | float | str:
     if text in _FALSE:
         return False
     if len(text) <= _LONGEST_INT and _INT.fullmatch(text):
-        value = int(text, 0 if "x" in text.lower() else 8 if text.lstrip("+-").startswith("0") else 10)
+        value = int(
+            text, 0 if "x" in text.lower() else 8 if text.lstrip("+-").startswith("0") else 10
+        )
         if -(2**63) <= value < 2**63:
             return value
     if _DOTTED.fullmatch(text):

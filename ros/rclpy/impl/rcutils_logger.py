@@ -18,7 +18,8 @@ __all__ = ["RcutilsLogger"]
 
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = 10, 20, 30, 40, 50
 
-#: The filters in the order in which they are asked, with their parameters; None marks one that has no default.
+#: The filters in the order in which they are asked, with their parameters; None marks one that has
+#: no default.
 _FILTERS: dict[str, dict[str, Any]] = {
     "throttle": {"throttle_duration_sec": None, "throttle_time_source_type": "the system's clock"},
     "skip_first": {"skip_first": None},
@@ -35,14 +36,17 @@ class _Throttle:
 
         clock = options.get("throttle_time_source_type")
         if clock is not None and not isinstance(clock, Clock):
-            raise ValueError(f'Received throttle_time_source_type of "{clock}" is not a clock instance.')
+            raise ValueError(
+                f'Received throttle_time_source_type of "{clock}" is not a clock instance.'
+            )
         self._now_ns: Callable[[], int] = time.time_ns if clock is None else clock._now_ns
         self._period_ns = int(options["throttle_duration_sec"] * 1e9)
         self._next_ns = 0
 
     def lets_through(self) -> bool:
         now_ns = self._now_ns()
-        # A clock that was set back (a simulation that starts again) must not silence the message until it has caught up.
+        # A clock that was set back (a simulation that starts again) must not silence the message
+        # until it has caught up.
         if self._next_ns - self._period_ns <= now_ns < self._next_ns:
             return False
         self._next_ns = now_ns + self._period_ns
@@ -71,7 +75,11 @@ class _Once:
         return not logged
 
 
-_FILTER_CLASSES: dict[str, type[_Throttle | _SkipFirst | _Once]] = {"throttle": _Throttle, "skip_first": _SkipFirst, "once": _Once}
+_FILTER_CLASSES: dict[str, type[_Throttle | _SkipFirst | _Once]] = {
+    "throttle": _Throttle,
+    "skip_first": _SkipFirst,
+    "once": _Once,
+}
 
 
 class _CallSite:
@@ -110,27 +118,38 @@ def _requested_filters(options: dict[str, Any]) -> list[str]:
     Raises:
         TypeError: An argument belongs to no filter, or one that its filter needs is missing.
     """
-    requested = [name for name, defaults in _FILTERS.items() if any(options.get(option) for option in defaults)]
+    requested = [
+        name
+        for name, defaults in _FILTERS.items()
+        if any(options.get(option) for option in defaults)
+    ]
     for name in requested:
         for option, default in _FILTERS[name].items():
             if default is None and option not in options:
-                raise TypeError(f'required parameter "{option}" not specified but is required for the the logging filter "{name}"')
+                raise TypeError(
+                    f'required parameter "{option}" not specified but is required for the the logging filter "{name}"'
+                )
     for option in options:
         if option not in _OPTIONS:
-            raise TypeError(f'parameter "{option}" is not one of the recognized logging options "{_OPTIONS}"')
+            raise TypeError(
+                f'parameter "{option}" is not one of the recognized logging options "{_OPTIONS}"'
+            )
     return requested
 
 
 class RcutilsLogger:
     """Writes messages of one name. Thread-safe.
 
-    Every method that logs takes these keywords, which belong to the calling line and must not change from call to call:
+    Every method that logs takes these keywords, which belong to the calling line and must not
+    change from call to call:
 
-    * ``throttle_duration_sec``, ``throttle_time_source_type`` (a clock): at most one message in that time,
+    * ``throttle_duration_sec``, ``throttle_time_source_type`` (a clock): at most one message in
+      that time,
     * ``skip_first``: not the first message,
     * ``once``: only the first message,
 
-    and returns whether the message was written. A message that is no ``str`` is converted, unless the level is off.
+    and returns whether the message was written. A message that is no ``str`` is converted, unless
+    the level is off.
     """
 
     def __init__(self, name: str = "", namespace: str = "") -> None:
@@ -206,7 +225,9 @@ class RcutilsLogger:
         if not site.lets_through():
             return False
         text, file_name = _encodable(str(message)), _encodable(code.co_filename)
-        record = log_output.LogRecord(time.time_ns(), severity, name, text, file_name, code.co_name, line)
+        record = log_output.LogRecord(
+            time.time_ns(), severity, name, text, file_name, code.co_name, line
+        )
         log_output.emit(record)
         return True
 

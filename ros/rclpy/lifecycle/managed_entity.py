@@ -63,7 +63,11 @@ class SimpleManagedEntity(ManagedEntity):
         return self._enabled
 
     @staticmethod
-    def when_enabled(wrapped: Callable[..., Any] | None = None, *, when_not_enabled: Callable[..., Any] | None = None) -> Any:
+    def when_enabled(
+        wrapped: Callable[..., Any] | None = None,
+        *,
+        when_not_enabled: Callable[..., Any] | None = None,
+    ) -> Any:
         """Decorator of a method that runs while the entity is enabled; else ``when_not_enabled`` runs, or nothing."""
 
         def decorate(method: Callable[..., Any]) -> Callable[..., Any]:

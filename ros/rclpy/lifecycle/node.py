@@ -9,7 +9,14 @@ from rclpy.node import Node
 
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
-from .state_machine import STATES, TRANSITIONS, LifecycleState, StateMachine, Transition, TransitionCallbackReturn
+from .state_machine import (
+    STATES,
+    TRANSITIONS,
+    LifecycleState,
+    StateMachine,
+    Transition,
+    TransitionCallbackReturn,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,7 +47,12 @@ class LifecycleNodeMixin(ManagedEntity):
         callback_group: Of the services for that; None takes the node's default.
     """
 
-    def __init__(self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        enable_communication_interface: bool = True,
+        callback_group: CallbackGroup | None = None,
+    ) -> None:
         self._state_machine = StateMachine()
         self._managed_entities: list[ManagedEntity] = []
         self.__transition_event_publisher: Publisher | None = None
@@ -54,12 +66,18 @@ class LifecycleNodeMixin(ManagedEntity):
         from lifecycle_msgs import msg, srv
 
         node: Any = self
-        self.__transition_event_publisher = node.create_publisher(msg.TransitionEvent, "~/transition_event", 10)
+        self.__transition_event_publisher = node.create_publisher(
+            msg.TransitionEvent, "~/transition_event", 10
+        )
         for srv_type, name, callback in (
             (srv.ChangeState, "change_state", self.__on_change_state),
             (srv.GetState, "get_state", self.__on_get_state),
             (srv.GetAvailableStates, "get_available_states", self.__on_get_available_states),
-            (srv.GetAvailableTransitions, "get_available_transitions", self.__on_get_available_transitions),
+            (
+                srv.GetAvailableTransitions,
+                "get_available_transitions",
+                self.__on_get_available_transitions,
+            ),
             (srv.GetAvailableTransitions, "get_transition_graph", self.__on_get_transition_graph),
         ):
             node.create_service(srv_type, f"~/{name}", callback, callback_group=callback_group)
@@ -102,7 +120,9 @@ class LifecycleNodeMixin(ManagedEntity):
         if self.__transition_event_publisher is not None:
             from lifecycle_msgs.msg import TransitionEvent
 
-            event = TransitionEvent(start_state=_state_message(start), goal_state=_state_message(state))
+            event = TransitionEvent(
+                start_state=_state_message(start), goal_state=_state_message(state)
+            )
             self.__transition_event_publisher.publish(event)
 
     def __run_callback(self, before: LifecycleState) -> TransitionCallbackReturn:
@@ -113,10 +133,14 @@ class LifecycleNodeMixin(ManagedEntity):
         except Exception as error:  # noqa: BLE001 - an error is one of the outcomes that the state machine knows
             import traceback
 
-            complain(f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}")
+            complain(
+                f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}"
+            )
             return TransitionCallbackReturn.ERROR
         if not isinstance(outcome, TransitionCallbackReturn):
-            complain(f"The callback for transition {state.label} has to return a TransitionCallbackReturn, not {outcome!r}")
+            complain(
+                f"The callback for transition {state.label} has to return a TransitionCallbackReturn, not {outcome!r}"
+            )
             return TransitionCallbackReturn.ERROR
         return outcome
 
@@ -154,7 +178,9 @@ class LifecycleNodeMixin(ManagedEntity):
         """Called after an error; success leads to unconfigured, all else to finalized."""
         return self.__forward("on_error", state)
 
-    def register_on_configure(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def register_on_configure(
+        self, cb: Callable[[LifecycleState], TransitionCallbackReturn]
+    ) -> bool:
         """Call ``cb`` instead of :meth:`on_configure`."""
         return self.__register("on_configure", cb)
 
@@ -162,15 +188,21 @@ class LifecycleNodeMixin(ManagedEntity):
         """Call ``cb`` instead of :meth:`on_cleanup`."""
         return self.__register("on_cleanup", cb)
 
-    def register_on_shutdown(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def register_on_shutdown(
+        self, cb: Callable[[LifecycleState], TransitionCallbackReturn]
+    ) -> bool:
         """Call ``cb`` instead of :meth:`on_shutdown`."""
         return self.__register("on_shutdown", cb)
 
-    def register_on_activate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def register_on_activate(
+        self, cb: Callable[[LifecycleState], TransitionCallbackReturn]
+    ) -> bool:
         """Call ``cb`` instead of :meth:`on_activate`."""
         return self.__register("on_activate", cb)
 
-    def register_on_deactivate(self, cb: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def register_on_deactivate(
+        self, cb: Callable[[LifecycleState], TransitionCallbackReturn]
+    ) -> bool:
         """Call ``cb`` instead of :meth:`on_deactivate`."""
         return self.__register("on_deactivate", cb)
 
@@ -178,7 +210,9 @@ class LifecycleNodeMixin(ManagedEntity):
         """Call ``cb`` instead of :meth:`on_error`."""
         return self.__register("on_error", cb)
 
-    def __register(self, name: str, callback: Callable[[LifecycleState], TransitionCallbackReturn]) -> bool:
+    def __register(
+        self, name: str, callback: Callable[[LifecycleState], TransitionCallbackReturn]
+    ) -> bool:
         self._callbacks[_CALLBACK_STATES[name]] = callback
         return True
 
@@ -191,9 +225,13 @@ class LifecycleNodeMixin(ManagedEntity):
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
         """A publisher that is silent while the node is not active; the arguments are those of ``create_publisher``."""
         if "publisher_class" in kwargs:
-            raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
+            raise TypeError(
+                "create_publisher() got an unexpected keyword argument 'publisher_class'"
+            )
         node: Any = self
-        publisher: LifecyclePublisher = node.create_publisher(*args, **kwargs, publisher_class=LifecyclePublisher)
+        publisher: LifecyclePublisher = node.create_publisher(
+            *args, **kwargs, publisher_class=LifecyclePublisher
+        )
         self.add_managed_entity(publisher)
         return publisher
 
@@ -210,7 +248,9 @@ class LifecycleNodeMixin(ManagedEntity):
         wanted = request.transition
         try:
             machine = self._state_machine
-            transition = machine.by_label(wanted.label) if wanted.label else machine.by_id(wanted.id)
+            transition = (
+                machine.by_label(wanted.label) if wanted.label else machine.by_id(wanted.id)
+            )
         except RCLError as error:
             self.get_logger().error(str(error))  # type: ignore[attr-defined]
             response.success = False
@@ -227,7 +267,9 @@ class LifecycleNodeMixin(ManagedEntity):
         return response
 
     def __on_get_available_transitions(self, request: Any, response: Any) -> Any:  # noqa: ARG002
-        response.available_transitions = [_description(transition) for transition in self._state_machine.available_transitions]
+        response.available_transitions = [
+            _description(transition) for transition in self._state_machine.available_transitions
+        ]
         return response
 
     def __on_get_transition_graph(self, request: Any, response: Any) -> Any:  # noqa: ARG002
@@ -244,9 +286,13 @@ class LifecycleNode(LifecycleNodeMixin, Node):
         **kwargs: The other arguments of :class:`rclpy.node.Node`.
     """
 
-    def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
+    def __init__(
+        self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any
+    ) -> None:
         Node.__init__(self, node_name, **kwargs)
-        LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)
+        LifecycleNodeMixin.__init__(
+            self, enable_communication_interface=enable_communication_interface
+        )
 
 
 def _state_message(state: LifecycleState) -> Any:

@@ -7,7 +7,14 @@ from typing import NamedTuple
 
 from rclpy._rclpy_pybind11 import RCLError
 
-__all__ = ["STATES", "TRANSITIONS", "LifecycleState", "StateMachine", "Transition", "TransitionCallbackReturn"]
+__all__ = [
+    "STATES",
+    "TRANSITIONS",
+    "LifecycleState",
+    "StateMachine",
+    "Transition",
+    "TransitionCallbackReturn",
+]
 
 
 class TransitionCallbackReturn(Enum):
@@ -56,7 +63,14 @@ STATES = {
 }
 
 _UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = 1, 2, 3, 4
-_CONFIGURING, _CLEANING_UP, _SHUTTING_DOWN, _ACTIVATING, _DEACTIVATING, _ERROR_PROCESSING = 10, 11, 12, 13, 14, 15
+_CONFIGURING, _CLEANING_UP, _SHUTTING_DOWN, _ACTIVATING, _DEACTIVATING, _ERROR_PROCESSING = (
+    10,
+    11,
+    12,
+    13,
+    14,
+    15,
+)
 
 _REQUESTED = (
     (1, "configure", _UNCONFIGURED, _CONFIGURING),
@@ -67,7 +81,8 @@ _REQUESTED = (
     (6, "shutdown", _INACTIVE, _SHUTTING_DOWN),
     (7, "shutdown", _ACTIVE, _SHUTTING_DOWN),
 )
-#: State in which a callback runs, number of its success, and the states after success, failure and error.
+#: State in which a callback runs, number of its success, and the states after success, failure and
+#: error.
 _REPORTED = (
     (_CONFIGURING, 10, _INACTIVE, _UNCONFIGURED, _ERROR_PROCESSING),
     (_CLEANING_UP, 20, _UNCONFIGURED, _INACTIVE, _ERROR_PROCESSING),
@@ -79,10 +94,15 @@ _REPORTED = (
 
 
 def _all_transitions() -> list[Transition]:
-    transitions = [Transition(number, label, STATES[start], STATES[goal]) for number, label, start, goal in _REQUESTED]
+    transitions = [
+        Transition(number, label, STATES[start], STATES[goal])
+        for number, label, start, goal in _REQUESTED
+    ]
     for start, first, *goals in _REPORTED:
         for offset, (outcome, goal) in enumerate(zip(TransitionCallbackReturn, goals, strict=True)):
-            transitions.append(Transition(first + offset, outcome.to_label(), STATES[start], STATES[goal]))
+            transitions.append(
+                Transition(first + offset, outcome.to_label(), STATES[start], STATES[goal])
+            )
     return transitions
 
 
@@ -106,16 +126,26 @@ class StateMachine:
         Raises:
             RCLError: None leads on from here.
         """
-        return self._find(label, [transition for transition in self.available_transitions if transition.label == label])
+        return self._find(
+            label,
+            [transition for transition in self.available_transitions if transition.label == label],
+        )
 
     def by_id(self, transition_id: int) -> Transition:
         """The way of this number; raises as :meth:`by_label`."""
-        ways = [transition for transition in self.available_transitions if transition.transition_id == transition_id]
+        ways = [
+            transition
+            for transition in self.available_transitions
+            if transition.transition_id == transition_id
+        ]
         return self._find(str(transition_id), ways)
 
     def _find(self, wanted: str, found: list[Transition]) -> Transition:
         if not found:
-            possible = ", ".join(f"{transition.label} ({transition.transition_id})" for transition in self.available_transitions)
+            possible = ", ".join(
+                f"{transition.label} ({transition.transition_id})"
+                for transition in self.available_transitions
+            )
             raise RCLError(
                 f"Failed to trigger lifecycle state machine transition: no transition matching {wanted} found for current state "
                 f"{self.current_state.label}; there are: {possible or 'none'}"

@@ -13,10 +13,31 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     either = parser.add_mutually_exclusive_group()
-    either.add_argument("-r", "--report", action="store_true", help="Print facts for a bug report instead: computer, environment, topics")
-    either.add_argument("-rf", "--report-failed", action="store_true", help="Accepted for compatibility: only what fails is printed")
-    parser.add_argument("-iw", "--include-warnings", action="store_true", help="Count what is only worth knowing as a failure too")
-    parser.add_argument("--listen", type=float, default=2.0, metavar="S", help="Listen to the transforms for S seconds")
+    either.add_argument(
+        "-r",
+        "--report",
+        action="store_true",
+        help="Print facts for a bug report instead: computer, environment, topics",
+    )
+    either.add_argument(
+        "-rf",
+        "--report-failed",
+        action="store_true",
+        help="Accepted for compatibility: only what fails is printed",
+    )
+    parser.add_argument(
+        "-iw",
+        "--include-warnings",
+        action="store_true",
+        help="Count what is only worth knowing as a failure too",
+    )
+    parser.add_argument(
+        "--listen",
+        type=float,
+        default=2.0,
+        metavar="S",
+        help="Listen to the transforms for S seconds",
+    )
 
 
 def main(args: argparse.Namespace) -> int:

@@ -22,19 +22,53 @@ _SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    parser.add_argument("-n", "--noninteractive", action="store_true", default=not _at_terminal(), help="Nobody at a terminal watches")
-    parser.add_argument("-d", "--debug", action="store_true", help="Log what the launch does in detail")
+    parser.add_argument(
+        "-n",
+        "--noninteractive",
+        action="store_true",
+        default=not _at_terminal(),
+        help="Nobody at a terminal watches",
+    )
+    parser.add_argument(
+        "-d", "--debug", action="store_true", help="Log what the launch does in detail"
+    )
     either = parser.add_mutually_exclusive_group()
-    either.add_argument("-p", "--print", "--print-description", action="store_true", help="Show what would be launched, and end")
-    either.add_argument("-s", "--show-args", "--show-arguments", action="store_true", help="Show the arguments of the file, and end")
-    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", help="Show all output of all processes")
-    parser.add_argument("--launch-prefix", help="Command to put before all processes, for example a debugger")
-    parser.add_argument("--launch-prefix-filter", help="Pattern of the executables that get the prefix; all when it is not given")
-    package = parser.add_argument("package_name", help="Name of the package, or path of a launch file")
+    either.add_argument(
+        "-p",
+        "--print",
+        "--print-description",
+        action="store_true",
+        help="Show what would be launched, and end",
+    )
+    either.add_argument(
+        "-s",
+        "--show-args",
+        "--show-arguments",
+        action="store_true",
+        help="Show the arguments of the file, and end",
+    )
+    parser.add_argument(
+        "-a",
+        "--show-all-subprocesses-output",
+        action="store_true",
+        help="Show all output of all processes",
+    )
+    parser.add_argument(
+        "--launch-prefix", help="Command to put before all processes, for example a debugger"
+    )
+    parser.add_argument(
+        "--launch-prefix-filter",
+        help="Pattern of the executables that get the prefix; all when it is not given",
+    )
+    package = parser.add_argument(
+        "package_name", help="Name of the package, or path of a launch file"
+    )
     package.completer = packages  # type: ignore[attr-defined]
     file = parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
     file.completer = _launch_files  # type: ignore[attr-defined]
-    parser.add_argument("launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value")
+    parser.add_argument(
+        "launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value"
+    )
 
 
 def main(args: argparse.Namespace) -> int | str | None:
@@ -54,20 +88,28 @@ def main(args: argparse.Namespace) -> int | str | None:
     source = AnyLaunchDescriptionSource(path)
     if args.show_args or args.print:
         return (_show_arguments if args.show_args else _print_description)(_description(source))
-    check = OpaqueFunction(function=_warn_of_unknown, args=[source, [name for name, _ in _parsed_arguments(words)]])
-    description = LaunchDescription([check, IncludeLaunchDescription(source, launch_arguments=arguments)])
+    check = OpaqueFunction(
+        function=_warn_of_unknown, args=[source, [name for name, _ in _parsed_arguments(words)]]
+    )
+    description = LaunchDescription(
+        [check, IncludeLaunchDescription(source, launch_arguments=arguments)]
+    )
     with _terminal_restored():
         return _launch(description, args)
 
 
-def _warn_of_unknown(context: LaunchContext, source: LaunchDescriptionSource, names: list[str]) -> None:
+def _warn_of_unknown(
+    context: LaunchContext, source: LaunchDescriptionSource, names: list[str]
+) -> None:
     """Name arguments that the file does not declare and that look like one that it does."""
     if not names:
         return
     from launch.logging import get_logger
     from ros2cli.suggestion import did_you_mean
 
-    declared = [argument.name for argument in source.get_launch_description(context).get_launch_arguments()]
+    declared = [
+        argument.name for argument in source.get_launch_description(context).get_launch_arguments()
+    ]
     for name in names:
         meant = "" if name in declared else did_you_mean(name, declared)
         if meant:
@@ -77,7 +119,9 @@ def _warn_of_unknown(context: LaunchContext, source: LaunchDescriptionSource, na
 def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
     from launch import LaunchService
 
-    service = LaunchService(argv=args.launch_arguments, noninteractive=args.noninteractive, debug=args.debug)
+    service = LaunchService(
+        argv=args.launch_arguments, noninteractive=args.noninteractive, debug=args.debug
+    )
     service.include_launch_description(description)
     return service.run()
 
@@ -99,7 +143,9 @@ def _terminal_restored() -> Iterator[None]:
         yield
     finally:
         with contextlib.suppress(OSError, termios.error):  # the terminal is gone
-            if os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp():  # in the background it is the shell's, and setting it would stop this
+            if (
+                os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+            ):  # in the background it is the shell's, and setting it would stop this
                 termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
 
 
@@ -115,7 +161,9 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
     if name is None:
         if os.sep in args.package_name or args.package_name.endswith(_SUFFIXES):
             raise RuntimeError(f"No launch file at '{args.package_name}'")
-        args.parser.error("the following arguments are required: launch_file_name, launch_arguments")
+        args.parser.error(
+            "the following arguments are required: launch_file_name, launch_arguments"
+        )
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
     try:
@@ -123,7 +171,9 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
     except PackageNotFoundError as error:
         from ros2cli.suggestion import package_meant
 
-        raise RuntimeError(f"Package '{args.package_name}' not found: {error}{package_meant(args.package_name)}") from error
+        raise RuntimeError(
+            f"Package '{args.package_name}' not found: {error}{package_meant(args.package_name)}"
+        ) from error
     return _in_share(args.package_name, share, str(name)), args.launch_arguments
 
 
@@ -135,12 +185,16 @@ def _in_share(package: str, share: str, name: str) -> str:
         message = f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
         raise RuntimeError(message + did_you_mean(name, _files_in(share)))
     if len(found) > 1:
-        raise RuntimeError(f"file '{name}' was found more than once in the share directory of package '{package}': {sorted(found)}")
+        raise RuntimeError(
+            f"file '{name}' was found more than once in the share directory of package '{package}': {sorted(found)}"
+        )
     return found[0]
 
 
 def _files_in(share: str) -> list[str]:
-    return sorted(file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES))
+    return sorted(
+        file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES)
+    )
 
 
 def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
@@ -160,7 +214,9 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     for word in words:
         name, separator, value = word.partition(":=")
         if not separator or not name or not value:
-            raise RuntimeError(f"malformed launch argument '{word}', expected format '<name>:=<value>'")
+            raise RuntimeError(
+                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
+            )
         values[name] = value
     return list(values.items())
 
@@ -187,7 +243,11 @@ def _show_arguments(description: LaunchDescription) -> int:
     for argument in description.get_launch_arguments():
         conditional |= argument._conditionally_included
         star = "*" if argument._conditionally_included else ""
-        lines += ["", f"    '{argument.name}'{star}:", *(f"        {line}" for line in argument.description.splitlines())]
+        lines += [
+            "",
+            f"    '{argument.name}'{star}:",
+            *(f"        {line}" for line in argument.description.splitlines()),
+        ]
         if argument.default_value is not None:
             try:
                 default = f"'{perform_substitutions(LaunchContext(), argument.default_value)}'"

@@ -21,12 +21,17 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    parser.add_argument("--prefix", help="Command to put before the executable, for example a debugger: --prefix 'gdb -ex run --args'")
+    parser.add_argument(
+        "--prefix",
+        help="Command to put before the executable, for example a debugger: --prefix 'gdb -ex run --args'",
+    )
     package = parser.add_argument("package_name", help="Name of the package")
     package.completer = packages  # type: ignore[attr-defined]
     executable = parser.add_argument("executable_name", help="Name of the executable")
     executable.completer = executables  # type: ignore[attr-defined]
-    argv = parser.add_argument("argv", nargs=argparse.REMAINDER, help="Arguments for the executable")
+    argv = parser.add_argument(
+        "argv", nargs=argparse.REMAINDER, help="Arguments for the executable"
+    )
     argv.completer = arguments_of_executable  # type: ignore[attr-defined]
 
 
@@ -36,8 +41,14 @@ def main(args: argparse.Namespace) -> int | str:
 
     paths = executable_paths(args.package_name)
     if paths is None:
-        raise RuntimeError(f"Package '{args.package_name}' not found{_suggestion(args.package_name, packages())}")
-    found = [path for path in paths if os.path.basename(path) in (args.executable_name, f"{args.executable_name}.exe")]
+        raise RuntimeError(
+            f"Package '{args.package_name}' not found{_suggestion(args.package_name, packages())}"
+        )
+    found = [
+        path
+        for path in paths
+        if os.path.basename(path) in (args.executable_name, f"{args.executable_name}.exe")
+    ]
     if not found:
         known = [os.path.basename(path) for path in paths]
         return f"No executable found{_suggestion(args.executable_name, known)}"
@@ -51,7 +62,9 @@ def _run(command: list[str]) -> int:
     with _signals_passed_on() as pass_on, subprocess.Popen(command) as process:  # noqa: S603  what the user asked for
         pass_on(process)
         while process.returncode is None:
-            with contextlib.suppress(KeyboardInterrupt):  # the terminal has sent it to the executable as well, which decides
+            with contextlib.suppress(
+                KeyboardInterrupt
+            ):  # the terminal has sent it to the executable as well, which decides
                 process.wait()
     status = process.returncode
     if status < 0:
@@ -78,7 +91,11 @@ def _signals_passed_on() -> Iterator[Callable[[subprocess.Popen[bytes]], None]]:
         for number in early:
             process.send_signal(number)
 
-    numbers = (signal.SIGTERM, signal.SIGHUP) if threading.current_thread() is threading.main_thread() else ()
+    numbers = (
+        (signal.SIGTERM, signal.SIGHUP)
+        if threading.current_thread() is threading.main_thread()
+        else ()
+    )
     before = {number: signal.signal(number, handle) for number in numbers}
     try:
         yield pass_on

@@ -6,9 +6,11 @@
         simulation.spawn("turtle2", x=4.0, y=2.0)
         simulation.add(MyFollower())
         simulation.drive("turtle1", linear=2.0, angular=1.0)
-        assert simulation.run_until(lambda: simulation.distance("turtle1", "turtle2") < 0.5, within=10.0)
+        assert simulation.run_until(lambda: simulation.distance("turtle1", "turtle2") < 0.5,
+        within=10.0)
 
-For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py`` gives a fixture ``simulation``.
+For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py`` gives a fixture
+``simulation``.
 """
 
 from __future__ import annotations

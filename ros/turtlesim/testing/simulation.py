@@ -36,8 +36,9 @@ _MOST_CALLBACKS_IN_A_TICK = 100_000
 class Simulation:
     """One simulator without a page, on the middleware inside this process, with its own clock on ``/clock``.
 
-    Time moves only in :meth:`step` and the ``run`` methods, by 16 ms a tick, and not before every callback of the tick before has run.
-    All nodes made while it is open follow its clock (``use_sim_time``). Use it as a context manager; one at a time in a process.
+    Time moves only in :meth:`step` and the ``run`` methods, by 16 ms a tick, and not before every
+    callback of the tick before has run. All nodes made while it is open follow its clock
+    (``use_sim_time``). Use it as a context manager; one at a time in a process.
 
     Attributes:
         node: The simulator's node.
@@ -93,10 +94,14 @@ class Simulation:
 
         Args:
             make_node: The node's class, or any function that makes it.
-            parameters: Initial values of the node's parameters; ``name`` gives the node another name.
+            parameters: Initial values of the node's parameters; ``name`` gives the node another
+                name.
         """
         context = self._driver.context
-        everybody, context._arguments = context.arguments, Arguments.parse_global(["--ros-args", *_as_arguments(parameters)])
+        everybody, context._arguments = (
+            context.arguments,
+            Arguments.parse_global(["--ros-args", *_as_arguments(parameters)]),
+        )
         try:
             return self.add(make_node())
         finally:
@@ -112,7 +117,9 @@ class Simulation:
         """
         given = self.node.spawn(x, y, theta, name)
         if not given:
-            raise ValueError(f"cannot spawn a turtle named {name!r} at x={x}, y={y}, theta={theta}: see the log")
+            raise ValueError(
+                f"cannot spawn a turtle named {name!r} at x={x}, y={y}, theta={theta}: see the log"
+            )
         self._come_to_rest()
         return given
 
@@ -120,7 +127,9 @@ class Simulation:
         """Send one velocity command [m/s, rad/s], good for a second, as any other node would."""
         publisher = self._commands.get(turtle)
         if publisher is None:
-            publisher = self._commands[turtle] = self._driver.create_publisher(Twist, f"/{turtle}/cmd_vel", 10)
+            publisher = self._commands[turtle] = self._driver.create_publisher(
+                Twist, f"/{turtle}/cmd_vel", 10
+            )
         message = Twist()
         message.linear.x, message.angular.z = float(linear), float(angular)
         publisher.publish(message)
@@ -134,7 +143,9 @@ class Simulation:
         """
         pose = self.node.pose_of(turtle)
         if pose is None:
-            raise KeyError(f"no turtle named {turtle!r}; there are: {', '.join(sorted(self.node.world.turtles)) or 'none'}")
+            raise KeyError(
+                f"no turtle named {turtle!r}; there are: {', '.join(sorted(self.node.world.turtles)) or 'none'}"
+            )
         return pose
 
     def distance(self, one: str, other: str) -> float:
@@ -182,7 +193,9 @@ class Simulation:
             except TimeoutException:
                 return
             self._executor._run(*ready)
-        raise RuntimeError(f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s and did not come to rest")
+        raise RuntimeError(
+            f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s and did not come to rest"
+        )
 
     def _replace_reader(self, wire: Any) -> None:
         wire.reader.close()
@@ -228,4 +241,6 @@ def _as_arguments(parameters: dict[str, object]) -> list[str]:
     name = parameters.pop("name", None)
     renamed = [] if name is None else ["-r", f"__node:={name}"]
     values = {"use_sim_time": True, **parameters}
-    return renamed + [part for key, value in values.items() for part in ("-p", f"{key}:={json.dumps(value)}")]
+    return renamed + [
+        part for key, value in values.items() for part in ("-p", f"{key}:={json.dumps(value)}")
+    ]

@@ -7,12 +7,17 @@ package_name = "learning_tf2_py"
 setup(
     name=package_name,
     version="0.1.0",
-    package_dir={"": "."},  # an editable installation is then a path, not a finder that each Python imports
+    package_dir={
+        "": "."
+    },  # an editable installation is then a path, not a finder that each Python imports
     packages=find_packages(exclude=["test"]),
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
-        (f"share/{package_name}/launch", [str(file) for file in Path("launch").glob("*.launch.py")]),
+        (
+            f"share/{package_name}/launch",
+            [str(file) for file in Path("launch").glob("*.launch.py")],
+        ),
     ],
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},

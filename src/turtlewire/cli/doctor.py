@@ -19,7 +19,15 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo, Graph
 
-__all__ = ["Finding", "examine", "graph_findings", "network_findings", "report", "setup_findings", "tf_findings"]
+__all__ = [
+    "Finding",
+    "examine",
+    "graph_findings",
+    "network_findings",
+    "report",
+    "setup_findings",
+    "tf_findings",
+]
 
 _STALE_NS = 2_000_000_000
 _ANSWER_NS = 500_000_000  # other hosts get as long as ROS 2's own tools give them
@@ -54,7 +62,9 @@ def examine(listen_s: float) -> list[Finding]:
         if discovery().static_peers or not _only_this_host():
             context.graph.wait_for(lambda: False, _ANSWER_NS)
         context.graph.wait_for(context.graph.is_complete, 2_000_000_000)
-        traffic = listen_to_transforms(context, listen_s if _transforms_are_published(context.graph) else 0.0)
+        traffic = listen_to_transforms(
+            context, listen_s if _transforms_are_published(context.graph) else 0.0
+        )
         return [*found, *graph_findings(context.graph), *tf_findings(context.graph, traffic)]
     finally:
         context.close()
@@ -71,22 +81,46 @@ def report(findings: list[Finding]) -> str:
     return "\n".join(lines)
 
 
-def setup_findings(environment: dict[str, str] | os._Environ[str], path: Iterable[str]) -> list[Finding]:
+def setup_findings(
+    environment: dict[str, str] | os._Environ[str], path: Iterable[str]
+) -> list[Finding]:
     """What is wrong with the installation and the environment variables."""
     from turtlewire.tf.buffer import CORE
 
     found = []
     if CORE == "python":
         remedy = "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
-        found.append(Finding(False, "The plain-Python core is in use; lookups take many times as long.", remedy))
+        found.append(
+            Finding(
+                False, "The plain-Python core is in use; lookups take many times as long.", remedy
+            )
+        )
     distro = environment.get("ROS_DISTRO", "jazzy")
     if distro != "jazzy":
         remedy = "Use a shell in which no other ROS is sourced. From kilted on, turtlesim speaks the interfaces of turtlesim_msgs."
-        found.append(Finding(False, f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy.", remedy))
-    homes = {os.path.realpath(folder) for folder in path if os.path.isfile(os.path.join(folder, "rclpy", "__init__.py"))}
+        found.append(
+            Finding(
+                False,
+                f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy.",
+                remedy,
+            )
+        )
+    homes = {
+        os.path.realpath(folder)
+        for folder in path
+        if os.path.isfile(os.path.join(folder, "rclpy", "__init__.py"))
+    }
     if len(homes) > 1:
-        remedy = "Leave out one of them: do not source a real ROS in a shell that uses turtlewire-ros."
-        found.append(Finding(True, f"Two ROS installations are mixed: rclpy is in {' and in '.join(sorted(homes))}.", remedy))
+        remedy = (
+            "Leave out one of them: do not source a real ROS in a shell that uses turtlewire-ros."
+        )
+        found.append(
+            Finding(
+                True,
+                f"Two ROS installations are mixed: rclpy is in {' and in '.join(sorted(homes))}.",
+                remedy,
+            )
+        )
     return found
 
 
@@ -95,7 +129,13 @@ def network_findings() -> list[Finding]:
     if _only_this_host() or multicast_works():
         return []
     remedy = "Allow UDP to 239.255.0.1 (firewall, VPN, container network), or name the other hosts: ROS_STATIC_PEERS='HOST1;HOST2'."
-    return [Finding(True, "A multicast datagram does not come back: nodes on other hosts will not be found.", remedy)]
+    return [
+        Finding(
+            True,
+            "A multicast datagram does not come back: nodes on other hosts will not be found.",
+            remedy,
+        )
+    ]
 
 
 def _only_this_host() -> bool:
@@ -148,54 +188,105 @@ def _topic_findings(topic: str, ends: list[EndpointInfo]) -> list[Finding]:
             reason = _mismatch(publisher, subscription)
             if reason:
                 text = f"{topic}: {_owner(subscription)} gets nothing from {_owner(publisher)}: {reason}."
-                found.append(Finding(True, text, "Give both the same QoS profile, or the subscription the weaker one."))
+                found.append(
+                    Finding(
+                        True,
+                        text,
+                        "Give both the same QoS profile, or the subscription the weaker one.",
+                    )
+                )
     return found
 
 
 def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
     """Why DDS does not connect the two; empty when it does."""
-    if publisher.qos.reliability == Reliability.BEST_EFFORT and subscription.qos.reliability == Reliability.RELIABLE:
+    if (
+        publisher.qos.reliability == Reliability.BEST_EFFORT
+        and subscription.qos.reliability == Reliability.RELIABLE
+    ):
         return "it asks for RELIABLE, and BEST_EFFORT is offered"
-    if publisher.qos.durability == Durability.VOLATILE and subscription.qos.durability == Durability.TRANSIENT_LOCAL:
+    if (
+        publisher.qos.durability == Durability.VOLATILE
+        and subscription.qos.durability == Durability.TRANSIENT_LOCAL
+    ):
         return "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"
-    if publisher.type_hash and subscription.type_hash and publisher.type_hash != subscription.type_hash:
+    if (
+        publisher.type_hash
+        and subscription.type_hash
+        and publisher.type_hash != subscription.type_hash
+    ):
         return "their definitions of the type differ"
     return ""
 
 
 def _owner(endpoint: EndpointInfo) -> str:
     node = endpoint.node
-    return "an unknown node" if node is None else fully_qualified_node_name(node.name, node.namespace)
+    return (
+        "an unknown node" if node is None else fully_qualified_node_name(node.name, node.namespace)
+    )
 
 
 def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     """What is wrong with the transforms."""
     owners = {end.gid: _owner(end) for end in graph.endpoints()}
     if not _transforms_are_published(graph):
-        return [Finding(False, "Nobody publishes transforms.", "Start a node with a TransformBroadcaster or a StaticTransformBroadcaster.")]
+        return [
+            Finding(
+                False,
+                "Nobody publishes transforms.",
+                "Start a node with a TransformBroadcaster or a StaticTransformBroadcaster.",
+            )
+        ]
     found = []
     for child, publishers in sorted(traffic.publishers.items()):
         if len(publishers) > 1:
             who = " and ".join(sorted(owners.get(gid, "an unknown node") for gid in publishers))
-            found.append(Finding(True, f"The frame '{child}' is published by {who}.", "A frame must have one publisher: stop the others."))
+            found.append(
+                Finding(
+                    True,
+                    f"The frame '{child}' is published by {who}.",
+                    "A frame must have one publisher: stop the others.",
+                )
+            )
     for child, parents in sorted(traffic.parents.items()):
         if len(parents) > 1:
-            remedy = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
-            found.append(Finding(True, f"The frame '{child}' has several parents: {', '.join(sorted(parents))}.", remedy))
-    roots = sorted({parent for parents in traffic.parents.values() for parent in parents} - traffic.parents.keys())
+            remedy = (
+                "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
+            )
+            found.append(
+                Finding(
+                    True,
+                    f"The frame '{child}' has several parents: {', '.join(sorted(parents))}.",
+                    remedy,
+                )
+            )
+    roots = sorted(
+        {parent for parents in traffic.parents.values() for parent in parents}
+        - traffic.parents.keys()
+    )
     if len(roots) > 1:
         remedy = "No lookup between them is possible: publish a transform from one root to the other (static_transform_publisher)."
-        found.append(Finding(True, f"The frames form {len(roots)} separate trees, with the roots {', '.join(roots)}.", remedy))
+        found.append(
+            Finding(
+                True,
+                f"The frames form {len(roots)} separate trees, with the roots {', '.join(roots)}.",
+                remedy,
+            )
+        )
     return found + _time_findings(traffic)
 
 
 def _transforms_are_published(graph: Graph) -> bool:
-    return any(end.kind == "publisher" and end.topic in ("/tf", "/tf_static") for end in graph.endpoints())
+    return any(
+        end.kind == "publisher" and end.topic in ("/tf", "/tf_static") for end in graph.endpoints()
+    )
 
 
 def _time_findings(traffic: TfTraffic) -> list[Finding]:
     found = []
-    on_wall_time = {child for child, stamp in traffic.newest_ns.items() if stamp >= _WALL_TIME_FROM_NS}
+    on_wall_time = {
+        child for child, stamp in traffic.newest_ns.items() if stamp >= _WALL_TIME_FROM_NS
+    }
     on_simulated_time = traffic.newest_ns.keys() - on_wall_time
     if on_wall_time and on_simulated_time:
         text = f"Wall time and simulated time are mixed: {min(on_wall_time)} and {min(on_simulated_time)}."
@@ -204,7 +295,13 @@ def _time_findings(traffic: TfTraffic) -> list[Finding]:
         behind = traffic.ended_ns - traffic.newest_ns[child]
         if behind > _STALE_NS:
             text = f"The newest transform of '{child}' is {behind / 1e9:.1f} s old."
-            found.append(Finding(False, text, "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."))
+            found.append(
+                Finding(
+                    False,
+                    text,
+                    "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them).",
+                )
+            )
     return found + _jump_findings(traffic)
 
 
@@ -216,5 +313,11 @@ def _jump_findings(traffic: TfTraffic) -> list[Finding]:
         found.append(Finding(True, text, remedy))
     for child, leap_m in sorted(traffic.leaps_m.items()):
         text = f"The frame '{child}' leaps by up to {leap_m:.1f} m from one transform to the next."
-        found.append(Finding(False, text, "Either it was set to another place, or two sources disagree about where it is."))
+        found.append(
+            Finding(
+                False,
+                text,
+                "Either it was set to another place, or two sources disagree about where it is.",
+            )
+        )
     return found

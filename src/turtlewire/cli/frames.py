@@ -24,7 +24,8 @@ __all__ = ["Picture", "forget_former_time", "show_frames", "take_picture"]
 
 #: Stamps below are of a simulation, and no system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
-#: A link is stale when its newest sample is older than this [s], and than so many periods of its rate.
+#: A link is stale when its newest sample is older than this [s], and than so many periods of its
+#: rate.
 _STALE_S = 1.0
 _STALE_PERIODS = 3.0
 _RED, _BLUE, _PLAIN = "\033[31m", "\033[34m", "\033[0m"
@@ -60,7 +61,8 @@ class Picture(NamedTuple):
     """A buffer at one moment.
 
     Attributes:
-        now_ns: What ages are counted to: system time, or the newest stamp of all when stamps are of a simulation.
+        now_ns: What ages are counted to: system time, or the newest stamp of all when stamps are of
+            a simulation.
         rows: All frames, each below its parent.
         loops: Frames that are their own ancestors, from child to parent.
     """
@@ -96,7 +98,10 @@ class Picture(NamedTuple):
             line = f"{name:{width}}{_figures(row)}".rstrip()[:columns]
             colour = _RED if row.stale else _BLUE if row.static else ""
             lines.append(f"{colour}{line}{_PLAIN}" if coloured and colour else line)
-        return lines + [("Loop: " + " -> ".join(map(_printable, (*loop, loop[0]))))[:columns] for loop in self.loops]
+        return lines + [
+            ("Loop: " + " -> ".join(map(_printable, (*loop, loop[0]))))[:columns]
+            for loop in self.loops
+        ]
 
 
 def _printable(name: str) -> str:
@@ -118,7 +123,9 @@ def take_picture(buffer: Buffer, wall_ns: int) -> Picture:
     links = {link.child_frame: link for link in inspection.links(buffer) if link.samples}
     newest_ns = max((link.newest_ns for link in links.values() if not link.static), default=wall_ns)
     now_ns = wall_ns if newest_ns >= _WALL_TIME_FROM_NS else newest_ns
-    return Picture(now_ns, [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree)], tree.loops)
+    return Picture(
+        now_ns, [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree)], tree.loops
+    )
 
 
 def _walk(tree: FrameTree) -> Iterator[tuple[str, str]]:
@@ -130,7 +137,9 @@ def _walk(tree: FrameTree) -> Iterator[tuple[str, str]]:
         children = tree.children[frame]
         for child in reversed(children):
             last = child == children[-1]
-            waiting.append((child, below + ("└─ " if last else "├─ "), below + ("   " if last else "│  ")))
+            waiting.append(
+                (child, below + ("└─ " if last else "├─ "), below + ("   " if last else "│  "))
+            )
 
 
 def _row(frame: str, branch: str, links: dict[str, inspection.LinkInfo], now_ns: int) -> Row:
@@ -168,7 +177,9 @@ def show_frames(*, once: bool, as_json: bool, period_s: float) -> int:
                 return 0 if picture.rows else 1
 
 
-def forget_former_time(buffer: Buffer, before: dict[str, tuple[int, int]]) -> dict[str, tuple[int, int]]:
+def forget_former_time(
+    buffer: Buffer, before: dict[str, tuple[int, int]]
+) -> dict[str, tuple[int, int]]:
     """Clear the buffer when a link brings nothing but what is too old for it, as after a simulation or a bag began anew.
 
     Args:
@@ -179,9 +190,14 @@ def forget_former_time(buffer: Buffer, before: dict[str, tuple[int, int]]) -> di
         For each link, how many samples were too old for it, and its newest stamp.
     """
     newest = {link.child_frame: link.newest_ns for link in inspection.links(buffer)}
-    refused = {frame: each.counts.get("old_data", 0) for frame, each in inspection.refusals(buffer).items()}
+    refused = {
+        frame: each.counts.get("old_data", 0) for frame, each in inspection.refusals(buffer).items()
+    }
     now = {frame: (refused.get(frame, 0), stamp) for frame, stamp in newest.items()}
-    if any(now[frame][0] > before[frame][0] and now[frame][1] == before[frame][1] for frame in now.keys() & before.keys()):
+    if any(
+        now[frame][0] > before[frame][0] and now[frame][1] == before[frame][1]
+        for frame in now.keys() & before.keys()
+    ):
         buffer.clear()
     return now
 

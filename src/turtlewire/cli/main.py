@@ -17,8 +17,8 @@ def main(argv: list[str] | None = None) -> int:
         argv: The words after ``turtlewire``; None takes those of this process.
 
     Returns:
-        The exit status: of ``doctor``, 1 when it found a problem; of ``frames``, 1 when there were none to print once, and 2 when the
-        network cannot be joined; 130 after Ctrl-C.
+        The exit status: of ``doctor``, 1 when it found a problem; of ``frames``, 1 when there were
+        none to print once, and 2 when the network cannot be joined; 130 after Ctrl-C.
     """
     args = _parser().parse_args(sys.argv[1:] if argv is None else argv)
     try:
@@ -31,14 +31,34 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="turtlewire", description="Transforms on the wire of ROS 2, without ROS.")
+    parser = argparse.ArgumentParser(
+        prog="turtlewire", description="Transforms on the wire of ROS 2, without ROS."
+    )
     commands = parser.add_subparsers(dest="command", required=True)
-    doctor = commands.add_parser("doctor", help="Look for what is wrong with the setup and with the TF traffic")
-    doctor.add_argument("--listen", type=float, default=2.0, metavar="S", help="Listen to the transforms for S seconds")
-    frames = commands.add_parser("frames", help="Show the tree of frames: age, rate and publisher of each")
+    doctor = commands.add_parser(
+        "doctor", help="Look for what is wrong with the setup and with the TF traffic"
+    )
+    doctor.add_argument(
+        "--listen",
+        type=float,
+        default=2.0,
+        metavar="S",
+        help="Listen to the transforms for S seconds",
+    )
+    frames = commands.add_parser(
+        "frames", help="Show the tree of frames: age, rate and publisher of each"
+    )
     frames.add_argument("--once", action="store_true", help="Print it once, after the first period")
-    frames.add_argument("--json", action="store_true", help="Each tree as a JSON object in one line")
-    frames.add_argument("--period", type=_seconds, default=1.0, metavar="S", help="Time between two trees (default: %(default)s)")
+    frames.add_argument(
+        "--json", action="store_true", help="Each tree as a JSON object in one line"
+    )
+    frames.add_argument(
+        "--period",
+        type=_seconds,
+        default=1.0,
+        metavar="S",
+        help="Time between two trees (default: %(default)s)",
+    )
     return parser
 
 

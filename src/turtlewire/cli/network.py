@@ -28,7 +28,10 @@ def udp_ports() -> set[int]:
             text = Path(table).read_text(encoding="ascii")
         except OSError:
             continue
-        ports |= {int(port, 16) for port in re.findall(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", text, re.MULTILINE)}
+        ports |= {
+            int(port, 16)
+            for port in re.findall(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", text, re.MULTILINE)
+        }
     return ports
 
 
@@ -44,10 +47,15 @@ def domains_of(ports: Iterable[int]) -> set[int]:
 
 def multicast_works(limit_s: float = 1.0) -> bool:
     """Whether a datagram to the group of DDS comes back to a socket of this host."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
+    ):
         try:
             receiver.bind(("", 0))
-            receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(_GROUP) + bytes(4))
+            receiver.setsockopt(
+                socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(_GROUP) + bytes(4)
+            )
             receiver.settimeout(limit_s)
             sender.sendto(b"turtlewire doctor", (_GROUP, receiver.getsockname()[1]))
             return receiver.recv(64) == b"turtlewire doctor"

@@ -30,7 +30,8 @@ class TfTraffic:
         parents: Frame to its parents.
         publishers: Frame to the gids of its publishers.
         newest_ns: Frame of /tf to its newest stamp.
-        back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter do not count.
+        back_ns: Frame to the largest step back of its stamps; steps of less than a clock's jitter
+            do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
         ended_ns: When the listening ended, system time.
     """
@@ -53,7 +54,9 @@ class TfTraffic:
             if not static:
                 stamp = transform.header.stamp.sec * 1_000_000_000 + transform.header.stamp.nanosec
                 self.newest_ns[child] = max(stamp, self.newest_ns.get(child, 0))
-                self._note_step(child, transform.header.frame_id, stamp, transform.transform.translation)
+                self._note_step(
+                    child, transform.header.frame_id, stamp, transform.transform.translation
+                )
 
     def _note_step(self, child: str, parent: str, stamp: int, place: Any) -> None:
         last_parent, last_stamp, last = self._last.get(child, (parent, stamp, place))
@@ -61,7 +64,9 @@ class TfTraffic:
         if last_stamp - stamp > _JITTER_NS:
             self.back_ns[child] = max(last_stamp - stamp, self.back_ns.get(child, 0))
         leap = math.dist((place.x, place.y, place.z), (last.x, last.y, last.z))
-        if parent == last_parent and leap > max(_LEAP_M, _FASTEST_M_S * abs(stamp - last_stamp) / 1e9):
+        if parent == last_parent and leap > max(
+            _LEAP_M, _FASTEST_M_S * abs(stamp - last_stamp) / 1e9
+        ):
             self.leaps_m[child] = max(leap, self.leaps_m.get(child, 0.0))
 
 
@@ -70,7 +75,10 @@ def listen_to_transforms(context: Context, seconds: float) -> TfTraffic:
     heard: list[tuple[bytes, bytes, bool]] = []
     node = context.create_node("_turtlewire_doctor_listener")
     kind = TypeId(_TYPE, msg.type_hash(_TYPE))
-    for topic, durability in (("/tf", Durability.VOLATILE), ("/tf_static", Durability.TRANSIENT_LOCAL)):
+    for topic, durability in (
+        ("/tf", Durability.VOLATILE),
+        ("/tf_static", Durability.TRANSIENT_LOCAL),
+    ):
 
         def keep(cdr: bytes, info: MessageInfo, static: bool = topic == "/tf_static") -> None:
             heard.append((cdr, info.publisher_gid, static))

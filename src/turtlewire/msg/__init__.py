@@ -14,7 +14,16 @@ Classes are made when they are asked for first, codecs when they are used first.
 from __future__ import annotations
 
 from turtlewire.msg.cdr import deserialize, serialize
-from turtlewire.msg.classes import Action, Message, Service, get_action, get_interface_class, get_message, get_service, type_name
+from turtlewire.msg.classes import (
+    Action,
+    Message,
+    Service,
+    get_action,
+    get_interface_class,
+    get_message,
+    get_service,
+    type_name,
+)
 from turtlewire.msg.registry import interface_names, interface_path, register_package
 from turtlewire.msg.shell import lazy_classes
 from turtlewire.msg.type_hash import type_hash

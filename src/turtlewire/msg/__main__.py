@@ -16,9 +16,20 @@ def main(argv: list[str] | None = None) -> int:
         prog="python -m turtlewire.msg",
         description="Turn the msg, srv and action folders of an interface package into a Python package: no compiler needed.",
     )
-    parser.add_argument("directory", type=Path, help="the interface package, with msg, srv or action folders in it")
-    parser.add_argument("--output", type=Path, default=Path(), help="where to put the Python package (default: the current folder)")
-    parser.add_argument("--package", default="", help="name of the package (default: as in package.xml, else the name of the folder)")
+    parser.add_argument(
+        "directory", type=Path, help="the interface package, with msg, srv or action folders in it"
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=Path(),
+        help="where to put the Python package (default: the current folder)",
+    )
+    parser.add_argument(
+        "--package",
+        default="",
+        help="name of the package (default: as in package.xml, else the name of the folder)",
+    )
     options = parser.parse_args(argv)
     try:
         folder = generate_package(options.directory, options.output, options.package)
@@ -28,7 +39,9 @@ def main(argv: list[str] | None = None) -> int:
     except OSError as error:
         print(error, file=sys.stderr)  # noqa: T201 - as above
         return 1
-    print(f"{folder} is ready: put {folder.parent.resolve()} on PYTHONPATH, then `from {folder.name}.msg import ...`")  # noqa: T201
+    print(  # noqa: T201
+        f"{folder} is ready: put {folder.parent.resolve()} on PYTHONPATH, then `from {folder.name}.msg import ...`"
+    )
     return 0
 
 

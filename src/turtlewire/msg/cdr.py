@@ -25,7 +25,8 @@ def serialize(message: Message) -> bytes:
         The header (``00 01 00 00``, little endian) and the content, not padded at the end.
 
     Raises:
-        CdrError: A value does not fit its field; the text names the field, what was expected and what was found.
+        CdrError: A value does not fit its field; the text names the field, what was expected and
+            what was found.
     """
     try:
         return message._to_cdr()
@@ -49,7 +50,8 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
         A new message that shares no memory with ``data``.
 
     Raises:
-        CdrError: The bytes are malformed; the text names the field and the offset. Never reads beyond ``data``.
+        CdrError: The bytes are malformed; the text names the field and the offset. Never reads
+            beyond ``data``.
         InterfaceError: ``cls`` is not a message class.
     """
     if type(data) is not bytes:
@@ -66,6 +68,6 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
         name = type_name(cls)
         check_bytes(cls._DEFINITION, data, "<" if encapsulation == _LITTLE_ENDIAN else ">")
         raise CdrError(f"{name}: {fault}") from fault
-    raise CdrError(f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0").with_hint(
-        "Plain CDR is read: 00 01 (little endian) and 00 00 (big endian)."
-    )
+    raise CdrError(
+        f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0"
+    ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")

@@ -1,7 +1,8 @@
 """The checks at every assignment that ROS 2 offers: ``check_fields=True``, or ``ROS_PYTHON_CHECK_FIELDS=1`` for all messages.
 
-Without them a wrong value shows when the message is encoded, and fields are plain slots. A message with checks has a class of its own,
-derived from the plain one, whose fields are properties. The texts are ROS 2's.
+Without them a wrong value shows when the message is encoded, and fields are plain slots. A message
+with checks has a class of its own, derived from the plain one, whose fields are properties. The
+texts are ROS 2's.
 """
 
 from __future__ import annotations
@@ -49,7 +50,11 @@ def turn_on_checks(message: Message) -> None:
 
 
 def _make_checked(plain: type[Message]) -> type[Message]:
-    namespace: dict[str, Any] = {"__slots__": (), "__module__": plain.__module__, "__doc__": plain.__doc__}
+    namespace: dict[str, Any] = {
+        "__slots__": (),
+        "__module__": plain.__module__,
+        "__doc__": plain.__doc__,
+    }
     for field in plain._DEFINITION.fields:
         namespace[field.name] = _checking_property(field, getattr(plain, field.name))
     return type(plain.__name__, (plain,), namespace)
@@ -70,9 +75,17 @@ def _check(name: str, type_: AbstractType, value: Any) -> None:
         _demand(_fits(type_, value), name, f"a sub message of type '{type_.name}'")
     elif isinstance(type_, AbstractGenericString) and type_.has_maximum_size():
         limit: int = type_.maximum_size  # type: ignore[attr-defined]
-        _demand(isinstance(value, str) and len(value) <= limit, name, f"string value not longer than {limit}")
+        _demand(
+            isinstance(value, str) and len(value) <= limit,
+            name,
+            f"string value not longer than {limit}",
+        )
     elif type_ == BasicType("octet"):
-        _demand(_fits(type_, value) and len(value) == 1, name, "of type 'bytes' or 'ByteString' with length 1")
+        _demand(
+            _fits(type_, value) and len(value) == 1,
+            name,
+            "of type 'bytes' or 'ByteString' with length 1",
+        )
     else:
         _demand(_fits(type_, value), name, f"of type '{_python_name(type_)}'")
         _demand(_in_range(type_, value), name, _range_text(type_))
@@ -84,7 +97,9 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
     limit: int | None = getattr(type_, "maximum_size", getattr(type_, "size", None))
     wanted = "a set or sequence"
     if limit is not None:
-        wanted += f" with length {limit}" if isinstance(type_, Array) else f" with length <= {limit}"
+        wanted += (
+            f" with length {limit}" if isinstance(type_, Array) else f" with length <= {limit}"
+        )
     element = type_.value_type
     longest: int | None = getattr(element, "maximum_size", None)
     if longest is not None:
@@ -94,7 +109,10 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
     items: list[Any] = list(value) if is_sequence else []
     good = (
         is_sequence
-        and (limit is None or (len(items) == limit if isinstance(type_, Array) else len(items) <= limit))
+        and (
+            limit is None
+            or (len(items) == limit if isinstance(type_, Array) else len(items) <= limit)
+        )
         and all(_fits(element, item) and _in_range(element, item) for item in items)
         and (longest is None or all(len(item) <= longest for item in items))
     )
@@ -114,7 +132,9 @@ def _is_native_storage(name: str, type_: AbstractNestedType, value: Any) -> bool
     if isinstance(type_, Array) and type(value).__module__ == "numpy" and hasattr(value, "dtype"):
         dtype = numpy_name(str(type_.value_type))
         if value.dtype.name != dtype:
-            raise AssertionError(f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{dtype}'")
+            raise AssertionError(
+                f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{dtype}'"
+            )
         if value.size != type_.size:
             raise AssertionError(f"The '{name}' numpy.ndarray() must have a size of {type_.size}")
         return True

@@ -1,7 +1,8 @@
 """Makes the Python classes of messages, services and actions.
 
-A message class has plain slots named as its fields, a keyword constructor and the methods of `Message`. Only fields that hold numbers in
-bulk are properties over their slot, because assigning a list to them converts it.
+A message class has plain slots named as its fields, a keyword constructor and the methods of
+`Message`. Only fields that hold numbers in bulk are properties over their slot, because assigning a
+list to them converts it.
 """
 
 from __future__ import annotations
@@ -51,7 +52,10 @@ class Message:
 
     def __repr__(self) -> str:
         package, kind, name = split_name(self._TYPE_NAME)
-        arguments = ", ".join(f"{field.name}={_repr_value(field.type, getattr(self, field.name))}" for field in self._DEFINITION.fields)
+        arguments = ", ".join(
+            f"{field.name}={_repr_value(field.type, getattr(self, field.name))}"
+            for field in self._DEFINITION.fields
+        )
         return f"{package}.{kind}.{name}({arguments})"
 
     def __eq__(self, other: object) -> bool:
@@ -66,7 +70,10 @@ class Message:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (self._TYPE_NAME, {field.name: getattr(self, field.name) for field in self._DEFINITION.fields})
+        return _restore, (
+            self._TYPE_NAME,
+            {field.name: getattr(self, field.name) for field in self._DEFINITION.fields},
+        )
 
     def _to_cdr(self) -> bytes:
         """Encode; the first call of a class generates the code and puts it in the place of this method."""
@@ -131,7 +138,8 @@ def get_message(name: str) -> type[Message]:
     """Class of a message.
 
     Args:
-        name: ``"geometry_msgs/msg/Twist"`` or ``"geometry_msgs/Twist"``; parts of services and actions by their full name.
+        name: ``"geometry_msgs/msg/Twist"`` or ``"geometry_msgs/Twist"``; parts of services and
+            actions by their full name.
 
     Returns:
         The class, the same one at every call.
@@ -197,7 +205,11 @@ def module_name(full_name: str) -> str:
     name = name.partition("_")[0]
     snake = ""
     for index, letter in enumerate(name):
-        if index and letter.isupper() and (name[index + 1 : index + 2].islower() or not name[index - 1].isupper()):
+        if (
+            index
+            and letter.isupper()
+            and (name[index + 1 : index + 2].islower() or not name[index - 1].isupper())
+        ):
             snake += "_"
         snake += letter.lower()
     return f"{package}.{kind}._{snake}"
@@ -215,7 +227,11 @@ def _make_message(definition: MessageDefinition) -> type[Message]:
         "__init__": _make_constructor(definition),
     }
     namespace.update((constant.name, constant.value) for constant in definition.constants)
-    namespace.update((f"{field.name.upper()}__DEFAULT", field.default) for field in definition.fields if field.default is not None)
+    namespace.update(
+        (f"{field.name.upper()}__DEFAULT", field.default)
+        for field in definition.fields
+        if field.default is not None
+    )
     cls = type(name, (Message,), namespace)
     for field in definition.fields:
         convert = converter(field.type)
@@ -246,12 +262,17 @@ def _make_constructor(definition: MessageDefinition) -> Any:
             parameters.append(f"{field.name}=None")
             body.append(f" _self.{field.name} = {fresh} if {field.name} is None else {field.name}")
         else:
-            environment[f"_default{index}"] = scalar_default(field.type) if field.default is None else field.default
+            environment[f"_default{index}"] = (
+                scalar_default(field.type) if field.default is None else field.default
+            )
             parameters.append(f"{field.name}=_default{index}")
             body.append(f" _self.{field.name} = {field.name}")
     condition = "" if checks_are_on() else "if _unknown: "
-    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join([*body, f" {condition}_finish(_self, _unknown)"])
-    # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program caught.
+    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join(
+        [*body, f" {condition}_finish(_self, _unknown)"]
+    )
+    # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program
+    # caught.
     exec(compile(source, f"<constructor of {definition.full_name}>", "exec"), environment)  # noqa: S102 - our own source, checked names
     return environment["__init__"]
 
@@ -267,7 +288,9 @@ def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str
     return _fresh_values(field.default, type_, index, environment)
 
 
-def _fresh_values(default: Any, type_: AbstractNestedType, index: int, environment: dict[str, Any]) -> str:
+def _fresh_values(
+    default: Any, type_: AbstractNestedType, index: int, environment: dict[str, Any]
+) -> str:
     if element_code(type_):
         environment[f"_default{index}"] = default or (0,) * getattr(type_, "size", 0)
         # The assignment makes the array.array or NumPy array of it.
@@ -287,7 +310,9 @@ def _finish(message: Message, unknown: dict[str, Any]) -> None:
     """Look at what the constructor's keywords did not cover: ``check_fields``, and mistakes."""
     check = unknown.pop("check_fields", checks_are_on())
     if unknown:
-        raise AssertionError(f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}")
+        raise AssertionError(
+            f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        )
     if check:
         from turtlewire.msg.checks import turn_on_checks
 
@@ -305,7 +330,9 @@ def _make_service(full_name: str) -> type[Service]:
         "_TYPE_NAME": full_name,
         "_PARTS": {part: f"{full_name}_{part}" for part in ("Request", "Response", "Event")},
     }
-    return cast("type[Service]", _PartsOnDemand(full_name.rpartition("/")[2], (Service,), namespace))
+    return cast(
+        "type[Service]", _PartsOnDemand(full_name.rpartition("/")[2], (Service,), namespace)
+    )
 
 
 def _make_action(full_name: str) -> type[Action]:
@@ -322,7 +349,11 @@ def _make_action(full_name: str) -> type[Action]:
         "__module__": module,
         "_TYPE_NAME": full_name,
         "_PARTS": {part: f"{full_name}_{part}" for part in ("Goal", "Result", "Feedback")},
-        "Impl": _PartsOnDemand("Impl", (), {"__module__": module, "__qualname__": f"{name}.Impl", "_PARTS": implementation}),
+        "Impl": _PartsOnDemand(
+            "Impl",
+            (),
+            {"__module__": module, "__qualname__": f"{name}.Impl", "_PARTS": implementation},
+        ),
     }
     return cast("type[Action]", _PartsOnDemand(name, (Action,), namespace))
 

@@ -1,8 +1,9 @@
 """Generates the function that decodes one message type from CDR, little or big endian.
 
-The generated code reads numbers that follow one another with one ``struct.unpack_from``. It notices every malformed input, by an exception
-of the operation that hits it; ``turtlewire.msg.diagnosis`` then finds out which field it was. As in the encoder, ``modulus`` and
-``remainder`` say what is known about the position, counted from the end of the four header bytes.
+The generated code reads numbers that follow one another with one ``struct.unpack_from``. It notices
+every malformed input, by an exception of the operation that hits it; ``turtlewire.msg.diagnosis``
+then finds out which field it was. As in the encoder, ``modulus`` and ``remainder`` say what is
+known about the position, counted from the end of the four header bytes.
 """
 
 from __future__ import annotations
@@ -112,7 +113,8 @@ class _Decoder:
     def text(self, type_: AbstractString, target: str) -> None:
         size = self.length(type_, extra=1)
         self.line(f"end = {self.position()} + {size}")
-        # The terminator: IndexError beyond the data. A size of 0 (some writers' empty string) meets a zero byte of the size itself.
+        # The terminator: IndexError beyond the data. A size of 0 (some writers' empty string) meets
+        # a zero byte of the size itself.
         self.line("if data[end - 1]: raise ValueError")
         self.line(f"{target} = data[{self.position()}:end - 1].decode()")
         self.jump("end", 1)
@@ -173,8 +175,16 @@ class _Decoder:
 
         dtype = np.dtype(numpy_name(str(type_.value_type)))
         wire, native = self.name(), self.name()
-        self.environment.update({"frombuffer": np.frombuffer, wire: np.dtype(f"{self.order}{dtype.str[1:]}"), native: dtype})
-        self.line(f"{target} = frombuffer(data, {wire}, {type_.size}, {self.position()}).astype({native})")
+        self.environment.update(
+            {
+                "frombuffer": np.frombuffer,
+                wire: np.dtype(f"{self.order}{dtype.str[1:]}"),
+                native: dtype,
+            }
+        )
+        self.line(
+            f"{target} = frombuffer(data, {wire}, {type_.size}, {self.position()}).astype({native})"
+        )
         size = SIZES[code] * type_.size
         self.offset += size
         self.remainder = (self.remainder + size) % self.modulus
@@ -237,7 +247,11 @@ class _Decoder:
             return
         self.flush()
         # Aligned from the end of the header: for 8 the positions in `data` are 4 modulo 8.
-        aligned = f"{self.position()} + 3 & -8 | 4" if size == 8 else f"{self.position()} + {size - 1} & {-size}"
+        aligned = (
+            f"{self.position()} + 3 & -8 | 4"
+            if size == 8
+            else f"{self.position()} + {size - 1} & {-size}"
+        )
         self.line(f"p = {aligned}")
         self.base, self.offset, self.modulus, self.remainder = "p", 0, size, 0
 

@@ -9,7 +9,14 @@ from turtlewire.msg.types import BasicType, BoundedSequence, NamespacedType
 if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["ActionDefinition", "Constant", "Field", "MessageDefinition", "ServiceDefinition", "split_name"]
+__all__ = [
+    "ActionDefinition",
+    "Constant",
+    "Field",
+    "MessageDefinition",
+    "ServiceDefinition",
+    "split_name",
+]
 
 
 def split_name(full_name: str) -> tuple[str, str, str]:
@@ -24,7 +31,8 @@ class Field:
     Attributes:
         name: The field's name.
         type: Its type.
-        default: The default value of the definition as a Python value, or None where the definition gives none.
+        default: The default value of the definition as a Python value, or None where the definition
+            gives none.
     """
 
     __slots__ = ("default", "name", "type")
@@ -63,7 +71,9 @@ class MessageDefinition:
 
     __slots__ = ("constants", "fields", "full_name")
 
-    def __init__(self, full_name: str, fields: tuple[Field, ...], constants: tuple[Constant, ...] = ()) -> None:
+    def __init__(
+        self, full_name: str, fields: tuple[Field, ...], constants: tuple[Constant, ...] = ()
+    ) -> None:
         self.full_name = full_name
         self.fields = fields
         self.constants = constants
@@ -81,7 +91,9 @@ class ServiceDefinition:
 
     __slots__ = ("event", "full_name", "request", "response")
 
-    def __init__(self, full_name: str, request: MessageDefinition, response: MessageDefinition) -> None:
+    def __init__(
+        self, full_name: str, request: MessageDefinition, response: MessageDefinition
+    ) -> None:
         self.full_name = full_name
         self.request = request
         self.response = response
@@ -112,9 +124,23 @@ class ActionDefinition:
         feedback_message: The feedback with the id of its goal.
     """
 
-    __slots__ = ("feedback", "feedback_message", "full_name", "get_result", "goal", "result", "send_goal")
+    __slots__ = (
+        "feedback",
+        "feedback_message",
+        "full_name",
+        "get_result",
+        "goal",
+        "result",
+        "send_goal",
+    )
 
-    def __init__(self, full_name: str, goal: MessageDefinition, result: MessageDefinition, feedback: MessageDefinition) -> None:
+    def __init__(
+        self,
+        full_name: str,
+        goal: MessageDefinition,
+        result: MessageDefinition,
+        feedback: MessageDefinition,
+    ) -> None:
         self.full_name = full_name
         self.goal = goal
         self.result = result
@@ -123,19 +149,28 @@ class ActionDefinition:
         stamp = Field("stamp", NamespacedType.parse("builtin_interfaces/msg/Time"))
         self.send_goal = ServiceDefinition(
             f"{full_name}_SendGoal",
-            MessageDefinition(f"{full_name}_SendGoal_Request", (goal_id, Field("goal", NamespacedType.parse(goal.full_name)))),
-            MessageDefinition(f"{full_name}_SendGoal_Response", (Field("accepted", BasicType("boolean")), stamp)),
+            MessageDefinition(
+                f"{full_name}_SendGoal_Request",
+                (goal_id, Field("goal", NamespacedType.parse(goal.full_name))),
+            ),
+            MessageDefinition(
+                f"{full_name}_SendGoal_Response", (Field("accepted", BasicType("boolean")), stamp)
+            ),
         )
         self.get_result = ServiceDefinition(
             f"{full_name}_GetResult",
             MessageDefinition(f"{full_name}_GetResult_Request", (goal_id,)),
             MessageDefinition(
                 f"{full_name}_GetResult_Response",
-                (Field("status", BasicType("int8")), Field("result", NamespacedType.parse(result.full_name))),
+                (
+                    Field("status", BasicType("int8")),
+                    Field("result", NamespacedType.parse(result.full_name)),
+                ),
             ),
         )
         self.feedback_message = MessageDefinition(
-            f"{full_name}_FeedbackMessage", (goal_id, Field("feedback", NamespacedType.parse(feedback.full_name)))
+            f"{full_name}_FeedbackMessage",
+            (goal_id, Field("feedback", NamespacedType.parse(feedback.full_name))),
         )
 
     def messages(self) -> tuple[MessageDefinition, ...]:

@@ -1,6 +1,7 @@
 """Says what is wrong with bytes that did not decode, or with a message that did not encode.
 
-The generated codecs only notice that something is wrong. The readers here walk the definition field by field, slowly, until they meet it.
+The generated codecs only notice that something is wrong. The readers here walk the definition field
+by field, slowly, until they meet it.
 """
 
 from __future__ import annotations
@@ -42,7 +43,8 @@ def check_message(definition: MessageDefinition, message: Any) -> None:
     """Walk through a message's values.
 
     Raises:
-        CdrError: A value does not fit its field; names type, field, what was expected and what was found.
+        CdrError: A value does not fit its field; names type, field, what was expected and what was
+            found.
     """
     _ValueWalk(definition.full_name).message(definition, message, "")
 
@@ -96,19 +98,29 @@ class _ByteWalk:
         try:
             content.decode("utf-8" if narrow else f"utf-32-{'le' if self.order == '<' else 'be'}")
         except UnicodeDecodeError as fault:
-            raise self.fault(path, start, f"a string that is not valid {'UTF-8' if narrow else 'UTF-32'} ({fault.reason})") from None
+            raise self.fault(
+                path,
+                start,
+                f"a string that is not valid {'UTF-8' if narrow else 'UTF-32'} ({fault.reason})",
+            ) from None
 
     def length(self, type_: AbstractType, path: str, extra: int = 0) -> int:
         (length,) = Struct(f"{self.order}I").unpack(self.take(4, 4, path))
         limit = getattr(type_, "maximum_size", None)
         if limit is not None and length > limit + extra:
-            raise self.fault(path, self.offset - 4, f"a length of {length - extra}, but {type_} holds at most {limit}")
+            raise self.fault(
+                path,
+                self.offset - 4,
+                f"a length of {length - extra}, but {type_} holds at most {limit}",
+            )
         return int(length)
 
     def take(self, size: int, alignment: int, path: str) -> bytes:
         start = self.offset + (4 - self.offset) % alignment
         if start + size > len(self.data):
-            raise self.fault(path, start, f"needs {size} bytes, but the data ends after {len(self.data)}")
+            raise self.fault(
+                path, start, f"needs {size} bytes, but the data ends after {len(self.data)}"
+            )
         self.offset = start + size
         return self.data[start : self.offset]
 
@@ -144,7 +156,9 @@ class _ValueWalk:
             self.values(type_, value, path)
 
     def basic(self, type_: BasicType, value: Any, path: str) -> None:
-        expected = {"boolean": "bool", "octet": "bytes of length 1"}.get(type_.typename, type_.typename)
+        expected = {"boolean": "bool", "octet": "bytes of length 1"}.get(
+            type_.typename, type_.typename
+        )
         if type_.typename in INTEGER_RANGES:
             low, high = INTEGER_RANGES[type_.typename]
             expected = f"an integer from {low} to {high}"
@@ -168,7 +182,9 @@ class _ValueWalk:
             raise self.fault(path, "str that can be encoded (no lone surrogates)", value) from None
         limit = getattr(type_, "maximum_size", None)
         if limit is not None and size > limit:
-            raise self.fault(path, f"at most {limit} {'bytes of UTF-8' if narrow else 'characters'}", value)
+            raise self.fault(
+                path, f"at most {limit} {'bytes of UTF-8' if narrow else 'characters'}", value
+            )
 
     def values(self, type_: AbstractNestedType, value: Any, path: str) -> None:
         try:
@@ -177,10 +193,14 @@ class _ValueWalk:
         except TypeError:
             raise self.fault(path, f"a sequence ({type_})", value) from None
         if isinstance(type_, Array) and len(items) != type_.size:
-            raise CdrError(f"{self.full_name}: field '{path}': expected {type_.size} values, got {len(items)}")
+            raise CdrError(
+                f"{self.full_name}: field '{path}': expected {type_.size} values, got {len(items)}"
+            )
         limit = getattr(type_, "maximum_size", count)
         if count > limit:
-            raise CdrError(f"{self.full_name}: field '{path}': expected at most {limit} values, got {count}")
+            raise CdrError(
+                f"{self.full_name}: field '{path}': expected at most {limit} values, got {count}"
+            )
         if type_.value_type == BasicType("octet") and isinstance(value, (bytes, bytearray)):
             return
         for index, item in enumerate(items):
@@ -190,4 +210,6 @@ class _ValueWalk:
         shown = repr(value)
         shown = shown if len(shown) <= 80 else f"{shown[:77]}..."
         where = f"field '{path}'" if path else "the message"
-        return CdrError(f"{self.full_name}: {where}: expected {expected}, got {type(value).__name__} ({shown})")
+        return CdrError(
+            f"{self.full_name}: {where}: expected {expected}, got {type(value).__name__} ({shown})"
+        )

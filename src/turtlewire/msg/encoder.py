@@ -1,9 +1,10 @@
 """Generates the function that encodes one message type as little endian CDR (XCDR1, as every ROS 2 middleware writes it).
 
-Numbers that follow one another become one ``struct.pack``; nested messages are written inline, repeated ones in a loop. While the code is
-generated, `_Encoder` knows what is known about the position: it is ``remainder`` modulo ``modulus`` (1, 2, 4 or 8), counted from the
-end of the four header bytes. Where that decides the padding, the padding is part of the format; elsewhere a table lookup on the length
-so far gives it.
+Numbers that follow one another become one ``struct.pack``; nested messages are written inline,
+repeated ones in a loop. While the code is generated, `_Encoder` knows what is known about the
+position: it is ``remainder`` modulo ``modulus`` (1, 2, 4 or 8), counted from the end of the four
+header bytes. Where that decides the padding, the padding is part of the format; elsewhere a table
+lookup on the length so far gives it.
 """
 
 from __future__ import annotations
@@ -43,10 +44,24 @@ HEADER = b"\x00\x01\x00\x00"
 CODES = {**TYPE_CODES, "boolean": "?", "octet": "c"}
 """The ``struct`` letter of every basic type."""
 
-SIZES = {"?": 1, "c": 1, "b": 1, "B": 1, "h": 2, "H": 2, "i": 4, "I": 4, "f": 4, "q": 8, "Q": 8, "d": 8}
+SIZES = {
+    "?": 1,
+    "c": 1,
+    "b": 1,
+    "B": 1,
+    "h": 2,
+    "H": 2,
+    "i": 4,
+    "I": 4,
+    "f": 4,
+    "q": 8,
+    "Q": 8,
+    "d": 8,
+}
 """Size, and alignment, of every basic type by its letter."""
 
-# Padding before an element of alignment 2, 4, 8 by len(out) & (alignment - 1); the four header bytes count in len(out) but not in CDR.
+# Padding before an element of alignment 2, 4, 8 by len(out) & (alignment - 1); the four header
+# bytes count in len(out) but not in CDR.
 _PADS = {n: tuple(bytes((4 - length) % n) for length in range(n)) for n in (2, 4, 8)}
 # The same with the terminator of a string in front.
 _NUL_PADS = {n: tuple(bytes(1 + (3 - length) % n) for length in range(n)) for n in (2, 4, 8)}
@@ -138,7 +153,11 @@ class _Encoder:
         else:
             self.flush()
             self.finish_string()
-            self.line("return b''.join((*done, out)) if done else bytes(out)" if self.has_numbers else "return bytes(out)")
+            self.line(
+                "return b''.join((*done, out)) if done else bytes(out)"
+                if self.has_numbers
+                else "return bytes(out)"
+            )
         source = "def encode(m):\n" + "\n".join(self.lines)
         exec(compile(source, f"<encoder of {definition.full_name}>", "exec"), self.environment)  # noqa: S102 - our own source
         encode: Callable[[Any], bytes] = self.environment["encode"]
@@ -176,7 +195,8 @@ class _Encoder:
         wide = isinstance(type_, AbstractWString)
         text = self.local(f"{value}.encode('utf-32-le')" if wide else f"{value}.encode()")
         if type_.has_maximum_size():
-            self.line(f"if len({text}) > {type_.maximum_size * (4 if wide else 1)}: raise ValueError")  # type: ignore[union-attr]
+            limit = type_.maximum_size * (4 if wide else 1)  # type: ignore[union-attr]
+            self.line(f"if len({text}) > {limit}: raise ValueError")
         self.number("I", f"len({text}) // 4" if wide else f"len({text}) + 1")
         self.flush()
         self.append(text)
@@ -208,7 +228,9 @@ class _Encoder:
             self.line(f"if {values}: {self.padding(8)}")
         content = values if sys.byteorder == "little" or size == 1 else f"swapped({values})"
         self.line(f"if len({values}) <= {LARGE}: out += {content}")
-        self.line(f"else: done += (out, {content}); shift += len(out) + len({values}) * {size}; out = bytearray()")
+        self.line(
+            f"else: done += (out, {content}); shift += len(out) + len({values}) * {size}; out = bytearray()"
+        )
         self.forget_down_to(min(size, 4))
 
     def bytes(self, values: str) -> None:
@@ -230,7 +252,11 @@ class _Encoder:
         values = self.local(value)
         self.line(f"if len({values}) != {type_.size}: raise ValueError")
         if type_.value_type in (BasicType("octet"), BasicType("boolean")):
-            content = f"byte_string({values})" if type_.value_type == BasicType("octet") else f"bytes([as_bool(v) for v in {values}])"
+            content = (
+                f"byte_string({values})"
+                if type_.value_type == BasicType("octet")
+                else f"bytes([as_bool(v) for v in {values}])"
+            )
             self.align(1)
             self.flush()
             self.append(content)

@@ -1,7 +1,7 @@
 """Turns a folder of interface definitions into a Python package: real modules with type stubs, no compiler, no import hook.
 
-The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``, their stubs, and a copy of the
-definitions, which the classes are made of at first access.
+The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``,
+their stubs, and a copy of the definitions, which the classes are made of at first access.
 """
 
 from __future__ import annotations
@@ -45,22 +45,29 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
     """Generate the Python package of a folder of interfaces.
 
     Args:
-        source: The folder of an interface package, with ``msg``, ``srv`` or ``action`` folders in it.
+        source: The folder of an interface package, with ``msg``, ``srv`` or ``action`` folders in
+            it.
         output: The folder to put the package into, one that is on ``sys.path`` later.
-        package: Name of the package; empty to take it from ``package.xml``, or else from the folder.
+        package: Name of the package; empty to take it from ``package.xml``, or else from the
+            folder.
 
     Returns:
         The folder of the generated package.
 
     Raises:
-        InterfaceError: A definition is wrong, or there is none; or the package would be the folder of the interfaces itself.
+        InterfaceError: A definition is wrong, or there is none; or the package would be the folder
+            of the interfaces itself.
     """
     package = package or package_name(source)
     if not any(interfaces_in(str(source)).values()):
-        raise InterfaceError(f"no .msg, .srv or .action files in {source}").with_hint("They belong into its msg, srv and action folders.")
+        raise InterfaceError(f"no .msg, .srv or .action files in {source}").with_hint(
+            "They belong into its msg, srv and action folders."
+        )
     folder = output / package
     if folder.resolve() == source.resolve():
-        raise InterfaceError(f"{folder} holds the interfaces themselves").with_hint("Name another folder: --output generated")
+        raise InterfaceError(f"{folder} holds the interfaces themselves").with_hint(
+            "Name another folder: --output generated"
+        )
     register_package(package, str(source))
     write_modules(package, source, folder)
     (folder / "__init__.py").write_text(_PACKAGE.format(package=package), encoding="utf-8")
@@ -80,7 +87,9 @@ def write_modules(package: str, source: Path, folder: Path) -> None:
         module = folder / kind
         module.mkdir(parents=True, exist_ok=True)
         listed = "".join(f'    "{name}",\n' for name in names)
-        (module / "__init__.py").write_text(_MODULE.format(package=package, kind=kind, names=listed), encoding="utf-8")
+        (module / "__init__.py").write_text(
+            _MODULE.format(package=package, kind=kind, names=listed), encoding="utf-8"
+        )
         (module / "__init__.pyi").write_text(module_stub(package, kind, names), encoding="utf-8")
 
 

@@ -1,7 +1,7 @@
 """Reads the text of .msg, .srv and .action files.
 
-The grammar is ROS 2's: ``TYPE NAME [DEFAULT]`` is a field, ``TYPE NAME=VALUE`` a constant, ``---`` separates the parts of services and
-actions, ``#`` starts a comment (not within quotes).
+The grammar is ROS 2's: ``TYPE NAME [DEFAULT]`` is a field, ``TYPE NAME=VALUE`` a constant, ``---``
+separates the parts of services and actions, ``#`` starts a comment (not within quotes).
 """
 
 from __future__ import annotations
@@ -10,7 +10,14 @@ from keyword import iskeyword
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.definition import ActionDefinition, Constant, Field, MessageDefinition, ServiceDefinition, split_name
+from turtlewire.msg.definition import (
+    ActionDefinition,
+    Constant,
+    Field,
+    MessageDefinition,
+    ServiceDefinition,
+    split_name,
+)
 from turtlewire.msg.types import (
     INTEGER_RANGES,
     AbstractNestedType,
@@ -73,15 +80,23 @@ def parse_message(full_name: str, text: str) -> MessageDefinition:
             try:
                 _parse_statement(package, statement, fields, constants)
             except ValueError as error:
-                raise InterfaceError(f"{full_name}, line {number}: {error} in '{statement}'") from None
-    _refuse_duplicates(full_name, [*(field.name for field in fields), *(constant.name for constant in constants)])
+                raise InterfaceError(
+                    f"{full_name}, line {number}: {error} in '{statement}'"
+                ) from None
+    _refuse_duplicates(
+        full_name, [*(field.name for field in fields), *(constant.name for constant in constants)]
+    )
     return MessageDefinition(full_name, tuple(fields), tuple(constants))
 
 
 def parse_service(full_name: str, text: str) -> ServiceDefinition:
     """Parse one service; see `parse_message`."""
     request, response = _parts(full_name, text, 2)
-    return ServiceDefinition(full_name, parse_message(f"{full_name}_Request", request), parse_message(f"{full_name}_Response", response))
+    return ServiceDefinition(
+        full_name,
+        parse_message(f"{full_name}_Request", request),
+        parse_message(f"{full_name}_Response", response),
+    )
 
 
 def parse_action(full_name: str, text: str) -> ActionDefinition:
@@ -104,7 +119,9 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
         else:
             parts[-1].append(line)
     if len(parts) != count:
-        raise InterfaceError(f"{full_name}: found {len(parts) - 1} lines with '---', expected {count - 1}")
+        raise InterfaceError(
+            f"{full_name}: found {len(parts) - 1} lines with '---', expected {count - 1}"
+        )
     return ["\n".join(part) for part in parts]
 
 
@@ -124,19 +141,29 @@ def _without_comment(line: str) -> str:
     return line
 
 
-def _parse_statement(package: str, statement: str, fields: list[Field], constants: list[Constant]) -> None:
-    type_text, _, rest = statement.partition(" ") if "\t" not in statement else statement.replace("\t", " ", 1).partition(" ")
+def _parse_statement(
+    package: str, statement: str, fields: list[Field], constants: list[Constant]
+) -> None:
+    type_text, _, rest = (
+        statement.partition(" ")
+        if "\t" not in statement
+        else statement.replace("\t", " ", 1).partition(" ")
+    )
     rest = rest.strip()
     type_ = _parse_type(package, type_text)
     name = _leading_identifier(rest)
     value_text = rest[len(name) :].strip()
     if value_text.startswith("="):
         if not name.isupper() or not _is_identifier(name.lower()):
-            raise ValueError(f"'{name}' is not a valid constant name (capital letters, digits, single underscores)")
+            raise ValueError(
+                f"'{name}' is not a valid constant name (capital letters, digits, single underscores)"
+            )
         constants.append(Constant(name, type_, _parse_value(type_, value_text[1:].strip())))
         return
     if not _is_identifier(name):
-        raise ValueError(f"'{name}' is not a valid field name (lower case, digits, single underscores, a letter first)")
+        raise ValueError(
+            f"'{name}' is not a valid field name (lower case, digits, single underscores, a letter first)"
+        )
     if iskeyword(name):
         raise ValueError(f"'{name}' is a keyword of Python, and so cannot be a field name")
     fields.append(Field(name, type_, _parse_value(type_, value_text) if value_text else None))
@@ -150,7 +177,14 @@ def _leading_identifier(text: str) -> str:
 
 
 def _is_identifier(name: str) -> bool:
-    return name.isascii() and name.isidentifier() and name == name.lower() and name[0] != "_" and name[-1] != "_" and "__" not in name
+    return (
+        name.isascii()
+        and name.isidentifier()
+        and name == name.lower()
+        and name[0] != "_"
+        and name[-1] != "_"
+        and "__" not in name
+    )
 
 
 def _is_type_name(name: str) -> bool:
@@ -201,12 +235,15 @@ def _parse_value(type_: AbstractType, text: str) -> Any:
             raise ValueError(f"'{text}' is not a list of values ([a, b])")
         values = [_parse_value(type_.value_type, item) for item in _split_list(text[1:-1])]
         limit = getattr(type_, "maximum_size", getattr(type_, "size", None))
-        if limit is not None and (len(values) > limit or (isinstance(type_, Array) and len(values) != limit)):
+        if limit is not None and (
+            len(values) > limit or (isinstance(type_, Array) and len(values) != limit)
+        ):
             raise ValueError(f"{len(values)} values do not fit {type_}")
         return values
     if isinstance(type_, (AbstractString, AbstractWString)):
         value = _unquote(text)
-        if type_.has_maximum_size() and len(value.encode() if isinstance(type_, AbstractString) else value) > type_.maximum_size:  # type: ignore[union-attr]
+        size = len(value.encode() if isinstance(type_, AbstractString) else value)
+        if type_.has_maximum_size() and size > type_.maximum_size:  # type: ignore[union-attr]
             raise ValueError(f"'{value}' is longer than {type_}")
         return value
     if not isinstance(type_, BasicType):

@@ -1,7 +1,8 @@
 """Finds interface definitions by name and keeps the parsed ones.
 
-A definition is looked for in the packages registered by generated modules, in the definitions that come with turtlewire, below
-``share/<package>`` of every prefix in ``AMENT_PREFIX_PATH``, and last by importing the package, which lets a generated one register itself.
+A definition is looked for in the packages registered by generated modules, in the definitions that
+come with turtlewire, below ``share/<package>`` of every prefix in ``AMENT_PREFIX_PATH``, and last
+by importing the package, which lets a generated one register itself.
 """
 
 from __future__ import annotations
@@ -84,7 +85,11 @@ def interface_path(full_name: str) -> str:
         InterfaceError: There is no such interface.
     """
     parts = full_name.split("/")
-    if len(parts) != 3 or parts[1] not in KINDS or not all(part.isascii() and part.isidentifier() for part in parts):
+    if (
+        len(parts) != 3
+        or parts[1] not in KINDS
+        or not all(part.isascii() and part.isidentifier() for part in parts)
+    ):
         raise InterfaceError(f"'{full_name}' is not the name of an interface").with_hint(
             "Names look like geometry_msgs/msg/Twist, turtlesim/srv/Spawn or turtlesim/action/RotateAbsolute."
         )
@@ -101,7 +106,9 @@ def interface_names() -> dict[str, dict[str, list[str]]]:
     directories: dict[str, str] = {}
     for parent in reversed(_parents()):
         if os.path.isdir(parent):
-            directories.update((entry.name, entry.path) for entry in os.scandir(parent) if entry.is_dir())
+            directories.update(
+                (entry.name, entry.path) for entry in os.scandir(parent) if entry.is_dir()
+            )
     directories.update(_registered)
     packages = {package: interfaces_in(directories[package]) for package in sorted(directories)}
     return {package: kinds for package, kinds in packages.items() if any(kinds.values())}
@@ -177,6 +184,15 @@ def interfaces_in(directory: str) -> dict[str, list[str]]:
 def _nearest(full_name: str) -> str:
     import difflib
 
-    known = [f"{package}/{kind}/{name}" for package, kinds in interface_names().items() for kind, names in kinds.items() for name in names]
+    known = [
+        f"{package}/{kind}/{name}"
+        for package, kinds in interface_names().items()
+        for kind, names in kinds.items()
+        for name in names
+    ]
     near = difflib.get_close_matches(full_name, known, n=3)
-    return f"Did you mean {' or '.join(near)}?" if near else "`ros2 interface list` shows what there is."
+    return (
+        f"Did you mean {' or '.join(near)}?"
+        if near
+        else "`ros2 interface list` shows what there is."
+    )

@@ -17,10 +17,12 @@ def lazy_classes(module_name: str) -> Callable[[str], type]:
     """The ``__getattr__`` of a module of interfaces.
 
     Args:
-        module_name: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the interfaces.
+        module_name: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the
+            interfaces.
 
     Returns:
-        A function that makes a class, and puts it into the module, so that it is called once for each.
+        A function that makes a class, and puts it into the module, so that it is called once for
+        each.
     """
     module = sys.modules[module_name]
 

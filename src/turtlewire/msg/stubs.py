@@ -58,16 +58,25 @@ class _StubWriter:
         return (
             f'"""Types of {self.home}; generated."""\n\n{modules}'
             "from collections.abc import Iterable\nfrom typing import Any, ClassVar, TypeAlias\n\n"
-            f"from turtlewire.msg import Action, Message, Service\n\n__all__ = [\n{exported}]\n" + "\n".join(self.lines) + "\n"
+            f"from turtlewire.msg import Action, Message, Service\n\n__all__ = [\n{exported}]\n"
+            + "\n".join(self.lines)
+            + "\n"
         )
 
     def message(self, definition: MessageDefinition) -> None:
         self.lines += ["", f"class {definition.full_name.rpartition('/')[2]}(Message):"]
-        self.lines += [f"    {constant.name}: ClassVar[{self.held(constant.type)}]" for constant in definition.constants]
+        self.lines += [
+            f"    {constant.name}: ClassVar[{self.held(constant.type)}]"
+            for constant in definition.constants
+        ]
         for field in definition.fields:
             self.field(field)
-        parameters = [f"{field.name}: {self.accepted(field.type)} = ..." for field in definition.fields]
-        self.lines.append(f"    def __init__(self, *, {', '.join([*parameters, 'check_fields: bool = ...'])}) -> None: ...")
+        parameters = [
+            f"{field.name}: {self.accepted(field.type)} = ..." for field in definition.fields
+        ]
+        self.lines.append(
+            f"    def __init__(self, *, {', '.join([*parameters, 'check_fields: bool = ...'])}) -> None: ..."
+        )
 
     def field(self, field: Field) -> None:
         if element_code(field.type):
@@ -89,7 +98,12 @@ class _StubWriter:
     def action(self, full_name: str) -> None:
         definition = load_action(full_name)
         name = full_name.rpartition("/")[2]
-        for message in (definition.goal, definition.result, definition.feedback, definition.feedback_message):
+        for message in (
+            definition.goal,
+            definition.result,
+            definition.feedback,
+            definition.feedback_message,
+        ):
             self.message(message)
         self.service(definition.send_goal)
         self.service(definition.get_result)
@@ -105,7 +119,11 @@ class _StubWriter:
         ]
 
     def parts(self, name: str, base: str, *parts: str) -> None:
-        self.lines += ["", f"class {name}({base}):", *(f"    {part}: TypeAlias = {name}_{part}" for part in parts)]
+        self.lines += [
+            "",
+            f"class {name}({base}):",
+            *(f"    {part}: TypeAlias = {name}_{part}" for part in parts),
+        ]
 
     def held(self, type_: AbstractType) -> str:
         """Annotation of what a field gives back."""
@@ -121,7 +139,9 @@ class _StubWriter:
             return "str"
         assert isinstance(type_, BasicType)
         special = {"boolean": "bool", "octet": "bytes"}
-        return special.get(type_.typename, "float" if type_.typename in FLOATING_POINT_TYPES else "int")
+        return special.get(
+            type_.typename, "float" if type_.typename in FLOATING_POINT_TYPES else "int"
+        )
 
     def held_values(self, type_: AbstractNestedType) -> str:
         if not element_code(type_):

@@ -47,7 +47,8 @@ def type_hash(full_name: str) -> str:
     """Hash of an interface.
 
     Args:
-        full_name: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X"`` and so on.
+        full_name: ``"pkg/msg/X"``, ``"pkg/srv/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X"`` and
+            so on.
 
     Returns:
         ``"RIHS01_"`` and 64 hexadecimal digits.
@@ -81,7 +82,11 @@ def referenced_types(full_name: str) -> list[str]:
 def members(definition: Definition) -> list[tuple[str, AbstractType]]:
     """Names and types of what an interface consists of; for services and actions, the messages and services they imply."""
     if isinstance(definition, ServiceDefinition):
-        parts = {"request_message": definition.request, "response_message": definition.response, "event_message": definition.event}
+        parts = {
+            "request_message": definition.request,
+            "response_message": definition.response,
+            "event_message": definition.event,
+        }
         return [(name, NamespacedType.parse(part.full_name)) for name, part in parts.items()]
     if isinstance(definition, ActionDefinition):
         return [
@@ -122,7 +127,9 @@ def field_type_parts(type_: AbstractType) -> tuple[int, int, int, str]:
 def _description(full_name: str) -> str:
     found = _descriptions.get(full_name)
     if found is None:
-        fields = ", ".join(_field_text(name, type_) for name, type_ in members(load_interface(full_name)))
+        fields = ", ".join(
+            _field_text(name, type_) for name, type_ in members(load_interface(full_name))
+        )
         found = _descriptions[full_name] = f'{{"type_name": "{full_name}", "fields": [{fields}]}}'
     return found
 

@@ -1,7 +1,7 @@
 """The types a field of an interface can have, named as in ROS 2's ``rosidl_parser.definition``.
 
-Every type answers ``str(type)`` with ROS 2's spelling (``sequence<double, 3>``, ``geometry_msgs/Vector3[2]``), compares by value and is
-hashable.
+Every type answers ``str(type)`` with ROS 2's spelling (``sequence<double, 3>``,
+``geometry_msgs/Vector3[2]``), compares by value and is hashable.
 """
 
 from __future__ import annotations
@@ -61,7 +61,11 @@ class AbstractType:
     __slots__ = ()
 
     def _parts(self) -> tuple[object, ...]:
-        return tuple(getattr(self, slot) for cls in type(self).__mro__ for slot in getattr(cls, "__slots__", ()))
+        return tuple(
+            getattr(self, slot)
+            for cls in type(self).__mro__
+            for slot in getattr(cls, "__slots__", ())
+        )
 
     def __eq__(self, other: object) -> bool:
         return type(other) is type(self) and self._parts() == other._parts()

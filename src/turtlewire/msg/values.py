@@ -1,7 +1,8 @@
 """How a field holds its value in Python: defaults, conversion at assignment, and the letter or dtype of its storage.
 
-As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers are NumPy arrays, everything else repeated is a list.
-NumPy is imported when the first message with a fixed array of numbers is made, not before.
+As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers are NumPy arrays,
+everything else repeated is a list. NumPy is imported when the first message with a fixed array of
+numbers is made, not before.
 """
 
 from __future__ import annotations
@@ -26,7 +27,12 @@ if TYPE_CHECKING:
 
 __all__ = ["converter", "element_code", "scalar_default", "to_array", "to_numpy"]
 
-_LETTERS = ("bhilq", "BHILQ", "f", "d")  # NumPy's 64-bit integers have the letters l and L where array.array has q and Q
+_LETTERS = (
+    "bhilq",
+    "BHILQ",
+    "f",
+    "d",
+)  # NumPy's 64-bit integers have the letters l and L where array.array has q and Q
 _NUMPY_NAMES = {"float": "float32", "double": "float64"}
 
 

@@ -24,7 +24,9 @@ class HasPose(Protocol):
         ...
 
 
-def pose_array(transform: HasPose, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+def pose_array(
+    transform: HasPose, dtype: DTypeLike | None = None, copy: bool | None = None
+) -> NDArray[Any]:
     """The seven numbers ``x, y, z, qx, qy, qz, qw`` of a transform, shape ``(7,)``."""
     if copy is False:
         raise ValueError("a Transform has no array to share; its array is always a copy")

@@ -2,9 +2,9 @@
 
 The environment decides when this module is first imported:
 
-- ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled core;
-- without it the compiled core is taken if it is there; if not, one line on stderr says how to get it;
-- ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
+- ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
+core; - without it the compiled core is taken if it is there; if not, one line on stderr says how to
+get it; - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ def _choose() -> str:
         if error.name != "turtlewire._native":
             raise
         if wanted == "native" or os.environ.get("TURTLEWIRE_REQUIRE_NATIVE", "0") not in {"", "0"}:
-            raise ImportError("the compiled core of turtlewire is required here, but it is not built") from error
+            raise ImportError(
+                "the compiled core of turtlewire is required here, but it is not built"
+            ) from error
         print(_ADVICE, file=sys.stderr)  # noqa: T201
         return "python"
     return "native"

@@ -1,12 +1,14 @@
 """Quaternions, Euler angles, matrices and poses as NumPy arrays: one, or any number at once.
 
-Every function takes arrays with leading axes of any shape and returns new ones of double precision. Quaternions are ``x, y, z, w``; they
-are normalised first, and those that come out have ``w >= 0``. Matrices act on column vectors from the left. A pose is
-``x, y, z, qx, qy, qz, qw``, as batches of lookups return it.
+Every function takes arrays with leading axes of any shape and returns new ones of double precision.
+Quaternions are ``x, y, z, w``; they are normalised first, and those that come out have ``w >= 0``.
+Matrices act on column vectors from the left. A pose is ``x, y, z, qx, qy, qz, qw``, as batches of
+lookups return it.
 
-Euler angles name their axes by four letters: ``s`` for static axes or ``r`` for axes that turn along, then the axes in the order in which
-the angles are applied. ``"sxyz"`` is roll, pitch, yaw; ``"rzyx"`` is the same rotation with the angles in the order yaw, pitch, roll. There
-are 24 such conventions.
+Euler angles name their axes by four letters: ``s`` for static axes or ``r`` for axes that turn
+along, then the axes in the order in which the angles are applied. ``"sxyz"`` is roll, pitch, yaw;
+``"rzyx"`` is the same rotation with the angles in the order yaw, pitch, roll. There are 24 such
+conventions.
 """
 
 from __future__ import annotations
@@ -30,7 +32,15 @@ __all__ = [
     "quaternion_from_matrix",
 ]
 
-AXES = tuple(frame + i + j + k for frame in "sr" for i in "xyz" for j in "xyz" if j != i for k in "xyz" if k != j)
+AXES = tuple(
+    frame + i + j + k
+    for frame in "sr"
+    for i in "xyz"
+    for j in "xyz"
+    if j != i
+    for k in "xyz"
+    if k != j
+)
 """The names of the 24 conventions of Euler angles."""
 
 #: Nearer to the poles than this, only the sum or the difference of the outer two angles is known.
@@ -67,7 +77,8 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Array:
     m = _shaped(matrix, (3, 3), "rotation matrices")
     diagonal = np.diagonal(m, axis1=-2, axis2=-1)
     trace = diagonal.sum(axis=-1)
-    # Four ways to the same quaternion (times four of one component): the largest component makes the one that loses no digits.
+    # Four ways to the same quaternion (times four of one component): the largest component makes
+    # the one that loses no digits.
     ways = np.empty((*m.shape[:-2], 4, 4))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         ways[..., i, i] = 1 + 2 * diagonal[..., i] - trace
@@ -115,7 +126,11 @@ def quaternion_from_euler(angles: ArrayLike, axes: str = "sxyz") -> Array:
     half = 0.5 * _shaped(angles, (3,), "Euler angles")
     static, (i, j, k) = _axes(axes)
     first, second, third = (_about(axis, half[..., n]) for n, axis in enumerate((i, j, k)))
-    return _upper(_product(_product(third, second), first) if static else _product(_product(first, second), third))
+    return _upper(
+        _product(_product(third, second), first)
+        if static
+        else _product(_product(first, second), third)
+    )
 
 
 def euler_from_quaternion(quaternion: ArrayLike, axes: str = "sxyz") -> Array:
@@ -126,12 +141,14 @@ def euler_from_quaternion(quaternion: ArrayLike, axes: str = "sxyz") -> Array:
         axes: One of the 24 conventions.
 
     Returns:
-        Angles in radians, in the order in which ``axes`` names them. The first and third are in (-pi, pi]; the second is in [-pi/2, pi/2]
-        where the three axes differ, and in [0, pi] where the first and third are the same. In gimbal lock one angle is free: it is 0, the
-        third one of static and the first one of turning axes.
+        Angles in radians, in the order in which ``axes`` names them. The first and third are in
+        (-pi, pi]; the second is in [-pi/2, pi/2] where the three axes differ, and in [0, pi] where
+        the first and third are the same. In gimbal lock one angle is free: it is 0, the third one
+        of static and the first one of turning axes.
 
     Raises:
-        ValueError: The last axis is not 4 long, a quaternion has no length, or there is no such convention.
+        ValueError: The last axis is not 4 long, a quaternion has no length, or there is no such
+            convention.
     """
     q = _unit(quaternion)
     static, (i, j, k) = _axes(axes)
@@ -166,7 +183,9 @@ def _axes(axes: str) -> tuple[bool, tuple[int, int, int]]:
 def _shaped(values: ArrayLike, shape: tuple[int, ...], what: str) -> Array:
     array = np.asarray(values, dtype=np.float64)
     if array.shape[-len(shape) :] != shape:
-        raise ValueError(f"{what} have the shape (..., {', '.join(map(str, shape))}), got {array.shape}")
+        raise ValueError(
+            f"{what} have the shape (..., {', '.join(map(str, shape))}), got {array.shape}"
+        )
     return array
 
 
@@ -194,7 +213,12 @@ def _product(p: Array, q: Array) -> Array:
     x, y, z, w = np.moveaxis(p, -1, 0)
     i, j, k, r = np.moveaxis(q, -1, 0)
     return np.stack(
-        (w * i + x * r + y * k - z * j, w * j - x * k + y * r + z * i, w * k + x * j - y * i + z * r, w * r - x * i - y * j - z * k),
+        (
+            w * i + x * r + y * k - z * j,
+            w * j - x * k + y * r + z * i,
+            w * k + x * j - y * i + z * r,
+            w * r - x * i - y * j - z * k,
+        ),
         axis=-1,
     )
 

@@ -64,7 +64,9 @@ class Drawing(NamedTuple):
 
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
     """How wide a line of text is; at most a little less than it is in any sans-serif font."""
-    thousandths = sum(_WIDTHS[ord(letter) - 32] if " " <= letter <= "~" else _WIDE for letter in text)
+    thousandths = sum(
+        _WIDTHS[ord(letter) - 32] if " " <= letter <= "~" else _WIDE for letter in text
+    )
     return thousandths * size / 1000 * (_BOLD if bold else 1.0)
 
 

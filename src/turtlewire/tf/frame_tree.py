@@ -56,10 +56,14 @@ class FrameTree:
 
     def __init__(self, links: Iterable[Link]) -> None:
         self.links = {link.child: link for link in links}
-        frames = dict.fromkeys(name for link in self.links.values() for name in (link.parent, link.child))
+        frames = dict.fromkeys(
+            name for link in self.links.values() for name in (link.parent, link.child)
+        )
         self.loops = _loops(self.links)
         cut = {loop[0] for loop in self.loops}
-        self.roots = [frame for frame in frames if frame not in self.links] + [loop[0] for loop in self.loops]
+        self.roots = [frame for frame in frames if frame not in self.links] + [
+            loop[0] for loop in self.loops
+        ]
         self.children: dict[str, list[str]] = {frame: [] for frame in frames}
         for link in self.links.values():
             if link.child not in cut:
@@ -76,7 +80,16 @@ def _link(info: inspection.LinkInfo) -> Link:
     rate_hz = info.samples / max(length, _SHORTEST)
     broadcaster = info.senders[-1].name if info.senders else "no recorded authority"
     newest, oldest = info.newest_ns / 1e9, info.oldest_ns / 1e9
-    return Link(info.child_frame, info.parent_frame, broadcaster, info.static, rate_hz, newest, oldest, length)
+    return Link(
+        info.child_frame,
+        info.parent_frame,
+        broadcaster,
+        info.static,
+        rate_hz,
+        newest,
+        oldest,
+        length,
+    )
 
 
 def _loops(links: dict[str, Link]) -> list[list[str]]:

@@ -12,7 +12,19 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["Conflict", "LinkInfo", "Malformed", "Refused", "Sender", "conflicts", "links", "load", "malformed", "refusals", "save"]
+__all__ = [
+    "Conflict",
+    "LinkInfo",
+    "Malformed",
+    "Refused",
+    "Sender",
+    "conflicts",
+    "links",
+    "load",
+    "malformed",
+    "refusals",
+    "save",
+]
 
 _FORMAT = "turtlewire buffer 1"
 
@@ -91,13 +103,18 @@ def _senders(rows: list[tuple[str, str, int, int]]) -> tuple[Sender, ...]:
     merged: dict[tuple[str, str], Sender] = {}
     for name, parent, samples, newest in rows:
         known = merged.pop((name, parent), Sender(name, parent, 0, newest))
-        merged[name, parent] = Sender(name, parent, known.samples + samples, max(known.newest_ns, newest))
+        merged[name, parent] = Sender(
+            name, parent, known.samples + samples, max(known.newest_ns, newest)
+        )
     return tuple(merged.values())
 
 
 def refusals(buffer: Buffer) -> dict[str, Refused]:
     """What was refused, by child frame; beyond 1000 frames, the rest under ``(others)``."""
-    return {child: Refused(counts, last) for child, (counts, last) in buffer._describe_refusals().items()}
+    return {
+        child: Refused(counts, last)
+        for child, (counts, last) in buffer._describe_refusals().items()
+    }
 
 
 def malformed(buffer: Buffer) -> Malformed:
@@ -108,12 +125,15 @@ def malformed(buffer: Buffer) -> Malformed:
 def conflicts(buffer: Buffer) -> list[Conflict]:
     """Frames that more than one sender moves, or that go back and forth between parents.
 
-    A sender counts as long as it has sent something within the history that the buffer keeps of the link. A frame that is handed over once
-    from one parent to another, as when a gripper takes a part, is no conflict.
+    A sender counts as long as it has sent something within the history that the buffer keeps of the
+    link. A frame that is handed over once from one parent to another, as when a gripper takes a
+    part, is no conflict.
     """
     found = []
     for link in links(buffer):
-        active = [sender for sender in link.senders if link.static or sender.newest_ns >= link.oldest_ns]
+        active = [
+            sender for sender in link.senders if link.static or sender.newest_ns >= link.oldest_ns
+        ]
         names = sorted({sender.name for sender in active})
         parents = sorted({sender.parent_frame for sender in active})
         if len(names) > 1:
@@ -165,7 +185,15 @@ def load(path: str | PathLike[str]) -> Buffer:
     try:
         with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
             return _fill(json.loads(bytes(file["header"])), file)
-    except (KeyError, TypeError, ValueError, IndexError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+    except (
+        KeyError,
+        TypeError,
+        ValueError,
+        IndexError,
+        EOFError,
+        zipfile.BadZipFile,
+        zlib.error,
+    ) as error:
         raise ValueError(f"{path} is no saved buffer: {error}") from error
 
 

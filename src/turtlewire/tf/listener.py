@@ -1,8 +1,9 @@
 """Fills buffers from the wire: the bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
 
-No message object is made and no executor takes part, so a lookup may wait for data wherever it is called. All buffers of one context
-that listen to a topic share one subscription, and each keeps its own store. With the compiled core Python is asked only for the
-first message of each publisher, whose name it finds out, and for malformed ones: the others go the short way, through an ``Intake``.
+No message object is made and no executor takes part, so a lookup may wait for data wherever it is
+called. All buffers of one context that listen to a topic share one subscription, and each keeps its
+own store. With the compiled core Python is asked only for the first message of each publisher,
+whose name it finds out, and for malformed ones: the others go the short way, through an ``Intake``.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ if TYPE_CHECKING:
     class Store(Protocol):
         """The part of :class:`turtlewire.Buffer` that a listener feeds."""
 
-        def ingest(self, cdr: bytes, *, static: bool = False, authority: str = "default_authority") -> int:
+        def ingest(
+            self, cdr: bytes, *, static: bool = False, authority: str = "default_authority"
+        ) -> int:
             """Store the transforms of a serialized ``TFMessage``."""
             ...
 
@@ -63,7 +66,8 @@ class _Feed:
     """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name.
 
     Attributes:
-        intake: Does the same without Python, once it knows the publisher's name; None with the plain-Python core.
+        intake: Does the same without Python, once it knows the publisher's name; None with the
+            plain-Python core.
     """
 
     def __init__(self, members: tuple[_Member, ...], topic: str, qos: QoS, *, static: bool) -> None:
@@ -94,7 +98,9 @@ class _Feed:
 
     def _tell_name(self, intake: Intake, gid: bytes) -> None:
         told = None
-        while told != self._publishers[gid]:  # the graph may learn it at this moment, on another thread
+        while (
+            told != self._publishers[gid]
+        ):  # the graph may learn it at this moment, on another thread
             told = self._publishers[gid]
             intake.name(gid, told)
 
@@ -102,7 +108,10 @@ class _Feed:
         try:
             store.ingest(cdr, static=self._static, authority=publisher)
         except CdrError as error:  # the store has counted it
-            warn_once(f"malformed {self._topic}", f"a message on {self._topic} was lost: {error} (publisher: {publisher})")
+            warn_once(
+                f"malformed {self._topic}",
+                f"a message on {self._topic} was lost: {error} (publisher: {publisher})",
+            )
 
     def _rename(self, gid: str, name: str) -> None:
         if self.intake is not None:
@@ -137,7 +146,8 @@ class _Channel:
         """Feed one more buffer from now on."""
         with self._lock:
             members = (*(self._feed.members if self._feed else ()), member)
-            # What publishers keep for late joiners comes once, at the start of a subscription: a newcomer needs a new one.
+            # What publishers keep for late joiners comes once, at the start of a subscription: a
+            # newcomer needs a new one.
             if self._feed is None or self._latched:
                 self._subscribe(members)
             else:
@@ -155,21 +165,26 @@ class _Channel:
                 self._feed.close()
                 self._subscription = self._feed = None
             elif member is former[0]:
-                with suppress(WireError):  # the whole context is closed, and nothing more will come for the others either
+                with suppress(
+                    WireError
+                ):  # the whole context is closed, and nothing more will come for the others either
                     self._subscribe(self._feed.members)
 
     def _subscribe(self, members: tuple[_Member, ...]) -> None:
         """Begin a subscription of the first member's node in place of the former one.
 
-        A former latched one ends first: what it still had on the way is older than what the new one brings again, and must not come
-        after it. Otherwise it ends last, for what came in between would be lost; a transform that comes twice is stored once.
+        A former latched one ends first: what it still had on the way is older than what the new one
+        brings again, and must not come after it. Otherwise it ends last, for what came in between
+        would be lost; a transform that comes twice is stored once.
         """
         former, former_feed = self._subscription, self._feed
         if former is not None and self._latched:
             former.close()
         self._feed = _Feed(members, self._topic, self._qos, static=self._static)
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
-        self._subscription = members[0].node.create_subscription(self._topic, type_id, self._qos, self._feed, self._feed.intake)
+        self._subscription = members[0].node.create_subscription(
+            self._topic, type_id, self._qos, self._feed, self._feed.intake
+        )
         if former is not None and not self._latched:
             former.close()
         if former_feed is not None:
@@ -181,7 +196,9 @@ class _Channels:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._of_context: WeakKeyDictionary[base.Context, dict[tuple[str, QoS, bool], _Channel]] = WeakKeyDictionary()
+        self._of_context: WeakKeyDictionary[base.Context, dict[tuple[str, QoS, bool], _Channel]] = (
+            WeakKeyDictionary()
+        )
 
     def get(self, context: base.Context, topic: str, qos: QoS, *, static: bool) -> _Channel:
         """The channel of a topic, made when it is asked for first."""
@@ -198,15 +215,18 @@ class TransformListener:
 
     Args:
         buffer: What to fill.
-        node: Whose subscription it is in the graph; close the listener before the node. None makes a node of its own.
+        node: Whose subscription it is in the graph; close the listener before the node. None makes
+            a node of its own.
         context: The participant that ``node`` belongs to; None joins the domain of the environment.
-        topic: Fully qualified name of the topic of changing transforms; None listens to static ones only.
+        topic: Fully qualified name of the topic of changing transforms; None listens to static ones
+            only.
         static_topic: Fully qualified name of the topic of static transforms; None leaves them out.
         qos: Of the first subscription.
         static_qos: Of the second one.
 
-    The buffer is told the node that published (``/namespace/name``) as authority, or the publisher's gid in hex while the graph knows none.
-    Messages that are no ``TFMessage`` are counted in the buffer (:func:`turtlewire.tf.inspection.malformed`); the first is warned of.
+    The buffer is told the node that published (``/namespace/name``) as authority, or the
+    publisher's gid in hex while the graph knows none. Messages that are no ``TFMessage`` are
+    counted in the buffer (:func:`turtlewire.tf.inspection.malformed`); the first is warned of.
     """
 
     def __init__(
@@ -234,7 +254,13 @@ class TransformListener:
             self._joined.append(channel)
 
     @staticmethod
-    def _wanted(context: base.Context, topic: str | None, static_topic: str | None, qos: QoS, static_qos: QoS) -> Iterator[_Channel]:
+    def _wanted(
+        context: base.Context,
+        topic: str | None,
+        static_topic: str | None,
+        qos: QoS,
+        static_qos: QoS,
+    ) -> Iterator[_Channel]:
         if topic is not None:
             yield _channels.get(context, topic, qos, static=False)
         if static_topic is not None:
@@ -254,5 +280,10 @@ class TransformListener:
     def __enter__(self) -> TransformListener:  # noqa: PYI034 -- typing.Self comes with Python 3.11
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         self.close()

@@ -56,7 +56,10 @@ def buffer_svg(buffer: Buffer) -> str:
 def transform_html(transform: Stamped) -> str:
     """A transform in numbers, and the axes of its two frames as a picture, if there is room for them on a page."""
     target, source = escape(transform.frame_id), escape(transform.child_frame_id)
-    roll, pitch, yaw = (f"{math.degrees(angle):.2f}" for angle in conversions.euler_from_quaternion(transform.rotation))
+    roll, pitch, yaw = (
+        f"{math.degrees(angle):.2f}"
+        for angle in conversions.euler_from_quaternion(transform.rotation)
+    )
     rows = {
         "x, y, z": ", ".join(f"{value:.4f}" for value in transform.translation) + " m",
         "distance": f"{math.hypot(*transform.translation):.4f} m",
@@ -65,7 +68,11 @@ def transform_html(transform: Stamped) -> str:
         "stamp": f"{transform.stamp_ns} ns" if transform.stamp_ns else "0 (static)",
     }
     cells = "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows.items())
-    picture = svg_from_drawing(_axes_of_both(transform)) if all(map(math.isfinite, transform.translation)) else ""
+    picture = (
+        svg_from_drawing(_axes_of_both(transform))
+        if all(map(math.isfinite, transform.translation))
+        else ""
+    )
     return (
         '<div style="display:flex;align-items:center;gap:1em">'
         f"<table><caption>Where <b>{source}</b> is, seen from <b>{target}</b></caption>{cells}</table>"
@@ -76,7 +83,9 @@ def transform_html(transform: Stamped) -> str:
 def _axes_of_both(transform: Stamped) -> Drawing:
     target_from_source = conversions.matrix_from_pose((*transform.translation, *transform.rotation))
     length = 0.4 * math.hypot(*transform.translation) or 1.0
-    frames = {transform.frame_id: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)}
+    frames = {
+        transform.frame_id: _ends(conversions.matrix_from_pose((0, 0, 0, 0, 0, 0, 1)), length)
+    }
     frames[transform.child_frame_id] = _ends(target_from_source, length)
     points = [point for ends in frames.values() for point in ends]
     left, top = (min(point[i] for point in points) for i in (0, 1))
@@ -86,14 +95,27 @@ def _axes_of_both(transform: Stamped) -> Drawing:
     def on_page(point: tuple[float, float]) -> tuple[float, float]:
         return _MARGIN + scale * (point[0] - left), _MARGIN + scale * (point[1] - top)
 
-    shapes: list[Shape] = [Line(tuple(on_page(ends[0]) for ends in frames.values()), "#888888", dashed=True)]
+    shapes: list[Shape] = [
+        Line(tuple(on_page(ends[0]) for ends in frames.values()), "#888888", dashed=True)
+    ]
     taken = -_SIDE
     for name, (origin, *axes) in frames.items():
         x, y = on_page(origin)
-        shapes += [Line(((x, y), on_page(end)), colour, 2.0) for end, colour in zip(axes, _AXIS_COLOURS, strict=True)]
+        shapes += [
+            Line(((x, y), on_page(end)), colour, 2.0)
+            for end, colour in zip(axes, _AXIS_COLOURS, strict=True)
+        ]
         label = name if len(name) <= 24 else name[:23] + "…"
         baseline = y + 14 if abs(y + 14 - taken) > 10 else taken + 11
-        shapes.append(Text(min(max(2.0, x - text_width(label, 10) / 2), _SIDE - text_width(label, 10)), baseline, label, 10, "#777777"))
+        shapes.append(
+            Text(
+                min(max(2.0, x - text_width(label, 10) / 2), _SIDE - text_width(label, 10)),
+                baseline,
+                label,
+                10,
+                "#777777",
+            )
+        )
         taken = baseline
     return Drawing(_SIDE, _SIDE, tuple(shapes))
 

@@ -22,7 +22,8 @@ class PublisherNames(dict[bytes, str]):
 
     Args:
         graph: Where nodes and publishers are found.
-        on_name: Called with the hex text and the name when the graph has learnt whose publisher it is, on the graph's thread.
+        on_name: Called with the hex text and the name when the graph has learnt whose publisher it
+            is, on the graph's thread.
     """
 
     def __init__(self, graph: Graph, on_name: Callable[[str, str], None]) -> None:

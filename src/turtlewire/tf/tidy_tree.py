@@ -11,7 +11,10 @@ __all__ = ["tidy_positions"]
 
 
 def tidy_positions(
-    roots: Sequence[str], children: Mapping[str, Sequence[str]], sizes: Mapping[str, float], gap: float
+    roots: Sequence[str],
+    children: Mapping[str, Sequence[str]],
+    sizes: Mapping[str, float],
+    gap: float,
 ) -> dict[str, tuple[float, int]]:
     """Positions of all nodes of a forest.
 
@@ -25,14 +28,21 @@ def tidy_positions(
         For each node the middle of it across, from 0 on, and its row, the roots' being 0.
     """
     order = _parents_first(roots, children)
-    outlines: dict[str, list[tuple[float, float]]] = {}  # of each subtree: the edges of each row, seen from its top node
+    outlines: dict[
+        str, list[tuple[float, float]]
+    ] = {}  # of each subtree: the edges of each row, seen from its top node
     shifts = dict.fromkeys(roots, 0.0)  # of each node from its parent
     for node in reversed(order):
         outline, places = _side_by_side([outlines.pop(child) for child in children[node]], gap)
         middle = (places[0] + places[-1]) / 2 if places else 0.0
-        shifts.update((child, place - middle) for child, place in zip(children[node], places, strict=True))
+        shifts.update(
+            (child, place - middle) for child, place in zip(children[node], places, strict=True)
+        )
         half = sizes[node] / 2
-        outlines[node] = [(-half, half), *((left - middle, right - middle) for left, right in outline)]
+        outlines[node] = [
+            (-half, half),
+            *((left - middle, right - middle) for left, right in outline),
+        ]
     outline, places = _side_by_side([outlines[root] for root in roots], gap)
     left_edge = min((left for left, _ in outline), default=0.0)
     positions = {root: (place - left_edge, 0) for root, place in zip(roots, places, strict=True)}
@@ -50,12 +60,17 @@ def _parents_first(roots: Sequence[str], children: Mapping[str, Sequence[str]]) 
     return order
 
 
-def _side_by_side(outlines: list[list[tuple[float, float]]], gap: float) -> tuple[list[tuple[float, float]], list[float]]:
+def _side_by_side(
+    outlines: list[list[tuple[float, float]]], gap: float
+) -> tuple[list[tuple[float, float]], list[float]]:
     """One outline around all, and where the top node of each stands in it."""
     merged: list[tuple[float, float]] = []
     places: list[float] = []
     for outline in outlines:
-        place = max((right + gap - left for (_, right), (left, _) in zip(merged, outline, strict=False)), default=0.0)
+        place = max(
+            (right + gap - left for (_, right), (left, _) in zip(merged, outline, strict=False)),
+            default=0.0,
+        )
         places.append(place)
         for row, (left, right) in enumerate(outline):
             if row < len(merged):

@@ -33,22 +33,42 @@ def draw_tree(tree: FrameTree, title: Sequence[str] = ()) -> Drawing:
     """
     cards = {frame: _Card(tree, frame) for frame in tree.children}
     heading, top = _heading(title if cards else (*title, "No tf data received"))
-    width = max((_MARGIN * 2 + text_width(line.text, line.size, bold=True) for line in heading), default=0.0)
-    across = tidy_positions(tree.roots, tree.children, {frame: card.width for frame, card in cards.items()}, _GAP)
-    right_edge = max((place + cards[frame].width / 2 for frame, (place, _) in across.items()), default=0.0)
+    width = max(
+        (_MARGIN * 2 + text_width(line.text, line.size, bold=True) for line in heading), default=0.0
+    )
+    across = tidy_positions(
+        tree.roots, tree.children, {frame: card.width for frame, card in cards.items()}, _GAP
+    )
+    right_edge = max(
+        (place + cards[frame].width / 2 for frame, (place, _) in across.items()), default=0.0
+    )
     sideways = right_edge > _WIDEST
     if sideways:
-        across = tidy_positions(tree.roots, tree.children, {frame: card.height for frame, card in cards.items()}, _GAP)
+        across = tidy_positions(
+            tree.roots, tree.children, {frame: card.height for frame, card in cards.items()}, _GAP
+        )
     rows = _rows(cards, across, sideways=sideways)
     for frame, (place, row) in across.items():
         card = cards[frame]
-        card.x, card.y = (rows[row], place - card.height / 2) if sideways else (place - card.width / 2, rows[row])
+        card.x, card.y = (
+            (rows[row], place - card.height / 2)
+            if sideways
+            else (place - card.width / 2, rows[row])
+        )
         card.x, card.y = card.x + _MARGIN, card.y + top
-    lines = [_line(cards[parent], cards[child], sideways=sideways) for parent in tree.children for child in tree.children[parent]]
+    lines = [
+        _line(cards[parent], cards[child], sideways=sideways)
+        for parent in tree.children
+        for child in tree.children[parent]
+    ]
     lines += [_loop_line(cards[tree.links[loop[0]].parent], cards[loop[0]]) for loop in tree.loops]
     width = max([width, *(card.x + card.width + _MARGIN for card in cards.values())])
     height = max([top, *(card.y + card.height + _MARGIN for card in cards.values())])
-    return Drawing(width, height, (*heading, *lines, *(shape for card in cards.values() for shape in card.shapes())))
+    return Drawing(
+        width,
+        height,
+        (*heading, *lines, *(shape for card in cards.values() for shape in card.shapes())),
+    )
 
 
 class _Card:
@@ -61,7 +81,10 @@ class _Card:
         if any(frame == loop[0] for loop in tree.loops):
             assert link is not None
             self.notes.append(f"In a loop: its parent is {link.parent}")
-        widths = [text_width(self.name, _NAME_SIZE, bold=True), *(text_width(note, _NOTE_SIZE) for note in self.notes)]
+        widths = [
+            text_width(self.name, _NAME_SIZE, bold=True),
+            *(text_width(note, _NOTE_SIZE) for note in self.notes),
+        ]
         self.width = max(widths) + 2 * _PADDING
         self.height = _NAME_SIZE + _LINE * len(self.notes) + 2 * _PADDING
         self.x = self.y = 0.0
@@ -69,7 +92,13 @@ class _Card:
     def shapes(self) -> list[Shape]:
         baseline = self.y + _PADDING + _NAME_SIZE - 2
         notes = [
-            Text(self.x + _PADDING, baseline + _LINE * line, note, _NOTE_SIZE, _RED if note.startswith("In a loop") else _GREY)
+            Text(
+                self.x + _PADDING,
+                baseline + _LINE * line,
+                note,
+                _NOTE_SIZE,
+                _RED if note.startswith("In a loop") else _GREY,
+            )
             for line, note in enumerate(self.notes, 1)
         ]
         name = Text(self.x + _PADDING, baseline, self.name, _NAME_SIZE, _INK, bold=True)
@@ -90,11 +119,16 @@ def _notes(link: Link) -> list[str]:
 
 
 def _heading(title: Sequence[str]) -> tuple[list[Text], float]:
-    lines = [Text(_MARGIN, _MARGIN + _NAME_SIZE + 15 * line, text, _NAME_SIZE, _GREY, bold=line == 0) for line, text in enumerate(title)]
+    lines = [
+        Text(_MARGIN, _MARGIN + _NAME_SIZE + 15 * line, text, _NAME_SIZE, _GREY, bold=line == 0)
+        for line, text in enumerate(title)
+    ]
     return lines, _MARGIN + 15 * len(lines) + (_NAME_SIZE if lines else 0.0)
 
 
-def _rows(cards: dict[str, _Card], across: dict[str, tuple[float, int]], *, sideways: bool) -> list[float]:
+def _rows(
+    cards: dict[str, _Card], across: dict[str, tuple[float, int]], *, sideways: bool
+) -> list[float]:
     """Where each row begins: after the largest card of the row before."""
     largest: dict[int, float] = {}
     for frame, (_, row) in across.items():

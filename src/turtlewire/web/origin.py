@@ -1,7 +1,8 @@
 """Which requests are answered: those that this machine's browser makes for a page of ours.
 
-A browser tells in ``Host`` which name it looked up and in ``Origin`` whose page makes the request. A page of a stranger can make the user's
-browser talk to 127.0.0.1, also under a name of its own that resolves to it (DNS rebinding); neither gets past these two headers.
+A browser tells in ``Host`` which name it looked up and in ``Origin`` whose page makes the request.
+A page of a stranger can make the user's browser talk to 127.0.0.1, also under a name of its own
+that resolves to it (DNS rebinding); neither gets past these two headers.
 """
 
 from __future__ import annotations

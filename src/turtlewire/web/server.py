@@ -41,8 +41,9 @@ class Session(Protocol):
     def outgoing(self) -> list[str | bytes]:
         """What this browser has not got yet, as of now.
 
-        Asked for after :meth:`Server.notify`, and only when the browser has taken what it was sent before: whatever became outdated in
-        between is never made. This is how a slow browser sees fewer frames, not old ones.
+        Asked for after :meth:`Server.notify`, and only when the browser has taken what it was sent
+        before: whatever became outdated in between is never made. This is how a slow browser sees
+        fewer frames, not old ones.
         """
         ...
 
@@ -58,8 +59,8 @@ class Session(Protocol):
 class Server:
     """Serves the files below a folder on 127.0.0.1, and a WebSocket at ``/live``.
 
-    It answers from the moment it is constructed until :meth:`close`. Requests under a foreign name and WebSockets of foreign pages get
-    status 403 (see :mod:`turtlewire.web.origin`).
+    It answers from the moment it is constructed until :meth:`close`. Requests under a foreign name
+    and WebSockets of foreign pages get status 403 (see :mod:`turtlewire.web.origin`).
 
     Attributes:
         url: The page's address.
@@ -160,7 +161,9 @@ class Server:
         reason = refusal(hosts, request.headers.get_all("Origin"))
         if reason is not None:
             return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}\n")
-        if getattr(request, "method", "GET") != "GET":  # older releases of the library refuse other methods themselves
+        if (
+            getattr(request, "method", "GET") != "GET"
+        ):  # older releases of the library refuse other methods themselves
             return connection.respond(HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered here.\n")
         path = request.path.partition("?")[0]
         if path == LIVE_PATH:
@@ -198,7 +201,10 @@ class Server:
         wake_up = asyncio.Event()
         wake_up.set()
         self._wake_ups.add(wake_up)
-        tasks = [asyncio.create_task(_send(connection, session, wake_up)), asyncio.create_task(_receive(connection, session, wake_up))]
+        tasks = [
+            asyncio.create_task(_send(connection, session, wake_up)),
+            asyncio.create_task(_receive(connection, session, wake_up)),
+        ]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:

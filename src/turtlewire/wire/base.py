@@ -1,12 +1,14 @@
 """The contract of a middleware: bytes in, bytes out, QoS, names and the graph. No messages.
 
-A middleware implements the abstract classes below; everything above it (rclpy, the TF listener, the command line) uses nothing else.
-Topic and service names are fully qualified ROS names (``/turtle1/pose``); a middleware mangles them itself. ``cdr`` always means a
-serialized message with its four encapsulation bytes (``00 01 00 00``).
+A middleware implements the abstract classes below; everything above it (rclpy, the TF listener, the
+command line) uses nothing else. Topic and service names are fully qualified ROS names
+(``/turtle1/pose``); a middleware mangles them itself. ``cdr`` always means a serialized message
+with its four encapsulation bytes (``00 01 00 00``).
 
-Threading: every method may be called from any thread. :meth:`WaitSet.wait` blocks without the GIL. A subscription that was made with
-``on_message`` is served by the context's own reader thread, which the context starts, owns and joins in :meth:`Context.close`;
-all other entities are polled by their owner after a :class:`WaitSet` reports them ready.
+Threading: every method may be called from any thread. :meth:`WaitSet.wait` blocks without the GIL.
+A subscription that was made with ``on_message`` is served by the context's own reader thread, which
+the context starts, owns and joins in :meth:`Context.close`; all other entities are polled by their
+owner after a :class:`WaitSet` reports them ready.
 """
 
 from __future__ import annotations
@@ -122,12 +124,15 @@ class EventStatus(NamedTuple):
     """Counters of an event; changes are counted since the last :meth:`Event.take`.
 
     Attributes:
-        total_count: How often it happened. ``LIVELINESS_CHANGED``: how many matching publishers are not alive.
+        total_count: How often it happened. ``LIVELINESS_CHANGED``: how many matching publishers are
+            not alive.
         total_count_change: Change of it.
-        current_count: ``MATCHED``: how many match at the moment. ``LIVELINESS_CHANGED``: how many of them are alive.
+        current_count: ``MATCHED``: how many match at the moment. ``LIVELINESS_CHANGED``: how many
+            of them are alive.
         current_count_change: Change of it.
-        last_policy_kind: ``INCOMPATIBLE_QOS``: the policy that did not fit last, as a number of rmw's ``rmw_qos_policy_kind_t``
-            (DURABILITY 2, DEADLINE 4, LIVELINESS 8, RELIABILITY 16, HISTORY 32, LIFESPAN 64; INVALID 1).
+        last_policy_kind: ``INCOMPATIBLE_QOS``: the policy that did not fit last, as a number of
+            rmw's ``rmw_qos_policy_kind_t`` (DURABILITY 2, DEADLINE 4, LIVELINESS 8, RELIABILITY 16,
+            HISTORY 32, LIFESPAN 64; INVALID 1).
     """
 
     total_count: int = 0
@@ -273,8 +278,9 @@ class WaitSet(Entity):
             timeout_ns: None waits forever, 0 looks once.
 
         Returns:
-            The ready entities, empty after a wake-up or at the end of the time. An entity stays ready until all of its data
-            is taken (level-triggered). A wake-up that came while nobody waited ends the next wait at once.
+            The ready entities, empty after a wake-up or at the end of the time. An entity stays
+            ready until all of its data is taken (level-triggered). A wake-up that came while nobody
+            waited ends the next wait at once.
         """
 
     @abstractmethod
@@ -307,10 +313,12 @@ class Node(Entity):
             topic: Fully qualified ROS name.
             type_id: What to match.
             qos: What is requested.
-            on_message: When given, the context's reader thread calls it for every message, and the subscription cannot be attached
-                to a wait set. It must be short and must not raise (an exception is reported once and the message is lost).
-            intake: Given together with ``on_message``, it may get the messages first, without Python and on any thread of the
-                middleware; those that it keeps back go to ``on_message``. A middleware is free to do without it.
+            on_message: When given, the context's reader thread calls it for every message, and the
+                subscription cannot be attached to a wait set. It must be short and must not raise
+                (an exception is reported once and the message is lost).
+            intake: Given together with ``on_message``, it may get the messages first, without
+                Python and on any thread of the middleware; those that it keeps back go to
+                ``on_message``. A middleware is free to do without it.
         """
 
     @abstractmethod

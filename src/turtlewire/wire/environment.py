@@ -47,14 +47,20 @@ def domain_id() -> int:
     if not text:
         return 0
     if not text.isascii() or not text.isdigit() or int(text) > MAX_DOMAIN_ID:
-        error = WireError(f"ROS_DOMAIN_ID is not an integral number from 0 to {MAX_DOMAIN_ID}: {text!r}")
-        raise error.with_hint("Set it to a number that your robots share, for example: export ROS_DOMAIN_ID=7")
+        error = WireError(
+            f"ROS_DOMAIN_ID is not an integral number from 0 to {MAX_DOMAIN_ID}: {text!r}"
+        )
+        raise error.with_hint(
+            "Set it to a number that your robots share, for example: export ROS_DOMAIN_ID=7"
+        )
     return int(text)
 
 
 def discovery() -> Discovery:
     """What ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY`` and ``ROS_STATIC_PEERS`` say; ``LOCALHOST`` when they say nothing."""
-    peers = tuple(peer.strip() for peer in os.environ.get("ROS_STATIC_PEERS", "").split(";") if peer.strip())
+    peers = tuple(
+        peer.strip() for peer in os.environ.get("ROS_STATIC_PEERS", "").split(";") if peer.strip()
+    )
     localhost_only = os.environ.get("ROS_LOCALHOST_ONLY", "").strip()
     if localhost_only:
         warn_once(

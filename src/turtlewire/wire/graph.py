@@ -1,7 +1,8 @@
 """The graph: what is common to all middlewares, and the one message that makes a ROS node visible.
 
-A DDS endpoint does not say which node owns it. Every ROS process therefore publishes its nodes and their endpoints on
-``ros_discovery_info``; :func:`pack_discovery_info` and :func:`unpack_discovery_info` are its bytes.
+A DDS endpoint does not say which node owns it. Every ROS process therefore publishes its nodes and
+their endpoints on ``ros_discovery_info``; :func:`pack_discovery_info` and
+:func:`unpack_discovery_info` are its bytes.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ __all__ = [
 #: DDS name of the topic; it has no ``rt/`` in front.
 DISCOVERY_TOPIC = "ros_discovery_info"
 DISCOVERY_TYPE = TypeId(
-    "rmw_dds_common/msg/ParticipantEntitiesInfo", "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e"
+    "rmw_dds_common/msg/ParticipantEntitiesInfo",
+    "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e",
 )
 
 _GID_SIZE = 16
@@ -93,7 +95,9 @@ class _DiscoveryInfoReader:
 
     def read(self) -> tuple[bytes, list[NodeEndpoints]]:
         if self._cdr[:2] != _HEADER[:2]:
-            raise CdrError(f"ros_discovery_info: expected little endian CDR (00 01), got header {self._cdr[:4].hex(' ')}")
+            raise CdrError(
+                f"ros_discovery_info: expected little endian CDR (00 01), got header {self._cdr[:4].hex(' ')}"
+            )
         participant = self._bytes(_GID_SIZE)
         return participant, [self._node() for _ in range(self._count(_NODE_MIN_SIZE))]
 
@@ -115,14 +119,18 @@ class _DiscoveryInfoReader:
         self._at += -self._at % 4
         (count,) = _U32.unpack(self._bytes(4))
         if count * item_size > len(self._cdr) - self._at:
-            raise CdrError(f"ros_discovery_info: {count} items announced, {len(self._cdr) - self._at} bytes left")
+            raise CdrError(
+                f"ros_discovery_info: {count} items announced, {len(self._cdr) - self._at} bytes left"
+            )
         return int(count)
 
     def _bytes(self, size: int) -> bytes:
         start = self._at
         self._at += size
         if self._at > len(self._cdr):
-            raise CdrError(f"ros_discovery_info: ends after {len(self._cdr)} bytes in the middle of a field")
+            raise CdrError(
+                f"ros_discovery_info: ends after {len(self._cdr)} bytes in the middle of a field"
+            )
         return self._cdr[start : self._at]
 
 
@@ -141,7 +149,8 @@ def parse_user_data(user_data: bytes) -> dict[str, str]:
 class GraphView(Graph):
     """The part of :class:`Graph` that follows from ``nodes()`` and ``endpoints()``, and waiting for changes.
 
-    Whoever keeps the data calls :meth:`notify_changed` after each change, without locks held, and :meth:`end_waits` at the end.
+    Whoever keeps the data calls :meth:`notify_changed` after each change, without locks held, and
+    :meth:`end_waits` at the end.
     """
 
     def __init__(self) -> None:
@@ -178,7 +187,10 @@ class GraphView(Graph):
                 return True
             with self._change:
                 rest = None if deadline is None else deadline - time.monotonic()
-                if not self._change.wait_for(lambda: self._ended or self._version != seen, rest) or self._ended:  # noqa: B023
+                if (
+                    not self._change.wait_for(lambda: self._ended or self._version != seen, rest)  # noqa: B023
+                    or self._ended
+                ):
                     break
         return predicate()
 
@@ -233,5 +245,9 @@ def with_best_available(qos: QoS, topic: str, kind: str, context: Context) -> Qo
     """Choose the best-available policies of a new ``"publisher"`` or ``"subscription"`` after the endpoints that the graph knows now."""
     if not qos.has_best_available:
         return qos
-    others = [endpoint.qos for endpoint in context.graph.endpoints() if endpoint.topic == topic and endpoint.kind != kind]
+    others = [
+        endpoint.qos
+        for endpoint in context.graph.endpoints()
+        if endpoint.topic == topic and endpoint.kind != kind
+    ]
     return fit_publisher(qos, others) if kind == "publisher" else fit_subscription(qos, others)

@@ -2,11 +2,13 @@
 
 A name travels in three spellings::
 
-    ROS           /turtle1/pose             turtlesim/msg/Pose              service /spawn, turtlesim/srv/Spawn
-    DDS           rt/turtle1/pose           turtlesim::msg::dds_::Pose_     rq/spawnRequest and rr/spawnReply
-    as typed      pose, ~/pose, {ns}/pose   (expanded by :func:`expand_topic_name`)
+    ROS           /turtle1/pose             turtlesim/msg/Pose              service /spawn,
+    turtlesim/srv/Spawn DDS           rt/turtle1/pose           turtlesim::msg::dds_::Pose_
+    rq/spawnRequest and rr/spawnReply as typed      pose, ~/pose, {ns}/pose   (expanded by
+    :func:`expand_topic_name`)
 
-The checks answer with the texts and the index of ROS 2's own validators; who raises what on them is rclpy's business.
+The checks answer with the texts and the index of ROS 2's own validators; who raises what on them is
+rclpy's business.
 """
 
 from __future__ import annotations
@@ -72,7 +74,11 @@ def validate_topic_name(name: str) -> Fault | None:
 def _check_braces_and_characters(name: str) -> Fault | None:
     opened = None  # index of the brace that is open
     for index, char in enumerate(name):
-        message = _fault_in_braces(char, index - opened) if opened is not None else _fault_outside_braces(char, index)
+        message = (
+            _fault_in_braces(char, index - opened)
+            if opened is not None
+            else _fault_outside_braces(char, index)
+        )
         if message:
             return Fault(message, index)
         if char == "{":
@@ -84,36 +90,54 @@ def _check_braces_and_characters(name: str) -> Fault | None:
 
 def _fault_outside_braces(char: str, index: int) -> str:
     if char == "~":
-        return "topic name must not have tilde '~' unless it is the first character" if index else ""
+        return (
+            "topic name must not have tilde '~' unless it is the first character" if index else ""
+        )
     if char == "}":
         return _UNMATCHED_BRACE
     allowed = _is_word(char) or char in "/{"
-    return "" if allowed else "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+    return (
+        ""
+        if allowed
+        else "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+    )
 
 
 def _fault_in_braces(char: str, distance: int) -> str:
     if distance == 1 and _is_digit(char):
         return "substitution name must not start with a number"
-    return "" if _is_word(char) or char == "}" else "substitution name must not contain characters other than alphanumerics or '_'"
+    return (
+        ""
+        if _is_word(char) or char == "}"
+        else "substitution name must not contain characters other than alphanumerics or '_'"
+    )
 
 
 def _check_tokens(name: str) -> Fault | None:
     if name[0] == "~" and len(name) > 1 and name[1] != "/":
-        return Fault("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)
+        return Fault(
+            "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1
+        )
     digit = _DIGIT_AFTER_SLASH.search(name)
-    return Fault("topic name token must not start with a number", digit.start() + 1) if digit else None
+    return (
+        Fault("topic name token must not start with a number", digit.start() + 1) if digit else None
+    )
 
 
 def validate_full_topic_name(name: str) -> Fault | None:
     """Check a fully qualified topic or service name (``/turtle1/pose``)."""
-    return _check_absolute(name, "topic name", "topic name must not end with a '/'") or _check_length(name, "topic length", _TOPIC_MAX)
+    return _check_absolute(
+        name, "topic name", "topic name must not end with a '/'"
+    ) or _check_length(name, "topic length", _TOPIC_MAX)
 
 
 def validate_namespace(namespace: str) -> Fault | None:
     """Check a namespace: ``/``, or like a fully qualified topic name."""
     if namespace == "/":
         return None
-    fault = _check_absolute(namespace, "namespace", "namespace must not end with a '/', unless only a '/'")
+    fault = _check_absolute(
+        namespace, "namespace", "namespace must not end with a '/', unless only a '/'"
+    )
     return fault or _check_length(namespace, "namespace", _NAMESPACE_MAX)
 
 
@@ -123,7 +147,9 @@ def validate_node_name(name: str) -> Fault | None:
         return Fault("node name must not be empty", 0)
     bad = _NOT_IN_NODE.search(name)
     if bad is not None:
-        return Fault("node name must not contain characters other than alphanumerics or '_'", bad.start())
+        return Fault(
+            "node name must not contain characters other than alphanumerics or '_'", bad.start()
+        )
     if _is_digit(name[0]):
         return Fault("node name must not start with a number", 0)
     return _check_length(name, "node name length", _NODE_MAX)
@@ -138,10 +164,16 @@ def _check_absolute(name: str, what: str, ends_with_slash: str) -> Fault | None:
         return Fault(ends_with_slash, len(name) - 1)
     bad = _NOT_IN_FULL_TOPIC.search(name)
     if bad:
-        return Fault(f"{what} must not contain characters other than alphanumerics, '_', or '/'", bad.start())
+        return Fault(
+            f"{what} must not contain characters other than alphanumerics, '_', or '/'", bad.start()
+        )
     bad = _BAD_TOKEN_START.search(name)
     if bad:
-        rest = "contain repeated '/'" if bad.group() == "//" else "have a token that starts with a number"
+        rest = (
+            "contain repeated '/'"
+            if bad.group() == "//"
+            else "have a token that starts with a number"
+        )
         return Fault(f"{what} must not {rest}", bad.end() - 1)
     return None
 

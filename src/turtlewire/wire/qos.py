@@ -95,14 +95,20 @@ def fit_subscription(qos: QoS, offered: Iterable[QoS]) -> QoS:
     offered = list(offered)
     reliable = all(other.reliability == Reliability.RELIABLE for other in offered)
     transient_local = all(other.durability == Durability.TRANSIENT_LOCAL for other in offered)
-    manual = bool(offered) and all(other.liveliness == Liveliness.MANUAL_BY_TOPIC for other in offered)
+    manual = bool(offered) and all(
+        other.liveliness == Liveliness.MANUAL_BY_TOPIC for other in offered
+    )
     return _filled(
         qos,
         reliability=Reliability.RELIABLE if reliable else Reliability.BEST_EFFORT,
         durability=Durability.TRANSIENT_LOCAL if transient_local else Durability.VOLATILE,
         liveliness=Liveliness.MANUAL_BY_TOPIC if manual else Liveliness.AUTOMATIC,
-        deadline_ns=max((other.deadline_ns or INFINITE_NS for other in offered), default=INFINITE_NS),
-        liveliness_lease_ns=max((other.liveliness_lease_ns or INFINITE_NS for other in offered), default=INFINITE_NS),
+        deadline_ns=max(
+            (other.deadline_ns or INFINITE_NS for other in offered), default=INFINITE_NS
+        ),
+        liveliness_lease_ns=max(
+            (other.liveliness_lease_ns or INFINITE_NS for other in offered), default=INFINITE_NS
+        ),
     )
 
 
@@ -115,19 +121,33 @@ def fit_publisher(qos: QoS, requested: Iterable[QoS]) -> QoS:
         reliability=Reliability.RELIABLE,
         durability=Durability.TRANSIENT_LOCAL,
         liveliness=Liveliness.MANUAL_BY_TOPIC if manual else Liveliness.AUTOMATIC,
-        deadline_ns=min((other.deadline_ns or INFINITE_NS for other in requested), default=INFINITE_NS),
-        liveliness_lease_ns=min((other.liveliness_lease_ns or INFINITE_NS for other in requested), default=INFINITE_NS),
+        deadline_ns=min(
+            (other.deadline_ns or INFINITE_NS for other in requested), default=INFINITE_NS
+        ),
+        liveliness_lease_ns=min(
+            (other.liveliness_lease_ns or INFINITE_NS for other in requested), default=INFINITE_NS
+        ),
     )
 
 
 def _filled(
-    qos: QoS, *, reliability: Reliability, durability: Durability, liveliness: Liveliness, deadline_ns: int, liveliness_lease_ns: int
+    qos: QoS,
+    *,
+    reliability: Reliability,
+    durability: Durability,
+    liveliness: Liveliness,
+    deadline_ns: int,
+    liveliness_lease_ns: int,
 ) -> QoS:
     """``qos`` with the given values where it asks for the best available ones."""
     return qos._replace(
-        reliability=reliability if qos.reliability == Reliability.BEST_AVAILABLE else qos.reliability,
+        reliability=reliability
+        if qos.reliability == Reliability.BEST_AVAILABLE
+        else qos.reliability,
         durability=durability if qos.durability == Durability.BEST_AVAILABLE else qos.durability,
         liveliness=liveliness if qos.liveliness == Liveliness.BEST_AVAILABLE else qos.liveliness,
         deadline_ns=deadline_ns if qos.deadline_ns == BEST_AVAILABLE_NS else qos.deadline_ns,
-        liveliness_lease_ns=liveliness_lease_ns if qos.liveliness_lease_ns == BEST_AVAILABLE_NS else qos.liveliness_lease_ns,
+        liveliness_lease_ns=liveliness_lease_ns
+        if qos.liveliness_lease_ns == BEST_AVAILABLE_NS
+        else qos.liveliness_lease_ns,
     )

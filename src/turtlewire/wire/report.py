@@ -30,9 +30,13 @@ def warn(text: str) -> None:
     sys.stderr.flush()
 
 
-def call_guarded(on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str) -> None:
+def call_guarded(
+    on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str
+) -> None:
     """Hand over a message on a thread that serves others too: an exception is said once, and goes no further."""
     try:
         on_message(*message)
     except Exception as error:  # noqa: BLE001 - whatever it is
-        warn_once(f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}")
+        warn_once(
+            f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}"
+        )

@@ -1,7 +1,7 @@
 """Services over two topics, as rmw_cyclonedds does them: requests and replies carry a 16-byte id in front of their fields.
 
-The id is the client's number (``uint64``) and a sequence number (``int64``); the server sends it back, and a client drops replies
-to others.
+The id is the client's number (``uint64``) and a sequence number (``int64``); the server sends it
+back, and a client drops replies to others.
 """
 
 from __future__ import annotations
@@ -35,13 +35,17 @@ def split_header(payload: bytes) -> tuple[RequestId, bytes] | None:
     """Take the id out again; None when the payload is too short to hold one (a peer on another middleware's service layout)."""
     if len(payload) < _BODY:
         return None
-    return RequestId(*_HEADER.unpack_from(payload, _ENCAPSULATION)), payload[:_ENCAPSULATION] + payload[_BODY:]
+    return RequestId(*_HEADER.unpack_from(payload, _ENCAPSULATION)), payload[
+        :_ENCAPSULATION
+    ] + payload[_BODY:]
 
 
 class TopicClient(Client):
     """A client made of a publisher of requests and a subscription of replies."""
 
-    def __init__(self, service: str, client_id: int, requests: Publisher, replies: Subscription) -> None:
+    def __init__(
+        self, service: str, client_id: int, requests: Publisher, replies: Subscription
+    ) -> None:
         self.service = service
         self.client_id = client_id
         self.requests = requests

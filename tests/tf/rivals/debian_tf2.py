@@ -33,7 +33,9 @@ def answer(buffer, operation):
             found = buffer.lookup_transform_core(target, source, at(stamp))
         else:
             target, target_stamp, source, source_stamp, fixed = arguments
-            found = buffer.lookup_transform_full_core(target, at(target_stamp), source, at(source_stamp), fixed)
+            found = buffer.lookup_transform_full_core(
+                target, at(target_stamp), source, at(source_stamp), fixed
+            )
     except tf2_py.TransformException as error:
         return type(error).__name__
     t, q = found.transform.translation, found.transform.rotation
@@ -47,7 +49,9 @@ def main():
         for operation in operations:
             if operation[0] == "set":
                 _, parent, child, stamp, pose, static = operation
-                (buffer.set_transform_static if static else buffer.set_transform)(stamped(parent, child, stamp, pose), "me")
+                (buffer.set_transform_static if static else buffer.set_transform)(
+                    stamped(parent, child, stamp, pose), "me"
+                )
             elif operation[0] == "clear":
                 buffer.clear()
             else:

@@ -28,7 +28,9 @@ node = context.create_node("asker")
 answers = node.create_subscription("/from_peer", STRING, KEEP, lambda data, _: say(text_of(data)))
 questions = node.create_publisher("/to_peer", STRING, KEEP)
 graph = context.graph
-graph.add_listener(lambda: say(f"peers {questions.subscription_count()} {answers.publisher_count()}"))
+graph.add_listener(
+    lambda: say(f"peers {questions.subscription_count()} {answers.publisher_count()}")
+)
 say("ready")
 for line in sys.stdin:
     body = line.strip().encode() + b"\x00"

@@ -10,7 +10,12 @@ import json
 import sys
 import time
 
-from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsParticipant, BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
+from cyclonedds.builtin import (
+    BuiltinDataReader,
+    BuiltinTopicDcpsParticipant,
+    BuiltinTopicDcpsPublication,
+    BuiltinTopicDcpsSubscription,
+)
 from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState, WaitSet
 from cyclonedds.domain import DomainParticipant
 
@@ -40,7 +45,12 @@ def main() -> None:
         for kind, reader in readers.items():
             for sample in reader.take(1000):
                 qos = sample.qos.asdict()
-                line = {"kind": kind, "user_data": user_data(qos), "qos": qos, "key": sample.key.hex}
+                line = {
+                    "kind": kind,
+                    "user_data": user_data(qos),
+                    "qos": qos,
+                    "key": sample.key.hex,
+                }
                 if kind != "participant":
                     if sample.topic_name.startswith("DCPS"):
                         continue

@@ -22,7 +22,11 @@ graph = context.graph
 def sees(count: int) -> bool:
     if len(graph.nodes()) < count:
         return False
-    owned = [endpoint for endpoint in graph.endpoints() if endpoint.topic == "/chatter" and endpoint.node is not None]
+    owned = [
+        endpoint
+        for endpoint in graph.endpoints()
+        if endpoint.topic == "/chatter" and endpoint.node is not None
+    ]
     return len(owned) >= 2 * count
 
 

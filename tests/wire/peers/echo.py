@@ -21,7 +21,9 @@ def main() -> None:
     answers = node.create_publisher("/from_peer", STRING, QoS(depth=1000))
     questions = node.create_subscription("/to_peer", STRING, QoS(depth=1000))
     service = node.create_service("/peer/service", REQUEST, RESPONSE, QoS())
-    latched = node.create_publisher("/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL))
+    latched = node.create_publisher(
+        "/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
+    )
     latched.publish(HELLO)
     wait_set = context.create_wait_set()
     wait_set.attach(questions)

@@ -44,8 +44,14 @@ def wait_for(condition, limit_s: float = LIMIT_S) -> None:
 
 pose_id = TypeId("turtlesim/msg/Pose", msg.type_hash("turtlesim/msg/Pose"))
 for turtle in way:
-    node.create_subscription(f"/{turtle}/pose", pose_id, QoS(), lambda data, _, turtle=turtle: on_pose(turtle, data))
-command = node.create_publisher("/turtle1/cmd_vel", TypeId("geometry_msgs/msg/Twist", msg.type_hash("geometry_msgs/msg/Twist")), QoS())
+    node.create_subscription(
+        f"/{turtle}/pose", pose_id, QoS(), lambda data, _, turtle=turtle: on_pose(turtle, data)
+    )
+command = node.create_publisher(
+    "/turtle1/cmd_vel",
+    TypeId("geometry_msgs/msg/Twist", msg.type_hash("geometry_msgs/msg/Twist")),
+    QoS(),
+)
 wait_for(lambda: way["turtle2"] > 0.1)
 twist = Twist()
 twist.linear.x, twist.angular.z = 2.0, 1.8

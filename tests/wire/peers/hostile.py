@@ -1,7 +1,7 @@
 """A process that sends what no sane peer sends.
 
-Each line of its input is a topic (one without a leading slash is a DDS topic), a type, a type hash and a message in hex, until an
-empty line.
+Each line of its input is a topic (one without a leading slash is a DDS topic), a type, a type hash
+and a message in hex, until an empty line.
 """
 
 from __future__ import annotations
@@ -29,7 +29,9 @@ for line in sys.stdin:
     topic, type_name, type_hash, data = words
     if (topic, type_hash) not in publishers:
         qos = QoS(depth=100, avoid_ros_namespace_conventions=not topic.startswith("/"))
-        publisher = publishers[topic, type_hash] = node.create_publisher(topic, TypeId(type_name, type_hash), qos)
+        publisher = publishers[topic, type_hash] = node.create_publisher(
+            topic, TypeId(type_name, type_hash), qos
+        )
         assert context.graph.wait_for(lambda: has_subscription(publisher), LONG)  # noqa: B023
     publishers[topic, type_hash].publish(bytes.fromhex(data))
 print("sent", flush=True)

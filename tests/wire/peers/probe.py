@@ -16,7 +16,9 @@ MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
 context = open_context()
 client = context.create_node("probe").create_client("/peer/service", REQUEST, RESPONSE, QoS())
 graph = context.graph
-if not graph.wait_for(lambda: client.is_ready() and any(node.name == "echo" for node in graph.nodes()), LONG):
+if not graph.wait_for(
+    lambda: client.is_ready() and any(node.name == "echo" for node in graph.nodes()), LONG
+):
     sys.exit(f"no echo: {graph.nodes()}")
 client.send_request(MESSAGE)
 wait_set = context.create_wait_set()

@@ -34,16 +34,23 @@ class ProcessTargetedEvent(Event):
 
 def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
     """Is the process with this id."""
-    return lambda action: action.process_details is not None and action.process_details["pid"] == pid
+    return lambda action: (
+        action.process_details is not None and action.process_details["pid"] == pid
+    )
 
 
 def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
     """Is the process with this unique name."""
-    return lambda action: action.process_details is not None and action.process_details["name"] == name
+    return lambda action: (
+        action.process_details is not None and action.process_details["name"] == name
+    )
 
 
 def matches_executable(exec_name: str) -> Callable[[ExecuteLocal], bool]:
     """Runs the executable of this file name."""
     import os
 
-    return lambda action: action.process_details is not None and os.path.basename(action.process_details["cmd"][0]) == exec_name
+    return lambda action: (
+        action.process_details is not None
+        and os.path.basename(action.process_details["cmd"][0]) == exec_name
+    )

@@ -29,7 +29,14 @@ class RunningProcessEvent(Event):
     name = "launch.events.process.RunningProcessEvent"
 
     def __init__(
-        self, *, action: ExecuteLocal, name: str, cmd: list[str], cwd: str | None, env: Mapping[str, str] | None, pid: int
+        self,
+        *,
+        action: ExecuteLocal,
+        name: str,
+        cmd: list[str],
+        cwd: str | None,
+        env: Mapping[str, str] | None,
+        pid: int,
     ) -> None:
         self._action = action
         self._process_name = name

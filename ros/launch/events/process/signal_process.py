@@ -25,9 +25,15 @@ class SignalProcess(ProcessTargetedEvent):
 
     name = "launch.events.process.SignalProcess"
 
-    def __init__(self, *, signal_number: str | int, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+    def __init__(
+        self, *, signal_number: str | int, process_matcher: Callable[[ExecuteLocal], bool]
+    ) -> None:
         super().__init__(process_matcher=process_matcher)
-        named = signal_module.Signals[signal_number] if isinstance(signal_number, str) else signal_module.Signals(signal_number)
+        named = (
+            signal_module.Signals[signal_number]
+            if isinstance(signal_number, str)
+            else signal_module.Signals(signal_number)
+        )
         self._signal = named
 
     @property

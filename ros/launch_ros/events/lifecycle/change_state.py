@@ -19,12 +19,15 @@ class ChangeState(Event):
 
     Args:
         lifecycle_node_matcher: Which ones: a predicate over the actions that run them.
-        transition_id: The transition, for example ``Transition.TRANSITION_CONFIGURE`` of ``lifecycle_msgs.msg``.
+        transition_id: The transition, for example ``Transition.TRANSITION_CONFIGURE`` of
+            ``lifecycle_msgs.msg``.
     """
 
     name = "launch_ros.events.lifecycle.ChangeState"
 
-    def __init__(self, *, lifecycle_node_matcher: Callable[[LifecycleNode], bool], transition_id: int) -> None:
+    def __init__(
+        self, *, lifecycle_node_matcher: Callable[[LifecycleNode], bool], transition_id: int
+    ) -> None:
         self._matcher = lifecycle_node_matcher
         self._transition_id = transition_id
 

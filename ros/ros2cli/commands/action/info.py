@@ -15,7 +15,9 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    action = parser.add_argument("action_name", help="Name of the action, for example /turtle1/rotate_absolute")
+    action = parser.add_argument(
+        "action_name", help="Name of the action, for example /turtle1/rotate_absolute"
+    )
     action.completer = action_names  # type: ignore[attr-defined]
     parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
     parser.add_argument("-c", "--count", action="store_true", help="Only show how many there are")

@@ -15,7 +15,9 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
-    parser.add_argument("-c", "--count-actions", action="store_true", help="Only show how many there are")
+    parser.add_argument(
+        "-c", "--count-actions", action="store_true", help="Only show how many there are"
+    )
 
 
 def main(args: argparse.Namespace) -> None:

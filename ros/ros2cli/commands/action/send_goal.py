@@ -20,12 +20,21 @@ _CANCEL_TIMEOUT_S = 5.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    action = parser.add_argument("action_name", help="Name of the action, for example /turtle1/rotate_absolute")
+    action = parser.add_argument(
+        "action_name", help="Name of the action, for example /turtle1/rotate_absolute"
+    )
     action.completer = action_names  # type: ignore[attr-defined]
-    kind = parser.add_argument("action_type", help="Type of the action, for example turtlesim/action/RotateAbsolute")
+    kind = parser.add_argument(
+        "action_type", help="Type of the action, for example turtlesim/action/RotateAbsolute"
+    )
     kind.completer = action_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group(required=True)
-    values.add_argument("goal", nargs="?", default="{}", help="Values of the goal as YAML, for example '{theta: 1.57}'")
+    values.add_argument(
+        "goal",
+        nargs="?",
+        default="{}",
+        help="Values of the goal as YAML, for example '{theta: 1.57}'",
+    )
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
     parser.add_argument("-f", "--feedback", action="store_true", help="Show the feedback")
 
@@ -39,7 +48,9 @@ def main(args: argparse.Namespace) -> str | None:
     try:
         action_class = get_action(args.action_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(f"The passed action type is invalid{interface_meant(args.action_type, 'action')}") from None
+        raise RuntimeError(
+            f"The passed action type is invalid{interface_meant(args.action_type, 'action')}"
+        ) from None
     goal = action_class.Goal()
     values = read_values(sys.stdin.read() if args.stdin else args.goal)
     try:
@@ -54,7 +65,9 @@ def main(args: argparse.Namespace) -> str | None:
         client = ActionClient(direct.node, action_class, args.action_name)
         try:
             print("Waiting for an action server to become available...")
-            say_what_was_meant(args.action_name, dict(actions(direct.graph)).keys() - {args.action_name})
+            say_what_was_meant(
+                args.action_name, dict(actions(direct.graph)).keys() - {args.action_name}
+            )
             client.wait_for_server()
             return _run(direct, client, goal, feedback=args.feedback)
         finally:
@@ -65,7 +78,9 @@ def _run(direct: DirectNode, client: Any, goal: Any, *, feedback: bool) -> str |
     from rosidl_runtime_py import message_to_yaml
 
     accepted = False
-    early: list[Any] = []  # feedback has a topic of its own, on which it may overtake the answer to the goal
+    early: list[
+        Any
+    ] = []  # feedback has a topic of its own, on which it may overtake the answer to the goal
 
     def show(message: Any) -> None:
         if accepted:
@@ -96,7 +111,9 @@ def _cancel(direct: DirectNode, handle: Any) -> None:
     """Ask the server to stop, while the context is still open after Ctrl-C."""
     print("Canceling goal...")
     response = direct.result(handle.cancel_goal_async(), _CANCEL_TIMEOUT_S)
-    if response.goals_canceling and list(response.goals_canceling[0].goal_id.uuid) == list(handle.goal_id.uuid):
+    if response.goals_canceling and list(response.goals_canceling[0].goal_id.uuid) == list(
+        handle.goal_id.uuid
+    ):
         print("Goal canceled.")
     else:
         print("Failed to cancel goal.")
@@ -105,5 +122,7 @@ def _cancel(direct: DirectNode, handle: Any) -> None:
 def _status_name(status: int) -> str:
     from action_msgs.msg import GoalStatus
 
-    names = {getattr(GoalStatus, f"STATUS_{name}"): name for name in ("SUCCEEDED", "CANCELED", "ABORTED")}
+    names = {
+        getattr(GoalStatus, f"STATUS_{name}"): name for name in ("SUCCEEDED", "CANCELED", "ABORTED")
+    }
     return names.get(status, "UNKNOWN")

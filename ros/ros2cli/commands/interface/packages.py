@@ -12,9 +12,15 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    parser.add_argument("-m", "--only-msgs", action="store_true", help="Only packages with messages")
-    parser.add_argument("-s", "--only-srvs", action="store_true", help="Only packages with services")
-    parser.add_argument("-a", "--only-actions", action="store_true", help="Only packages with actions")
+    parser.add_argument(
+        "-m", "--only-msgs", action="store_true", help="Only packages with messages"
+    )
+    parser.add_argument(
+        "-s", "--only-srvs", action="store_true", help="Only packages with services"
+    )
+    parser.add_argument(
+        "-a", "--only-actions", action="store_true", help="Only packages with actions"
+    )
 
 
 def main(args: argparse.Namespace) -> None:

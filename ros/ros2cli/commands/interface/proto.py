@@ -14,9 +14,13 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    interface = parser.add_argument("type", help="Name of the interface, for example geometry_msgs/msg/Twist")
+    interface = parser.add_argument(
+        "type", help="Name of the interface, for example geometry_msgs/msg/Twist"
+    )
     interface.completer = interfaces  # type: ignore[attr-defined]
-    parser.add_argument("--no-quotes", action="store_true", help="Without the quotes that a shell needs")
+    parser.add_argument(
+        "--no-quotes", action="store_true", help="Without the quotes that a shell needs"
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:

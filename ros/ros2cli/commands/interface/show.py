@@ -16,18 +16,27 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    interface = parser.add_argument("type", help="Name of the interface, for example geometry_msgs/msg/Twist; '-' reads it from stdin")
+    interface = parser.add_argument(
+        "type",
+        help="Name of the interface, for example geometry_msgs/msg/Twist; '-' reads it from stdin",
+    )
     interface.completer = interfaces  # type: ignore[attr-defined]
     comments = parser.add_mutually_exclusive_group()
-    comments.add_argument("--all-comments", action="store_true", help="With the comments of nested interfaces too")
-    comments.add_argument("--no-comments", action="store_true", help="Without comments and blank lines")
+    comments.add_argument(
+        "--all-comments", action="store_true", help="With the comments of nested interfaces too"
+    )
+    comments.add_argument(
+        "--no-comments", action="store_true", help="Without comments and blank lines"
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the definition; fields of nested messages follow theirs, indented by a tab."""
     name = sys.stdin.readline().strip() if args.type == "-" else args.type
     try:
-        for line in _lines(name, comments=not args.no_comments, nested_comments=args.all_comments, depth=0):
+        for line in _lines(
+            name, comments=not args.no_comments, nested_comments=args.all_comments, depth=0
+        ):
             print(line)
     except (LookupError, OSError) as error:
         from ros2cli.suggestion import interface_meant
@@ -47,7 +56,12 @@ def _lines(name: str, *, comments: bool, nested_comments: bool, depth: int) -> I
             yield "\t" * depth + shown if shown else ""
         nested = _nested(line, name.partition("/")[0])
         if nested is not None:
-            yield from _lines(nested, comments=comments and nested_comments, nested_comments=nested_comments, depth=depth + 1)
+            yield from _lines(
+                nested,
+                comments=comments and nested_comments,
+                nested_comments=nested_comments,
+                depth=depth + 1,
+            )
 
 
 def _nested(line: str, package: str) -> str | None:

@@ -17,7 +17,9 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
-    node = parser.add_argument("node_name", nargs="?", help="Full name of the node; all when it is not given")
+    node = parser.add_argument(
+        "node_name", nargs="?", help="Full name of the node; all when it is not given"
+    )
     node.completer = managed_node_names  # type: ignore[attr-defined]
 
 

@@ -19,7 +19,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     node = parser.add_argument("node_name", help="Full name of the node")
     node.completer = managed_node_names  # type: ignore[attr-defined]
-    parser.add_argument("-a", "--all", action="store_true", help="All transitions, not only those from the present state")
+    parser.add_argument(
+        "-a",
+        "--all",
+        action="store_true",
+        help="All transitions, not only those from the present state",
+    )
 
 
 def main(args: argparse.Namespace) -> None:
@@ -30,7 +35,9 @@ def main(args: argparse.Namespace) -> None:
     service = "get_transition_graph" if args.all else "get_available_transitions"
     with DirectNode(args) as direct:
         name = require_managed_node(direct.graph, args.node_name)
-        answer = ask(direct, GetAvailableTransitions, f"{name}/{service}", GetAvailableTransitions.Request())
+        answer = ask(
+            direct, GetAvailableTransitions, f"{name}/{service}", GetAvailableTransitions.Request()
+        )
     for offered in answer.available_transitions:
         print(f"- {offered.transition.label} [{offered.transition.id}]")
         print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")

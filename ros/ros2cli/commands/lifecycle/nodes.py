@@ -15,8 +15,12 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Only show how many there are")
+    parser.add_argument(
+        "-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore"
+    )
+    parser.add_argument(
+        "-c", "--count-nodes", action="store_true", help="Only show how many there are"
+    )
 
 
 def main(args: argparse.Namespace) -> None:

@@ -19,7 +19,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     node = parser.add_argument("node_name", help="Full name of the node")
     node.completer = managed_node_names  # type: ignore[attr-defined]
-    parser.add_argument("transition", help="Label or number of a transition that the node offers, for example configure")
+    parser.add_argument(
+        "transition",
+        help="Label or number of a transition that the node offers, for example configure",
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:
@@ -30,9 +33,16 @@ def main(args: argparse.Namespace) -> str | None:
 
     with DirectNode(args) as direct:
         name = require_managed_node(direct.graph, args.node_name)
-        answer = ask(direct, GetAvailableTransitions, f"{name}/get_available_transitions", GetAvailableTransitions.Request())
+        answer = ask(
+            direct,
+            GetAvailableTransitions,
+            f"{name}/get_available_transitions",
+            GetAvailableTransitions.Request(),
+        )
         offered = [item.transition for item in answer.available_transitions]
-        chosen = next((item for item in offered if args.transition in (item.label, str(item.id))), None)
+        chosen = next(
+            (item for item in offered if args.transition in (item.label, str(item.id))), None
+        )
         if chosen is None:
             known = "".join(f"\n- {item.label} [{item.id}]" for item in offered)
             return f"Unknown transition requested, available ones are:{known}"

@@ -21,7 +21,9 @@ VERBS = {
 
 def add_group_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the options that sender and receiver have to agree on."""
-    parser.add_argument("--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)")
+    parser.add_argument(
+        "--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)"
+    )
     parser.add_argument("--port", type=_port, default=49150, help="UDP port (default: 49150)")
 
 
@@ -31,7 +33,9 @@ def _group(text: str) -> str:
     except ValueError:
         is_group = False
     if not is_group:
-        raise ArgumentTypeError(f"'{text}' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255")
+        raise ArgumentTypeError(
+            f"'{text}' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255"
+        )
     return text
 
 

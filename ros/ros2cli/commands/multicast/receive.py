@@ -24,7 +24,11 @@ def main(args: argparse.Namespace) -> None:
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         receiver.bind(("", args.port))
         every_interface = socket.inet_aton("0.0.0.0")  # noqa: S104  multicast comes from the network
-        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(args.group) + every_interface)
+        receiver.setsockopt(
+            socket.IPPROTO_IP,
+            socket.IP_ADD_MEMBERSHIP,
+            socket.inet_aton(args.group) + every_interface,
+        )
         print("Waiting for UDP multicast datagram...")
         data, (host, port) = receiver.recvfrom(4096)
     print(f"Received from {host}:{port}: '{data.decode('utf-8', 'backslashreplace')}'")

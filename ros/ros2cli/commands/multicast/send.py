@@ -17,7 +17,9 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_group_arguments(parser)
-    parser.add_argument("--ttl", type=unsigned_int, help="Over how many routers the datagram may pass")
+    parser.add_argument(
+        "--ttl", type=unsigned_int, help="Over how many routers the datagram may pass"
+    )
 
 
 def main(args: argparse.Namespace) -> None:

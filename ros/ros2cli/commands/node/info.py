@@ -19,7 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     node = parser.add_argument("node_name", help="Full name of the node, for example /turtlesim")
     node.completer = node_names  # type: ignore[attr-defined]
-    parser.add_argument("--include-hidden", action="store_true", help="Also topics and services with a part that begins with an underscore")
+    parser.add_argument(
+        "--include-hidden",
+        action="store_true",
+        help="Also topics and services with a part that begins with an underscore",
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -28,7 +28,9 @@ def main(args: argparse.Namespace) -> str | None:
         parameters = RemoteParameters(direct, args)
         descriptors = parameters.descriptors(args.parameter_names)
         described = {descriptor.name for descriptor in descriptors}
-        meant = "".join(parameters.meant(name) for name in args.parameter_names if name not in described)
+        meant = "".join(
+            parameters.meant(name) for name in args.parameter_names if name not in described
+        )
     for descriptor in descriptors:
         _print(descriptor)
     if not descriptors:

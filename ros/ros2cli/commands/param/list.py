@@ -18,9 +18,13 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser, optional=True)
-    parser.add_argument("--param-prefixes", nargs="+", default=[], help="Only parameters below these prefixes")
+    parser.add_argument(
+        "--param-prefixes", nargs="+", default=[], help="Only parameters below these prefixes"
+    )
     parser.add_argument("--param-type", action="store_true", help="Show the types too")
-    parser.add_argument("--filter", help="Only parameters whose name matches this regular expression")
+    parser.add_argument(
+        "--filter", help="Only parameters whose name matches this regular expression"
+    )
 
 
 def main(args: argparse.Namespace) -> None:
@@ -36,16 +40,25 @@ def main(args: argparse.Namespace) -> None:
                 remote = RemoteParameters(direct, args, name)
                 names = remote.names(args.param_prefixes)
             except RuntimeError as error:
-                print(f"Exception while calling list_parameters service of node '{name}': {error}", file=sys.stderr)
+                print(
+                    f"Exception while calling list_parameters service of node '{name}': {error}",
+                    file=sys.stderr,
+                )
                 continue
             print(f"{name}:")
             _print(remote, args, names)
 
 
-def _print(remote: RemoteParameters, args: argparse.Namespace, names: list[str] | None = None) -> None:
+def _print(
+    remote: RemoteParameters, args: argparse.Namespace, names: list[str] | None = None
+) -> None:
     names = remote.names(args.param_prefixes) if names is None else names
     if args.filter:
         names = [name for name in names if re.match(args.filter, name)]
-    types = [f" (type: {TYPE_NAMES[number]})" for number in remote.types(names)] if args.param_type else [""] * len(names)
+    types = (
+        [f" (type: {TYPE_NAMES[number]})" for number in remote.types(names)]
+        if args.param_type
+        else [""] * len(names)
+    )
     for name, kind in zip(names, types, strict=True):
         print(f"  {name}{kind}")

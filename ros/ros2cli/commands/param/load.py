@@ -18,7 +18,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser)
     parser.add_argument("parameter_file", help="Path of the parameter file")
-    parser.add_argument("--no-use-wildcard", action="store_true", help="Leave out what the file says of '/**' (all nodes)")
+    parser.add_argument(
+        "--no-use-wildcard",
+        action="store_true",
+        help="Leave out what the file says of '/**' (all nodes)",
+    )
 
 
 def main(args: argparse.Namespace) -> None:
@@ -27,7 +31,9 @@ def main(args: argparse.Namespace) -> None:
 
     with DirectNode(args) as direct:
         remote = RemoteParameters(direct, args)
-        parameters = list(parameter_dict_from_yaml_file(args.parameter_file, not args.no_use_wildcard).values())
+        parameters = list(
+            parameter_dict_from_yaml_file(args.parameter_file, not args.no_use_wildcard).values()
+        )
         results: list[tuple[Any, Any]] = list(zip(parameters, remote.set(parameters), strict=True))
     for parameter, result in results:
         reason = f": {result.reason}" if result.reason else ""

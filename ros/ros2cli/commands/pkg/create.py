@@ -19,15 +19,40 @@ _NODE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    parser.add_argument("package_name", help="Name of the package: small letters, digits and underscores")
-    parser.add_argument("--package-format", "--package_format", choices=["2", "3"], default="3", help="Format of the package.xml")
-    parser.add_argument("--description", default="TODO: Package description", help="What the package is for")
-    parser.add_argument("--license", default="TODO: License declaration", help="Its licence, for example Apache-2.0")
-    parser.add_argument("--destination-directory", default=os.curdir, help="Folder in which the package's folder is made")
-    parser.add_argument("--build-type", default="ament_python", choices=["ament_python"], help="Packages of C++ need a real ROS")
+    parser.add_argument(
+        "package_name", help="Name of the package: small letters, digits and underscores"
+    )
+    parser.add_argument(
+        "--package-format",
+        "--package_format",
+        choices=["2", "3"],
+        default="3",
+        help="Format of the package.xml",
+    )
+    parser.add_argument(
+        "--description", default="TODO: Package description", help="What the package is for"
+    )
+    parser.add_argument(
+        "--license", default="TODO: License declaration", help="Its licence, for example Apache-2.0"
+    )
+    parser.add_argument(
+        "--destination-directory",
+        default=os.curdir,
+        help="Folder in which the package's folder is made",
+    )
+    parser.add_argument(
+        "--build-type",
+        default="ament_python",
+        choices=["ament_python"],
+        help="Packages of C++ need a real ROS",
+    )
     parser.add_argument("--dependencies", nargs="+", default=[], help="Packages that it depends on")
     parser.add_argument("--maintainer-email", help="Address of the maintainer")
-    parser.add_argument("--maintainer-name", default=os.environ.get("USER") or "maintainer", help="Name of the maintainer")
+    parser.add_argument(
+        "--maintainer-name",
+        default=os.environ.get("USER") or "maintainer",
+        help="Name of the maintainer",
+    )
     parser.add_argument("--node-name", help="Make a node of this name")
 
 

@@ -15,7 +15,9 @@ __all__ = ["add_arguments", "main"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    package = parser.add_argument("package_name", nargs="?", help="Name of the package; all when it is not given")
+    package = parser.add_argument(
+        "package_name", nargs="?", help="Name of the package; all when it is not given"
+    )
     package.completer = packages  # type: ignore[attr-defined]
     parser.add_argument("--full-path", action="store_true", help="Show the paths")
 

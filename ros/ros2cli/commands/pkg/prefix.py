@@ -16,7 +16,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     package = parser.add_argument("package_name", help="Name of the package")
     package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument("--share", action="store_true", help="Show the folder with its data instead")
+    parser.add_argument(
+        "--share", action="store_true", help="Show the folder with its data instead"
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -17,7 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     package = parser.add_argument("package_name", help="Name of the package")
     package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument("-t", "--tag", help="Show only the content of this tag, for example version")
+    parser.add_argument(
+        "-t", "--tag", help="Show only the content of this tag, for example version"
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -21,4 +21,8 @@ VERBS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define what all verbs share."""
-    parser.add_argument("--include-hidden-services", action="store_true", help="Also services with a part that begins with an underscore")
+    parser.add_argument(
+        "--include-hidden-services",
+        action="store_true",
+        help="Also services with a part that begins with an underscore",
+    )

@@ -20,12 +20,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
     name.completer = service_names  # type: ignore[attr-defined]
-    kind = parser.add_argument("service_type", help="Type of the service, for example turtlesim/srv/Spawn")
+    kind = parser.add_argument(
+        "service_type", help="Type of the service, for example turtlesim/srv/Spawn"
+    )
     kind.completer = service_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group()
-    values.add_argument("values", nargs="?", default="{}", help="Values of the request as YAML, for example '{x: 1.0}'")
+    values.add_argument(
+        "values",
+        nargs="?",
+        default="{}",
+        help="Values of the request as YAML, for example '{x: 1.0}'",
+    )
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
-    parser.add_argument("-r", "--rate", metavar="N", type=positive_float, help="Call again and again, N times a second")
+    parser.add_argument(
+        "-r",
+        "--rate",
+        metavar="N",
+        type=positive_float,
+        help="Call again and again, N times a second",
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:
@@ -38,7 +51,9 @@ def main(args: argparse.Namespace) -> str | None:
     try:
         service_class = get_service(args.service_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(f"The passed service type is invalid{interface_meant(args.service_type, 'srv')}") from None
+        raise RuntimeError(
+            f"The passed service type is invalid{interface_meant(args.service_type, 'srv')}"
+        ) from None
     request = service_class.Request()
     try:
         set_message_fields(request, values)
@@ -51,7 +66,9 @@ def main(args: argparse.Namespace) -> str | None:
         client = direct.node.create_client(service_class, args.service_name)
         if not client.service_is_ready():
             print("waiting for service to become available...")
-            say_what_was_meant(client.srv_name, dict(services(direct.graph)).keys() - {client.srv_name})
+            say_what_was_meant(
+                client.srv_name, dict(services(direct.graph)).keys() - {client.srv_name}
+            )
             if not client.wait_for_service():
                 raise KeyboardInterrupt
         while True:

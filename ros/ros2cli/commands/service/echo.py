@@ -20,12 +20,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
     name.completer = service_names  # type: ignore[attr-defined]
-    kind = parser.add_argument("service_type", nargs="?", help="Type of the service; by default that of the service there is")
+    kind = parser.add_argument(
+        "service_type",
+        nargs="?",
+        help="Type of the service; by default that of the service there is",
+    )
     kind.completer = service_types  # type: ignore[attr-defined]
     add_qos_arguments(parser)
-    parser.add_argument("--csv", action="store_true", help="One line of comma-separated values for each event")
-    parser.add_argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings")
-    parser.add_argument("-l", "--truncate-length", type=unsigned_int, default=128, help="Length to which arrays and strings are shortened")
+    parser.add_argument(
+        "--csv", action="store_true", help="One line of comma-separated values for each event"
+    )
+    parser.add_argument(
+        "-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"
+    )
+    parser.add_argument(
+        "-l",
+        "--truncate-length",
+        type=unsigned_int,
+        default=128,
+        help="Length to which arrays and strings are shortened",
+    )
     parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
     parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
     parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
@@ -36,7 +50,9 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.direct_node import DirectNode
 
     if args.service_type is not None:
-        _service_class(args.service_type, f"The service type '{args.service_type}' is invalid")  # refused before anything is started
+        _service_class(
+            args.service_type, f"The service type '{args.service_type}' is invalid"
+        )  # refused before anything is started
     with DirectNode(args) as direct:
         service = direct.node.resolve_service_name(args.service_name)
         kind = args.service_type or _type_of_service(direct.graph, service)
@@ -45,9 +61,13 @@ def main(args: argparse.Namespace) -> str | None:
         srv_type = _service_class(kind, f"The service name '{args.service_name}' is invalid")
         topic = f"{service}/_service_event"
         qos = with_options(args, "services_default")
-        subscription = direct.node.create_subscription(srv_type.Event, topic, lambda event: print(_text(event, args)), qos)
+        subscription = direct.node.create_subscription(
+            srv_type.Event, topic, lambda event: print(_text(event, args)), qos
+        )
         if subscription.get_publisher_count() < 1:
-            print(f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?")
+            print(
+                f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
+            )
         direct.spin()
     return None
 
@@ -66,7 +86,9 @@ def _type_of_service(graph: Graph, service: str) -> str | None:
 
     types = dict(services(graph, hidden=True)).get(service, [])
     if len(types) > 1:
-        raise RuntimeError(f"Cannot echo service '{service}', as it contains more than one type: [{', '.join(types)}]")
+        raise RuntimeError(
+            f"Cannot echo service '{service}', as it contains more than one type: [{', '.join(types)}]"
+        )
     return types[0] if types else None
 
 
@@ -77,7 +99,13 @@ def _text(event: Any, args: argparse.Namespace) -> str:
     length = None if args.full_length else args.truncate_length
     if args.csv:
         return message_to_csv(event, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str)
-    text = message_to_yaml(event, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str, flow_style=args.flow_style)
+    text = message_to_yaml(
+        event,
+        truncate_length=length,
+        no_arr=args.no_arr,
+        no_str=args.no_str,
+        flow_style=args.flow_style,
+    )
     number = event.info.event_type
     if number in list(EventType):  # the wire may say anything
         text = text.replace(f"event_type: {number}\n", f"event_type: {EventType(number).name}\n", 1)

@@ -16,8 +16,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
-    parser.add_argument("-c", "--count-services", action="store_true", help="Only show how many there are")
-    parser.add_argument("--include-hidden-services", action="store_true", help="Also services with a part that begins with an underscore")
+    parser.add_argument(
+        "-c", "--count-services", action="store_true", help="Only show how many there are"
+    )
+    parser.add_argument(
+        "--include-hidden-services",
+        action="store_true",
+        help="Also services with a part that begins with an underscore",
+    )
 
 
 def main(args: argparse.Namespace) -> None:

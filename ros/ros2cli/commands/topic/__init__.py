@@ -24,4 +24,8 @@ VERBS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define what all verbs share."""
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with an underscore")
+    parser.add_argument(
+        "--include-hidden-topics",
+        action="store_true",
+        help="Also topics with a part that begins with an underscore",
+    )

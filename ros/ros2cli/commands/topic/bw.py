@@ -21,7 +21,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
     topic.completer = topic_names  # type: ignore[attr-defined]
-    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=100, help="How many messages count")
+    parser.add_argument(
+        "-w",
+        "--window",
+        metavar="WINDOW",
+        type=positive_int,
+        default=100,
+        help="How many messages count",
+    )
     add_spin_arguments(parser)
 
 
@@ -36,6 +43,8 @@ def main(args: argparse.Namespace) -> None:
         sizes = Sizes(args.window)
         qos = matching_publishers(direct.graph, topic)
         print(f"Subscribed to [{topic}]")
-        direct.node.create_subscription(kind, topic, lambda cdr: sizes.add(time.monotonic(), len(cdr)), qos, raw=True)
+        direct.node.create_subscription(
+            kind, topic, lambda cdr: sizes.add(time.monotonic(), len(cdr)), qos, raw=True
+        )
         direct.node.create_timer(1.0, lambda: print(end=sizes.report(time.monotonic())))
         direct.spin()

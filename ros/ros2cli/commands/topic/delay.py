@@ -20,7 +20,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     topic = parser.add_argument("topic_name", help="Name of a topic whose messages have a header")
     topic.completer = topic_names  # type: ignore[attr-defined]
-    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=10000, help="How many messages count")
+    parser.add_argument(
+        "-w",
+        "--window",
+        metavar="WINDOW",
+        type=positive_int,
+        default=10000,
+        help="How many messages count",
+    )
     add_spin_arguments(parser)
 
 
@@ -39,7 +46,9 @@ def main(args: argparse.Namespace) -> None:
 
         def note(message: Any) -> None:
             stamp = message.header.stamp
-            delays.add((clock.now().nanoseconds - (stamp.sec * 1_000_000_000 + stamp.nanosec)) / 1e9)
+            delays.add(
+                (clock.now().nanoseconds - (stamp.sec * 1_000_000_000 + stamp.nanosec)) / 1e9
+            )
 
         direct.node.create_subscription(kind, topic, note, matching_publishers(direct.graph, topic))
         direct.node.create_timer(1.0, lambda: print(end=delays.report()))

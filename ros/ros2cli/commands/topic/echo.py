@@ -24,25 +24,55 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_spin_arguments(parser)
     topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
     topic.completer = topic_names  # type: ignore[attr-defined]
-    kind = parser.add_argument("message_type", nargs="?", help="Type of the messages; by default that of the topic")
+    kind = parser.add_argument(
+        "message_type", nargs="?", help="Type of the messages; by default that of the topic"
+    )
     kind.completer = topic_types  # type: ignore[attr-defined]
     add_qos_arguments(parser)
-    parser.add_argument("--csv", action="store_true", help="One line of comma-separated values for each message")
-    parser.add_argument("--field", metavar="FIELD", help="Only this field, for example pose.position.x")
-    parser.add_argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings")
-    parser.add_argument("-l", "--truncate-length", type=unsigned_int, default=128, help="Length to which arrays and strings are shortened")
+    parser.add_argument(
+        "--csv", action="store_true", help="One line of comma-separated values for each message"
+    )
+    parser.add_argument(
+        "--field", metavar="FIELD", help="Only this field, for example pose.position.x"
+    )
+    parser.add_argument(
+        "-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"
+    )
+    parser.add_argument(
+        "-l",
+        "--truncate-length",
+        type=unsigned_int,
+        default=128,
+        help="Length to which arrays and strings are shortened",
+    )
     parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
     parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
     parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
-    parser.add_argument("--lost-messages", action="store_true", help="Accepted for compatibility: lost messages are reported by default")
-    parser.add_argument("--no-lost-messages", action="store_true", help="Do not report lost messages")
+    parser.add_argument(
+        "--lost-messages",
+        action="store_true",
+        help="Accepted for compatibility: lost messages are reported by default",
+    )
+    parser.add_argument(
+        "--no-lost-messages", action="store_true", help="Do not report lost messages"
+    )
     parser.add_argument("--raw", action="store_true", help="Show the bytes of the messages")
     parser.add_argument(
-        "--filter", dest="filter_expr", metavar="FILTER-EXPR", help="Only messages m for which this Python expression is true"
+        "--filter",
+        dest="filter_expr",
+        metavar="FILTER-EXPR",
+        help="Only messages m for which this Python expression is true",
     )
     parser.add_argument("--once", action="store_true", help="End after the first message")
-    parser.add_argument("--timeout", metavar="N", type=positive_float, help="End after N seconds without messages")
-    parser.add_argument("-i", "--include-message-info", action="store_true", help="Show when a message was sent and received")
+    parser.add_argument(
+        "--timeout", metavar="N", type=positive_float, help="End after N seconds without messages"
+    )
+    parser.add_argument(
+        "-i",
+        "--include-message-info",
+        action="store_true",
+        help="Show when a message was sent and received",
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:
@@ -56,14 +86,24 @@ def main(args: argparse.Namespace) -> str | None:
     keep = make_filter(args.filter_expr)
     with DirectNode(args) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        kind = type_of_topic(direct, topic) if args.message_type is None else message_class(args.message_type)
+        kind = (
+            type_of_topic(direct, topic)
+            if args.message_type is None
+            else message_class(args.message_type)
+        )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
         _check_field(kind, args.field)
-        qos = with_options(args, "sensor_data") if asked_for(args) else matching_publishers(direct.graph, topic)
+        qos = (
+            with_options(args, "sensor_data")
+            if asked_for(args)
+            else matching_publishers(direct.graph, topic)
+        )
         end = Future()
         printer = _Printer(args, keep, end)
-        direct.node.create_subscription(kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args))
+        direct.node.create_subscription(
+            kind, topic, printer.show, qos, raw=args.raw, event_callbacks=_lost(args)
+        )
         printer.end_after_silence(direct)
         direct.result(end)
     return None
@@ -72,7 +112,9 @@ def main(args: argparse.Namespace) -> str | None:
 class _Printer:
     """Shows messages as the options say."""
 
-    def __init__(self, args: argparse.Namespace, keep: Callable[[Any], bool] | None, end: Any) -> None:
+    def __init__(
+        self, args: argparse.Namespace, keep: Callable[[Any], bool] | None, end: Any
+    ) -> None:
         self._args = args
         self._keep = keep
         self._end = end
@@ -108,11 +150,21 @@ class _Printer:
         elif args.csv:
             from rosidl_runtime_py import message_to_csv
 
-            print(message_to_csv(value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str))
+            print(
+                message_to_csv(
+                    value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str
+                )
+            )
         else:
             from rosidl_runtime_py import message_to_yaml
 
-            text = message_to_yaml(value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str, flow_style=args.flow_style)
+            text = message_to_yaml(
+                value,
+                truncate_length=length,
+                no_arr=args.no_arr,
+                no_str=args.no_str,
+                flow_style=args.flow_style,
+            )
             print(text, end="---\n")
 
 
@@ -159,6 +211,9 @@ def _lost(args: argparse.Namespace) -> Any:
     from rclpy.event_handler import SubscriptionEventCallbacks
 
     def report(status: Any) -> None:
-        print(f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}", end="---\n")
+        print(
+            f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}",
+            end="---\n",
+        )
 
     return SubscriptionEventCallbacks(message_lost=report)

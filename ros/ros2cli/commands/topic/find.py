@@ -16,10 +16,18 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
-    kind = parser.add_argument("topic_type", help="Name of the type, for example tf2_msgs/msg/TFMessage")
+    kind = parser.add_argument(
+        "topic_type", help="Name of the type, for example tf2_msgs/msg/TFMessage"
+    )
     kind.completer = interfaces  # type: ignore[attr-defined]
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Only show how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with an underscore")
+    parser.add_argument(
+        "-c", "--count-topics", action="store_true", help="Only show how many there are"
+    )
+    parser.add_argument(
+        "--include-hidden-topics",
+        action="store_true",
+        help="Also topics with a part that begins with an underscore",
+    )
 
 
 def main(args: argparse.Namespace) -> None:
@@ -27,7 +35,11 @@ def main(args: argparse.Namespace) -> None:
     from ros2cli.graph import topics
 
     with GraphNode(args.spin_time) as graph:
-        found = [name for name, types in topics(graph, hidden=args.include_hidden_topics) if args.topic_type in types]
+        found = [
+            name
+            for name, types in topics(graph, hidden=args.include_hidden_topics)
+            if args.topic_type in types
+        ]
     if args.count_topics:
         print(len(found))
     else:

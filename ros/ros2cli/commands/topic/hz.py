@@ -21,9 +21,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
     topic.completer = topic_names  # type: ignore[attr-defined]
-    parser.add_argument("-w", "--window", metavar="WINDOW", type=positive_int, default=10000, help="How many messages count")
-    parser.add_argument("--filter", dest="filter_expr", metavar="EXPR", help="Only messages m for which this Python expression is true")
-    parser.add_argument("--wall-time", action="store_true", help="Use the wall clock with simulated time too")
+    parser.add_argument(
+        "-w",
+        "--window",
+        metavar="WINDOW",
+        type=positive_int,
+        default=10000,
+        help="How many messages count",
+    )
+    parser.add_argument(
+        "--filter",
+        dest="filter_expr",
+        metavar="EXPR",
+        help="Only messages m for which this Python expression is true",
+    )
+    parser.add_argument(
+        "--wall-time", action="store_true", help="Use the wall clock with simulated time too"
+    )
     add_spin_arguments(parser)
 
 
@@ -42,7 +56,11 @@ def main(args: argparse.Namespace) -> None:
 
         def note(message: Any) -> None:
             if keep is None or keep(message):
-                intervals.add(time.monotonic_ns() if args.wall_time or not args.use_sim_time else clock.now().nanoseconds)
+                intervals.add(
+                    time.monotonic_ns()
+                    if args.wall_time or not args.use_sim_time
+                    else clock.now().nanoseconds
+                )
 
         qos = matching_publishers(direct.graph, topic)
         direct.node.create_subscription(kind, topic, note, qos, raw=keep is None)

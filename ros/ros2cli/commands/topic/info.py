@@ -18,7 +18,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
     topic.completer = topic_names  # type: ignore[attr-defined]
-    parser.add_argument("-v", "--verbose", action="store_true", help="Show each end: node, QoS, hash of the type")
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Show each end: node, QoS, hash of the type"
+    )
 
 
 def main(args: argparse.Namespace) -> str | None:

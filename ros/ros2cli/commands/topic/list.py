@@ -19,9 +19,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Only show how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Also topics with a part that begins with an underscore")
-    parser.add_argument("-v", "--verbose", action="store_true", help="Show how many publish and subscribe")
+    parser.add_argument(
+        "-c", "--count-topics", action="store_true", help="Only show how many there are"
+    )
+    parser.add_argument(
+        "--include-hidden-topics",
+        action="store_true",
+        help="Also topics with a part that begins with an underscore",
+    )
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Show how many publish and subscribe"
+    )
 
 
 def main(args: argparse.Namespace) -> None:
@@ -42,7 +50,10 @@ def main(args: argparse.Namespace) -> None:
 def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:
     from ros2cli.graph import endpoints_of_topic
 
-    for title, kind, word in (("Published", "publisher", "publisher"), ("Subscribed", "subscription", "subscriber")):
+    for title, kind, word in (
+        ("Published", "publisher", "publisher"),
+        ("Subscribed", "subscription", "subscriber"),
+    ):
         print(f"{title} topics:")
         for name, types in found:
             count = len(endpoints_of_topic(graph, name, kind))

@@ -23,22 +23,50 @@ _SAY_WAITING_EVERY_S = 1.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    topic = parser.add_argument("topic_name", help="Name of the topic, for example /turtle1/cmd_vel")
+    topic = parser.add_argument(
+        "topic_name", help="Name of the topic, for example /turtle1/cmd_vel"
+    )
     topic.completer = topic_names  # type: ignore[attr-defined]
-    kind = parser.add_argument("message_type", help="Type of the messages, for example geometry_msgs/msg/Twist")
+    kind = parser.add_argument(
+        "message_type", help="Type of the messages, for example geometry_msgs/msg/Twist"
+    )
     kind.completer = topic_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group()
-    values.add_argument("values", nargs="?", default="{}", help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'")
+    values.add_argument(
+        "values",
+        nargs="?",
+        default="{}",
+        help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'",
+    )
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
-    parser.add_argument("-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second")
-    parser.add_argument("-p", "--print", metavar="N", type=positive_int, default=1, help="Show only every Nth message")
+    parser.add_argument(
+        "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second"
+    )
+    parser.add_argument(
+        "-p",
+        "--print",
+        metavar="N",
+        type=positive_int,
+        default=1,
+        help="Show only every Nth message",
+    )
     times = parser.add_mutually_exclusive_group()
     times.add_argument("-1", "--once", action="store_true", help="Publish one message")
-    times.add_argument("-t", "--times", type=positive_int, default=0, help="Publish so many messages")
+    times.add_argument(
+        "-t", "--times", type=positive_int, default=0, help="Publish so many messages"
+    )
     wait_help = "Wait for so many subscriptions; by default for one with --once and --times"
     parser.add_argument("-w", "--wait-matching-subscriptions", type=unsigned_int, help=wait_help)
-    parser.add_argument("--max-wait-time-secs", type=positive_float, help="Wait at most so long for subscriptions")
-    parser.add_argument("--keep-alive", metavar="N", type=positive_float, default=0.1, help="Stay for N seconds after the last message")
+    parser.add_argument(
+        "--max-wait-time-secs", type=positive_float, help="Wait at most so long for subscriptions"
+    )
+    parser.add_argument(
+        "--keep-alive",
+        metavar="N",
+        type=positive_float,
+        default=0.1,
+        help="Stay for N seconds after the last message",
+    )
     parser.add_argument("-n", "--node-name", help="Name of the publishing node")
     add_qos_arguments(parser)
     add_spin_arguments(parser)
@@ -59,10 +87,15 @@ def main(args: argparse.Namespace) -> str | None:
         return f"Failed to populate field: {error}{field_meant(error)}"
     times = 1 if args.once else args.times
     with DirectNode(args, name=args.node_name) as direct:
-        publisher = direct.node.create_publisher(type(message), args.topic_name, with_options(args, "default"))
+        publisher = direct.node.create_publisher(
+            type(message), args.topic_name, with_options(args, "default")
+        )
         wanted = args.wait_matching_subscriptions
         message_or_none = _wait_for_subscriptions(
-            direct, publisher, (1 if times else 0) if wanted is None else wanted, args.max_wait_time_secs
+            direct,
+            publisher,
+            (1 if times else 0) if wanted is None else wanted,
+            args.max_wait_time_secs,
         )
         if message_or_none is not None:
             return message_or_none
@@ -73,19 +106,32 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-def _wait_for_subscriptions(direct: DirectNode, publisher: Any, wanted: int, limit: float | None) -> str | None:
+def _wait_for_subscriptions(
+    direct: DirectNode, publisher: Any, wanted: int, limit: float | None
+) -> str | None:
     """Wait; a text when the time is over."""
     deadline = None if limit is None else time.monotonic() + limit
     while (count := publisher.get_subscription_count()) < wanted:
         print(f"Waiting for at least {wanted} matching subscription(s)...")
-        rest = _SAY_WAITING_EVERY_S if deadline is None else min(_SAY_WAITING_EVERY_S, deadline - time.monotonic())
+        rest = (
+            _SAY_WAITING_EVERY_S
+            if deadline is None
+            else min(_SAY_WAITING_EVERY_S, deadline - time.monotonic())
+        )
         if rest <= 0:
             return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {count} subscribers"
         direct.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
     return None
 
 
-def _publish(args: argparse.Namespace, direct: DirectNode, publisher: Any, message: Any, stamps: list[Any], times: int) -> None:
+def _publish(
+    args: argparse.Namespace,
+    direct: DirectNode,
+    publisher: Any,
+    message: Any,
+    stamps: list[Any],
+    times: int,
+) -> None:
     from rclpy.task import Future
 
     count = 0

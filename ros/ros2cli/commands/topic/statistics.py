@@ -98,8 +98,11 @@ class Sizes:
             return ""
         sizes = [size for _, size in self._values]
         rate = sum(sizes) / max(now_s - self._values[0][0], 1e-9)
-        unit, divisor, digits = ("B", 1, 0) if rate < 1e3 else ("KB", 1e3, 2) if rate < 1e6 else ("MB", 1e6, 2)
+        unit, divisor, digits = (
+            ("B", 1, 0) if rate < 1e3 else ("KB", 1e3, 2) if rate < 1e6 else ("MB", 1e6, 2)
+        )
         shown, mean, least, most = (
-            f"{value / divisor:.{digits}f} {unit}" for value in (rate, statistics.fmean(sizes), min(sizes), max(sizes))
+            f"{value / divisor:.{digits}f} {unit}"
+            for value in (rate, statistics.fmean(sizes), min(sizes), max(sizes))
         )
         return f"{shown}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {least} max: {most}\n"

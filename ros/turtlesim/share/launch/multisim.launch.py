@@ -8,7 +8,12 @@ def generate_launch_description() -> LaunchDescription:
     """Give the description to `ros2 launch turtlesim multisim.launch.py`."""
     return LaunchDescription(
         [
-            Node(package="turtlesim", executable="turtlesim_node", namespace=namespace, output="screen")
+            Node(
+                package="turtlesim",
+                executable="turtlesim_node",
+                namespace=namespace,
+                output="screen",
+            )
             for namespace in ("turtlesim1", "turtlesim2")
         ]
     )

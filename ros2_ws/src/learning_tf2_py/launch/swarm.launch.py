@@ -9,7 +9,9 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription(
         [
-            DeclareLaunchArgument("count", default_value="1000", description="How many turtles there are."),
+            DeclareLaunchArgument(
+                "count", default_value="1000", description="How many turtles there are."
+            ),
             Node(
                 package="learning_tf2_py",
                 executable="swarm_with_simulator",

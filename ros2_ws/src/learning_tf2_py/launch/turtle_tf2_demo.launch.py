@@ -9,8 +9,16 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription(
         [
-            DeclareLaunchArgument("target_frame", default_value="turtle1", description="The frame that turtle2 follows."),
-            DeclareLaunchArgument("listener", default_value="turtle_tf2_listener", description="The program that drives turtle2."),
+            DeclareLaunchArgument(
+                "target_frame",
+                default_value="turtle1",
+                description="The frame that turtle2 follows.",
+            ),
+            DeclareLaunchArgument(
+                "listener",
+                default_value="turtle_tf2_listener",
+                description="The program that drives turtle2.",
+            ),
             Node(package="turtlesim", executable="turtlesim_node", name="sim"),
             Node(
                 package="learning_tf2_py",

@@ -8,6 +8,14 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    demo = PathJoinSubstitution([FindPackageShare("learning_tf2_py"), "launch", "turtle_tf2_demo.launch.py"])
+    demo = PathJoinSubstitution(
+        [FindPackageShare("learning_tf2_py"), "launch", "turtle_tf2_demo.launch.py"]
+    )
     arguments = {"listener": "turtle_tf2_time_travel"}
-    return LaunchDescription([IncludeLaunchDescription(PythonLaunchDescriptionSource(demo), launch_arguments=arguments.items())])
+    return LaunchDescription(
+        [
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(demo), launch_arguments=arguments.items()
+            )
+        ]
+    )

@@ -8,11 +8,20 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    demo = PathJoinSubstitution([FindPackageShare("learning_tf2_py"), "launch", "turtle_tf2_demo.launch.py"])
+    demo = PathJoinSubstitution(
+        [FindPackageShare("learning_tf2_py"), "launch", "turtle_tf2_demo.launch.py"]
+    )
     listener = ["turtle_tf2_", LaunchConfiguration("waiting"), "_listener"]
     return LaunchDescription(
         [
-            DeclareLaunchArgument("waiting", default_value="blocking", choices=["blocking", "async"], description="How it waits."),
-            IncludeLaunchDescription(PythonLaunchDescriptionSource(demo), launch_arguments={"listener": listener}.items()),
+            DeclareLaunchArgument(
+                "waiting",
+                default_value="blocking",
+                choices=["blocking", "async"],
+                description="How it waits.",
+            ),
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(demo), launch_arguments={"listener": listener}.items()
+            ),
         ]
     )

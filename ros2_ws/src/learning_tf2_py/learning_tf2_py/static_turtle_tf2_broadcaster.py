@@ -24,9 +24,16 @@ class StaticTurtleBroadcaster(Node):
         t.header.stamp = self.get_clock().now().to_msg()
         t.header.frame_id = "world"
         t.child_frame_id = child_frame_id
-        t.transform.translation.x, t.transform.translation.y, t.transform.translation.z = translation
+        t.transform.translation.x, t.transform.translation.y, t.transform.translation.z = (
+            translation
+        )
         q = quaternion_from_euler(*angles)
-        t.transform.rotation.x, t.transform.rotation.y, t.transform.rotation.z, t.transform.rotation.w = q
+        (
+            t.transform.rotation.x,
+            t.transform.rotation.y,
+            t.transform.rotation.z,
+            t.transform.rotation.w,
+        ) = q
         self.broadcaster.sendTransform(t)
 
 

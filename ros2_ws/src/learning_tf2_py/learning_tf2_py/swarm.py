@@ -12,9 +12,11 @@ from tf2_ros import Buffer, TransformBroadcaster, TransformException, TransformL
 from turtlesim.msg import Pose
 from turtlesim.srv import Spawn
 
-#: Where they begin: on a spiral around the middle of the field, so that each has the one before it near by.
+#: Where they begin: on a spiral around the middle of the field, so that each has the one before it
+#: near by.
 MIDDLE, RADIUS = 5.5444, 4.5
-#: Each turtle is looked after ten times a second, a fifth of them at a time: the simulator never waits for all.
+#: Each turtle is looked after ten times a second, a fifth of them at a time: the simulator never
+#: waits for all.
 GROUPS = 5
 PERIOD = 0.1 / GROUPS
 #: So many turtles may wait for the simulator at a time.
@@ -25,20 +27,31 @@ def place_on_spiral(k, count):
     """Return x, y and the heading inwards of turtle number `k` of `count`."""
     growth = math.sqrt(k / count)
     angle = math.tau * growth * math.sqrt(count) / 3
-    return MIDDLE + RADIUS * growth * math.cos(angle), MIDDLE + RADIUS * growth * math.sin(angle), angle - math.pi / 2
+    return (
+        MIDDLE + RADIUS * growth * math.cos(angle),
+        MIDDLE + RADIUS * growth * math.sin(angle),
+        angle - math.pi / 2,
+    )
 
 
 class Mailboxes(Node):
     """Keeps the newest pose of each turtle. The simulator tells it at 62.5 Hz: it is taken when it is needed, without a callback."""
 
     def __init__(self):
-        super().__init__("swarm_mailboxes", use_global_arguments=False, start_parameter_services=False, enable_rosout=False)
+        super().__init__(
+            "swarm_mailboxes",
+            use_global_arguments=False,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
         self.boxes = {}
 
     def newest_pose(self, name):
         """Return the pose that came since the last call, or None."""
         if name not in self.boxes:
-            self.boxes[name] = self.create_subscription(Pose, f"/{name}/pose", lambda _: None, 1).handle
+            self.boxes[name] = self.create_subscription(
+                Pose, f"/{name}/pose", lambda _: None, 1
+            ).handle
         news = self.boxes[name].take_message(Pose, False)
         return None if news is None else news[0]
 
@@ -75,7 +88,9 @@ class Swarm(Node):
         self.tf_listener = TransformListener(self.tf_buffer, self)
         self.broadcaster = TransformBroadcaster(self)
 
-        self.members = [Member("turtle1", self)]  # the simulator's own turtle leads, and is anybody's to drive
+        self.members = [
+            Member("turtle1", self)
+        ]  # the simulator's own turtle leads, and is anybody's to drive
         self.asked = 1
         self.ticks = 0
         self.spawner = self.create_client(Spawn, "spawn")
@@ -96,15 +111,21 @@ class Swarm(Node):
         """Tell TF where these turtles are, in one message."""
         stamp = self.get_clock().now().to_msg()
         poses = [(member, self.newest_pose(member.name)) for member in members]
-        self.broadcaster.sendTransform([member.put(pose, stamp) for member, pose in poses if pose is not None])
+        self.broadcaster.sendTransform(
+            [member.put(pose, stamp) for member, pose in poses if pose is not None]
+        )
 
     def drive(self, k):
         """Send a turtle to where TF says that the one before it is."""
         member, leader = self.members[k], self.members[k - 1]
         try:
-            place = self.tf_buffer.lookup_transform(member.name, leader.name, Time()).transform.translation
+            place = self.tf_buffer.lookup_transform(
+                member.name, leader.name, Time()
+            ).transform.translation
         except TransformException as ex:
-            self.get_logger().debug(f"Could not retrieve transform: {ex}")  # TF has not heard of a new turtle yet
+            self.get_logger().debug(
+                f"Could not retrieve transform: {ex}"
+            )  # TF has not heard of a new turtle yet
             return
         member.commands.publish(twist_towards(place.x, place.y))
 
@@ -115,7 +136,9 @@ class Swarm(Node):
         self.asked += 1
         x, y, theta = place_on_spiral(self.asked, self.count)
         request = Spawn.Request(x=x, y=y, theta=theta, name=f"turtle{self.asked}")
-        self.spawner.call_async(request).add_done_callback(lambda future: self.on_spawned(request.name, future))
+        self.spawner.call_async(request).add_done_callback(
+            lambda future: self.on_spawned(request.name, future)
+        )
 
     def on_spawned(self, name, future):
         future.result()  # an empty answer means that there is a turtle of this name: it takes part

@@ -3,7 +3,9 @@
 import rclpy
 from learning_tf2_py.swarm import Swarm
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from turtlesim.turtlesim_node import TurtlesimNode  # turtlewire's; beside a simulator in C++ run `swarm`
+from turtlesim.turtlesim_node import (
+    TurtlesimNode,
+)  # turtlewire's; beside a simulator in C++ run `swarm`
 
 
 def main(args=None):

@@ -16,7 +16,11 @@ class BlockingListener(TurtleListener):
     def on_timer(self):
         now = self.get_clock().now()
         try:
-            self.steer(self.tf_buffer.lookup_transform(FOLLOWER, self.target_frame, now, timeout=Duration(seconds=1.0)))
+            self.steer(
+                self.tf_buffer.lookup_transform(
+                    FOLLOWER, self.target_frame, now, timeout=Duration(seconds=1.0)
+                )
+            )
         except TransformException as ex:
             self.get_logger().info(f"Could not retrieve transform: {ex}", throttle_duration_sec=1.0)
             self.spawn_follower()
@@ -25,7 +29,8 @@ class BlockingListener(TurtleListener):
 def main(args=None):
     rclpy.init(args=args)
     try:
-        # A callback that waits holds its thread. Where TF2 listens through the executor, another thread must bring what it waits for.
+        # A callback that waits holds its thread. Where TF2 listens through the executor, another
+        # thread must bring what it waits for.
         rclpy.spin(BlockingListener(), MultiThreadedExecutor())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

@@ -28,7 +28,12 @@ class TurtleBroadcaster(Node):
         t.transform.translation.x = pose.x
         t.transform.translation.y = pose.y
         q = quaternion_from_euler(0.0, 0.0, pose.theta)
-        t.transform.rotation.x, t.transform.rotation.y, t.transform.rotation.z, t.transform.rotation.w = q
+        (
+            t.transform.rotation.x,
+            t.transform.rotation.y,
+            t.transform.rotation.z,
+            t.transform.rotation.w,
+        ) = q
 
         self.broadcaster.sendTransform(t)
 

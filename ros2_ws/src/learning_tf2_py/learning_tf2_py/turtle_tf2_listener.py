@@ -53,7 +53,9 @@ class TurtleListener(Node):
             return
         if self.count_publishers(f"{FOLLOWER}/pose"):
             return
-        self.spawning = self.spawner.call_async(Spawn.Request(x=4.0, y=2.0, theta=0.0, name=FOLLOWER))
+        self.spawning = self.spawner.call_async(
+            Spawn.Request(x=4.0, y=2.0, theta=0.0, name=FOLLOWER)
+        )
         self.spawning.add_done_callback(self.on_spawned)
 
     def on_spawned(self, future):

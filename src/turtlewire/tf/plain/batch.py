@@ -7,7 +7,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
-from turtlewire.tf.plain.poses import IDENTITY, Pose, Quaternion, Vector, compose, conjugate, multiply, rotate
+from turtlewire.tf.plain.poses import (
+    IDENTITY,
+    Pose,
+    Quaternion,
+    Vector,
+    compose,
+    conjugate,
+    multiply,
+    rotate,
+)
 from turtlewire.tf.plain.texts import Failure
 from turtlewire.tf.status import LookupStatus
 
@@ -39,7 +48,9 @@ def lookup_batch(
     return result
 
 
-def lookup_all(self: Buffer, target_frame: str, stamp_ns: int = 0) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
+def lookup_all(
+    self: Buffer, target_frame: str, stamp_ns: int = 0
+) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
     """The poses of all frames in one frame at one time."""
     import numpy as np
 
@@ -47,14 +58,24 @@ def lookup_all(self: Buffer, target_frame: str, stamp_ns: int = 0) -> tuple[list
     (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
     frames, poses, stamps = [], [], []
     with self._changed:
-        self._checked(lambda: self._tree.check_name(target_frame, "lookupTransform", "target_frame"))
+        self._checked(
+            lambda: self._tree.check_name(target_frame, "lookupTransform", "target_frame")
+        )
         for frame in self._tree.frames:
-            found = _attempt(lambda frame=frame: self._tree.lookup(target_frame, frame, stamp_ns, "lookupTransform"))  # type: ignore[misc]
+            found = _attempt(
+                lambda frame=frame: self._tree.lookup(  # type: ignore[misc]
+                    target_frame, frame, stamp_ns, "lookupTransform"
+                )
+            )
             if isinstance(found, tuple):
                 frames.append(frame)
                 stamps.append(found[0])
                 poses.append(found[1])
-    return frames, np.array(poses, dtype=np.float64).reshape(-1, 7), np.array(stamps, dtype=np.int64)
+    return (
+        frames,
+        np.array(poses, dtype=np.float64).reshape(-1, 7),
+        np.array(stamps, dtype=np.int64),
+    )
 
 
 def transform_points(
@@ -74,9 +95,15 @@ def transform_points(
     check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
     (target_stamp_ns,) = nanoseconds(target_stamp_ns=target_stamp_ns)
     if fixed_frame is None and target_stamp_ns:
-        raise ValueError("target_stamp_ns needs fixed_frame, the frame by way of which points get to another time")
+        raise ValueError(
+            "target_stamp_ns needs fixed_frame, the frame by way of which points get to another time"
+        )
     given, result = _points(points, out)
-    last = _pose(self, target_frame, own_target, target_stamp_ns) if fixed_frame is not None else IDENTITY
+    last = (
+        _pose(self, target_frame, own_target, target_stamp_ns)
+        if fixed_frame is not None
+        else IDENTITY
+    )
     times, single = _times(stamps)
     if single:
         if status is not None:
@@ -97,13 +124,22 @@ def _points(points: ArrayLike, out: NDArray[Any] | None) -> tuple[NDArray[Any], 
     import numpy as np
 
     given = np.asarray(points)
-    given = np.ascontiguousarray(given, dtype=np.float32 if given.dtype == np.float32 else np.float64)
+    given = np.ascontiguousarray(
+        given, dtype=np.float32 if given.dtype == np.float32 else np.float64
+    )
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError("points must have the shape (N, 3)")
     if out is None:
         return given, np.empty_like(given)
-    if not isinstance(out, np.ndarray) or out.dtype != given.dtype or not out.flags.c_contiguous or not out.flags.writeable:
-        raise TypeError("out must be a writable, C-contiguous (N, 3) array of the same type as points")
+    if (
+        not isinstance(out, np.ndarray)
+        or out.dtype != given.dtype
+        or not out.flags.c_contiguous
+        or not out.flags.writeable
+    ):
+        raise TypeError(
+            "out must be a writable, C-contiguous (N, 3) array of the same type as points"
+        )
     _check_shape(out, given.shape, "out")
     return (given.copy() if np.may_share_memory(given, out) else given), out
 
@@ -154,10 +190,16 @@ def lookup_velocity(
 def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tuple[Vector, Vector]:
     """The chord of a point's way, and the turn in the observer's axes, by time."""
     begin, end = (compose(pose, (*point, 0.0, 0.0, 0.0, 1.0)) for pose in (first, last))
-    linear = ((end[0] - begin[0]) / seconds, (end[1] - begin[1]) / seconds, (end[2] - begin[2]) / seconds)
+    linear = (
+        (end[0] - begin[0]) / seconds,
+        (end[1] - begin[1]) / seconds,
+        (end[2] - begin[2]) / seconds,
+    )
     x, y, z, w = multiply(last[3:], conjugate(first[3:]))
     sine = math.sqrt(x * x + y * y + z * z)
-    factor = math.copysign(2.0 if sine < 1e-9 else 2.0 * math.atan2(sine, abs(w)) / sine, w) / seconds
+    factor = (
+        math.copysign(2.0 if sine < 1e-9 else 2.0 * math.atan2(sine, abs(w)) / sine, w) / seconds
+    )
     return linear, (factor * x, factor * y, factor * z)
 
 
@@ -170,11 +212,18 @@ def _pose(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
         return buffer._checked(lambda: _bare(buffer, target, source, stamp))
 
 
-def _poses(buffer: Buffer, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None) -> Iterable[Pose]:
+def _poses(
+    buffer: Buffer, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None
+) -> Iterable[Pose]:
     _check_status(status, len(stamps))
     for i, stamp in enumerate(stamps):
         with buffer._changed:
-            pose = _with_status(buffer, lambda stamp=stamp: _bare(buffer, target, source, stamp), status, i)  # type: ignore[misc]
+            pose = _with_status(
+                buffer,
+                lambda stamp=stamp: _bare(buffer, target, source, stamp),  # type: ignore[misc]
+                status,
+                i,
+            )
         yield pose or (math.nan,) * 7
 
 
@@ -185,7 +234,9 @@ def _attempt(ask: Callable[[], Any]) -> Any:
         return failure.status
 
 
-def _with_status(buffer: Buffer, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int) -> Any:
+def _with_status(
+    buffer: Buffer, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
+) -> Any:
     """The answer; without one None, and its status noted, or the exception if nobody wants a status."""
     if status is None:
         return buffer._checked(ask)
@@ -217,7 +268,9 @@ def _stamps(stamps: ArrayLike) -> list[int]:
 def _check_status(status: NDArray[np.uint8] | None, count: int) -> None:
     import numpy as np
 
-    if status is not None and not (isinstance(status, np.ndarray) and status.dtype == np.uint8 and status.flags.carray):
+    if status is not None and not (
+        isinstance(status, np.ndarray) and status.dtype == np.uint8 and status.flags.carray
+    ):
         raise TypeError("status must be a writable, C-contiguous uint8 array")
     _check_shape(status, (count,), "status")
 
@@ -233,7 +286,12 @@ def _output(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[
 
     if out is None:
         return np.empty(shape)
-    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+    if (
+        not isinstance(out, np.ndarray)
+        or out.dtype != np.float64
+        or not out.flags.c_contiguous
+        or not out.flags.writeable
+    ):
         raise TypeError("out must be a writable, C-contiguous float64 array")
     _check_shape(out, shape, "out")
     return out

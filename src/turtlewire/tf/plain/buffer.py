@@ -14,7 +14,15 @@ from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.cdr import decode_tf_message
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
-from turtlewire.tf.plain.texts import ERRORS, Failure, Question, frames_as_dot, frames_as_string, frames_as_yaml, refusal
+from turtlewire.tf.plain.texts import (
+    ERRORS,
+    Failure,
+    Question,
+    frames_as_dot,
+    frames_as_string,
+    frames_as_yaml,
+    refusal,
+)
 from turtlewire.tf.plain.transform import Transform
 from turtlewire.tf.plain.tree import NO_PARENT, Tree
 from turtlewire.tf.status import LookupStatus
@@ -31,7 +39,8 @@ class Buffer:
     """The transforms of a tree of frames over time. Safe for use from many threads.
 
     Args:
-        cache_time_ns: How long samples are kept, counted back from the newest of their link; None: forever.
+        cache_time_ns: How long samples are kept, counted back from the newest of their link; None:
+            forever.
     """
 
     __module__ = "turtlewire"
@@ -88,7 +97,9 @@ class Buffer:
         qx, qy, qz, qw = numbers("rotation", rotation, 4)
         pose = (x, y, z, qx, qy, qz, qw)
         with self._changed:
-            verdict = self._tree.set(parent_frame, child_frame, stamp_ns, pose, authority, static=static)
+            verdict = self._tree.set(
+                parent_frame, child_frame, stamp_ns, pose, authority, static=static
+            )
             if not verdict:
                 self._changed.notify_all()
         if verdict:
@@ -111,7 +122,11 @@ class Buffer:
         except CdrError as error:
             with self._changed:
                 fault = str(error).removeprefix("not a TFMessage: ")
-                self._tree.malformed = (self._tree.malformed[0] + 1, fault, self._tree.shown_senders.get(authority, authority))
+                self._tree.malformed = (
+                    self._tree.malformed[0] + 1,
+                    fault,
+                    self._tree.shown_senders.get(authority, authority),
+                )
             raise
         accepted = 0
         with self._changed:
@@ -119,7 +134,9 @@ class Buffer:
                 try:
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
-                    self._tree.refuse("name", child.decode(errors="replace"), stamp, pose, authority)
+                    self._tree.refuse(
+                        "name", child.decode(errors="replace"), stamp, pose, authority
+                    )
                     continue
                 accepted += not self._tree.set(*names, stamp, pose, authority, static=static)
             if accepted:
@@ -135,7 +152,9 @@ class Buffer:
 
     # -- questions
 
-    def lookup_transform(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> Transform:
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
+    ) -> Transform:
         """The pose of source_frame in target_frame at one time: ``target_from_source``; 0 is the latest that all links know.
 
         Raises:
@@ -146,38 +165,77 @@ class Buffer:
         """
         check_frames(target_frame=target_frame, source_frame=source_frame)
         (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
-        stamp, pose = self._raising(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "lookupTransform"), timeout_ns)
+        stamp, pose = self._raising(
+            partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "lookupTransform"),
+            timeout_ns,
+        )
         return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
 
     def lookup_transform_full(
-        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+        self,
+        target_frame: str,
+        target_stamp_ns: int,
+        source_frame: str,
+        source_stamp_ns: int,
+        fixed_frame: str,
+        timeout_ns: int = 0,
     ) -> Transform:
         """The pose of source_frame at one time in target_frame at another, by way of a frame that did not move."""
-        ask = self._full_question(self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
+        ask = self._full_question(
+            self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame
+        )
         stamp, pose = self._raising(ask, timeout_ns)
         return Transform(target_frame, source_frame, stamp, pose[:3], pose[3:])
 
-    def can_transform(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> bool:
+    def can_transform(
+        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
+    ) -> bool:
         """Whether lookup_transform with the same arguments gives an answer."""
         return not self.can_transform_reason(target_frame, source_frame, stamp_ns, timeout_ns)
 
-    def can_transform_reason(self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0) -> str:
+    def can_transform_reason(
+        self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
+    ) -> str:
         """An empty string if can_transform is true, else tf2's text of why it is not."""
         check_frames(target_frame=target_frame, source_frame=source_frame)
         (stamp_ns,) = nanoseconds(stamp_ns=stamp_ns)
-        return self._reason(partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "canTransform"), timeout_ns)
+        return self._reason(
+            partial(self._tree.lookup, target_frame, source_frame, stamp_ns, "canTransform"),
+            timeout_ns,
+        )
 
     def can_transform_full(
-        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+        self,
+        target_frame: str,
+        target_stamp_ns: int,
+        source_frame: str,
+        source_stamp_ns: int,
+        fixed_frame: str,
+        timeout_ns: int = 0,
     ) -> bool:
         """Whether lookup_transform_full with the same arguments gives an answer."""
-        return not self.can_transform_full_reason(target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, timeout_ns)
+        return not self.can_transform_full_reason(
+            target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame, timeout_ns
+        )
 
     def can_transform_full_reason(
-        self, target_frame: str, target_stamp_ns: int, source_frame: str, source_stamp_ns: int, fixed_frame: str, timeout_ns: int = 0
+        self,
+        target_frame: str,
+        target_stamp_ns: int,
+        source_frame: str,
+        source_stamp_ns: int,
+        fixed_frame: str,
+        timeout_ns: int = 0,
     ) -> str:
         """An empty string if can_transform_full is true, else tf2's text of why it is not."""
-        ask = self._full_question(self._can_full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame)
+        ask = self._full_question(
+            self._can_full,
+            target_frame,
+            target_stamp_ns,
+            source_frame,
+            source_stamp_ns,
+            fixed_frame,
+        )
         return self._reason(ask, timeout_ns)
 
     def latest_common_time(self, target_frame: str, source_frame: str) -> int:
@@ -254,19 +312,31 @@ class Buffer:
     # -- asking, with the lock and a timeout
 
     def _full_question(
-        self, ask: Callable[..., _Answer], target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
+        self,
+        ask: Callable[..., _Answer],
+        target: str,
+        target_stamp: int,
+        source: str,
+        source_stamp: int,
+        fixed: str,
     ) -> Callable[[], _Answer]:
         check_frames(target_frame=target, source_frame=source, fixed_frame=fixed)
-        target_stamp, source_stamp = nanoseconds(target_stamp_ns=target_stamp, source_stamp_ns=source_stamp)
+        target_stamp, source_stamp = nanoseconds(
+            target_stamp_ns=target_stamp, source_stamp_ns=source_stamp
+        )
         return partial(ask, target, target_stamp, source, source_stamp, fixed)
 
-    def _full(self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str) -> tuple[int, Pose]:
+    def _full(
+        self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
+    ) -> tuple[int, Pose]:
         self._check_names(target, source, fixed, "lookupTransform")
         _, fixed_from_source = self._tree.lookup(fixed, source, source_stamp, "lookupTransform")
         stamp, target_from_fixed = self._tree.lookup(target, fixed, target_stamp, "lookupTransform")
         return stamp, canonical(compose(target_from_fixed, fixed_from_source))
 
-    def _can_full(self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str) -> None:
+    def _can_full(
+        self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
+    ) -> None:
         self._check_names(target, source, fixed, "canTransform")
         self._tree.lookup(target, fixed, target_stamp, "canTransform")
         self._tree.lookup(fixed, source, source_stamp, "canTransform")
@@ -291,7 +361,11 @@ class Buffer:
 
     def _error(self, failure: Failure) -> TransformException:
         error = ERRORS[failure.status](str(failure))
-        error._details = (*failure.details, self) if failure.status == LookupStatus.UNKNOWN_FRAME else failure.details
+        error._details = (
+            (*failure.details, self)
+            if failure.status == LookupStatus.UNKNOWN_FRAME
+            else failure.details
+        )
         return error
 
     def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
@@ -321,5 +395,11 @@ def _call(listener: Callable[[], object]) -> None:
         listener()
     except Exception as error:  # noqa: BLE001 - whoever brought the data is not the one to tell
         sys.unraisablehook(
-            SimpleNamespace(exc_type=type(error), exc_value=error, exc_traceback=error.__traceback__, err_msg=None, object=listener)
+            SimpleNamespace(
+                exc_type=type(error),
+                exc_value=error,
+                exc_traceback=error.__traceback__,
+                err_msg=None,
+                object=listener,
+            )
         )

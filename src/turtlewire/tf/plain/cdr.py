@@ -18,11 +18,15 @@ def decode_tf_message(data: bytes) -> list[tuple[int, bytes, bytes, Pose]]:
     if len(data) < 8:
         raise CdrError(f"not a TFMessage: a TFMessage has at least 8 bytes, these are {len(data)}")
     if data[0] != 0 or data[1] > 1:
-        raise CdrError(f"not a TFMessage: the first two bytes, {data[0]} {data[1]}, are not those of plain CDR (0 0 or 0 1)")
+        raise CdrError(
+            f"not a TFMessage: the first two bytes, {data[0]} {data[1]}, are not those of plain CDR (0 0 or 0 1)"
+        )
     order = "<" if data[1] else ">"
     (count,) = struct.unpack_from(order + "I", data, 4)
     if count > len(data) // 72:
-        raise CdrError(f"not a TFMessage: {count} transforms are announced, which do not fit into {len(data)} bytes")
+        raise CdrError(
+            f"not a TFMessage: {count} transforms are announced, which do not fit into {len(data)} bytes"
+        )
     return list(_transforms(data, count, order))
 
 

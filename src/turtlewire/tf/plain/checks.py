@@ -26,7 +26,9 @@ def _nanoseconds(argument: str, time: Any) -> int:
     try:
         value = operator.index(time)
     except TypeError:
-        raise TypeError(f"{argument} must be an int of nanoseconds, not {type(time).__name__}") from None
+        raise TypeError(
+            f"{argument} must be an int of nanoseconds, not {type(time).__name__}"
+        ) from None
     if not -_LIMIT <= value < _LIMIT:
         raise OverflowError(f"{argument} does not fit into 64 bits")
     return value

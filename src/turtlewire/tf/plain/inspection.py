@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from turtlewire.tf.plain.buffer import Buffer
 
 
-def extrapolate_transform(self: Buffer, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int) -> Transform:
+def extrapolate_transform(
+    self: Buffer, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
+) -> Transform:
     """lookup_transform, but a time up to ``limit_ns`` outside of a link's data is answered as well."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
     stamp_ns, limit_ns = nanoseconds(stamp_ns=stamp_ns, limit_ns=limit_ns)
@@ -24,7 +26,12 @@ def extrapolate_transform(self: Buffer, target_frame: str, source_frame: str, st
         raise ValueError("limit_ns must not be negative")
     with self._changed:
         pose, _ = self._checked(
-            lambda: self._tree.lookup_by(target_frame, source_frame, stamp_ns, lambda link: link.read_beyond(stamp_ns, limit_ns))
+            lambda: self._tree.lookup_by(
+                target_frame,
+                source_frame,
+                stamp_ns,
+                lambda link: link.read_beyond(stamp_ns, limit_ns),
+            )
         )
     return Transform(target_frame, source_frame, stamp_ns, pose[:3], pose[3:])
 
@@ -39,10 +46,19 @@ def lookup_latest(
         raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
     with self._changed:
         pose, used = self._checked(
-            lambda: self._tree.lookup_by(target_frame, source_frame, now_ns, lambda link: link.read_newest(now_ns, max_age_ns))
+            lambda: self._tree.lookup_by(
+                target_frame,
+                source_frame,
+                now_ns,
+                lambda link: link.read_newest(now_ns, max_age_ns),
+            )
         )
-        stamps = {child: link.newest for child in used if not (link := self._tree.links[child]).static}
-    return Transform(target_frame, source_frame, min(stamps.values(), default=0), pose[:3], pose[3:]), stamps
+        stamps = {
+            child: link.newest for child in used if not (link := self._tree.links[child]).static
+        }
+    return Transform(
+        target_frame, source_frame, min(stamps.values(), default=0), pose[:3], pose[3:]
+    ), stamps
 
 
 def remove_frame(self: Buffer, child_frame: str) -> bool:
@@ -56,11 +72,17 @@ def remove_stale(self: Buffer, before_ns: int) -> list[str]:
     """Remove all frames that move and have no data since a time; their names."""
     (before_ns,) = nanoseconds(before_ns=before_ns)
     with self._changed:
-        stale = [child for child, link in self._tree.links.items() if not link.static and link.newest < before_ns]
+        stale = [
+            child
+            for child, link in self._tree.links.items()
+            if not link.static and link.newest < before_ns
+        ]
         return [child for child in stale if self._tree.remove(child)]
 
 
-def samples(self: Buffer, child_frame: str) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
+def samples(
+    self: Buffer, child_frame: str
+) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
     """The whole history of one frame, oldest first: for each run with one parent the parent, the stamps and the poses."""
     import numpy as np
 
@@ -70,16 +92,27 @@ def samples(self: Buffer, child_frame: str) -> list[tuple[str, NDArray[np.int64]
         link = self._tree.links.get(child_frame)
         if link is None:
             return []
-        history = [(0, link.fixed)] if link.fixed else list(zip(link.stamps, link.samples, strict=True))
+        history = (
+            [(0, link.fixed)] if link.fixed else list(zip(link.stamps, link.samples, strict=True))
+        )
     return [
-        (parent, np.array([stamp for stamp, _ in rows], dtype=np.int64), np.array([sample.pose for _, sample in rows]))
+        (
+            parent,
+            np.array([stamp for stamp, _ in rows], dtype=np.int64),
+            np.array([sample.pose for _, sample in rows]),
+        )
         for parent, run in groupby(history, key=lambda entry: entry[1].parent)
         if (rows := list(run))
     ]
 
 
 def set_transforms(
-    self: Buffer, parent_frame: str, child_frame: str, stamps: ArrayLike, poses: ArrayLike, authority: str = "default_authority"
+    self: Buffer,
+    parent_frame: str,
+    child_frame: str,
+    stamps: ArrayLike,
+    poses: ArrayLike,
+    authority: str = "default_authority",
 ) -> int:
     """set_transform for many samples of one frame; how many were accepted."""
     import numpy as np
@@ -96,7 +129,9 @@ def set_transforms(
     with self._changed:
         for stamp, row in zip(times, rows.tolist(), strict=True):
             x, y, z, qx, qy, qz, qw = row
-            accepted += not self._tree.set(parent_frame, child_frame, stamp, (x, y, z, qx, qy, qz, qw), authority, static=False)
+            accepted += not self._tree.set(
+                parent_frame, child_frame, stamp, (x, y, z, qx, qy, qz, qw), authority, static=False
+            )
         if accepted:
             self._changed.notify_all()
     if accepted:
@@ -108,7 +143,17 @@ def describe_links(self: Buffer) -> list[tuple[Any, ...]]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return [
-            (child, link.parent, link.static, link.length, link.oldest, link.newest, link.parent_changes, 0, link.sender_rows())
+            (
+                child,
+                link.parent,
+                link.static,
+                link.length,
+                link.oldest,
+                link.newest,
+                link.parent_changes,
+                0,
+                link.sender_rows(),
+            )
             for child, link in self._tree.links.items()
         ]
 
@@ -116,7 +161,10 @@ def describe_links(self: Buffer) -> list[tuple[Any, ...]]:
 def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
     """For turtlewire.tf.inspection."""
     with self._changed:
-        return {child: (dict(record.counts), refusal(*record.last)) for child, record in self._tree.refusals.items()}
+        return {
+            child: (dict(record.counts), refusal(*record.last))
+            for child, record in self._tree.refusals.items()
+        }
 
 
 def describe_malformed(self: Buffer) -> tuple[int, str, str]:
@@ -135,7 +183,9 @@ def fault(self: Buffer) -> str:
     """What is wrong with the buffer's own state; for tests."""
     with self._changed:
         for child, link in self._tree.links.items():
-            if child not in self._tree.frames or (link.has_data and link.parent not in self._tree.frames):
+            if child not in self._tree.frames or (
+                link.has_data and link.parent not in self._tree.frames
+            ):
                 return f"{child}: forgotten, but in use"
             if link.stamps != sorted(link.stamps) or len(link.stamps) != len(link.samples):
                 return f"{child}: stamps are not in order"

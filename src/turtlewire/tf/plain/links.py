@@ -29,7 +29,9 @@ class Link:
 
     def __init__(self, *, static: bool) -> None:
         self.static = static
-        self.senders: dict[tuple[str, str], list[int]] = {}  # (name, parent) -> samples, newest stamp; the last sender is last
+        self.senders: dict[
+            tuple[str, str], list[int]
+        ] = {}  # (name, parent) -> samples, newest stamp; the last sender is last
         self.fixed: Sample | None = None
         self.stamps: list[int] = []
         self.samples: list[Sample] = []
@@ -88,7 +90,10 @@ class Link:
 
     def sender_rows(self) -> list[tuple[str, str, int, int]]:
         """(name, parent, samples, newest stamp) of all senders."""
-        return [(name, parent, samples, newest) for (name, parent), (samples, newest) in self.senders.items()]
+        return [
+            (name, parent, samples, newest)
+            for (name, parent), (samples, newest) in self.senders.items()
+        ]
 
     def clear(self) -> None:
         """Forget the samples; a static pose stays."""

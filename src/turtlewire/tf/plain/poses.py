@@ -34,7 +34,11 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
     x, y, z, w = q
     vx, vy, vz = v
     tx, ty, tz = 2.0 * (y * vz - z * vy), 2.0 * (z * vx - x * vz), 2.0 * (x * vy - y * vx)
-    return (vx + w * tx + (y * tz - z * ty), vy + w * ty + (z * tx - x * tz), vz + w * tz + (x * ty - y * tx))
+    return (
+        vx + w * tx + (y * tz - z * ty),
+        vy + w * ty + (z * tx - x * tz),
+        vz + w * tz + (x * ty - y * tx),
+    )
 
 
 def compose(a: Pose, b: Pose) -> Pose:
@@ -57,8 +61,9 @@ def canonical(pose: Pose) -> Pose:
 def through_matrix(q: Quaternion) -> Quaternion:
     """A quaternion of any length as tf2 stores it: by way of the 3x3 matrix.
 
-    The result is unit, and one of ``q`` and ``-q`` was chosen: the one whose ``w`` is positive if the trace is, else the one whose
-    largest of ``x, y, z`` is. A length beyond the range of floats gives the identity, a length of zero gives NaN.
+    The result is unit, and one of ``q`` and ``-q`` was chosen: the one whose ``w`` is positive if
+    the trace is, else the one whose largest of ``x, y, z`` is. A length beyond the range of floats
+    gives the identity, a length of zero gives NaN.
     """
     x, y, z, w = q
     length2 = x * x + y * y + z * z + w * w

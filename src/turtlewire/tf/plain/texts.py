@@ -32,7 +32,14 @@ class Failure(Exception):
         hopeless: Whether more data cannot help.
     """
 
-    def __init__(self, text: str, status: LookupStatus, details: tuple[Any, ...] = (), *, hopeless: bool = False) -> None:
+    def __init__(
+        self,
+        text: str,
+        status: LookupStatus,
+        details: tuple[Any, ...] = (),
+        *,
+        hopeless: bool = False,
+    ) -> None:
         super().__init__(text)
         self.status = status
         self.details = details
@@ -53,7 +60,10 @@ ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
 
 def name_failure(status: LookupStatus, name: str, question: Question, argument: str) -> Failure:
     """A frame id that cannot be asked for."""
-    why = {LookupStatus.EMPTY_NAME: "cannot be empty", LookupStatus.SLASH_NAME: "cannot start with a '/'"}.get(status, "")
+    why = {
+        LookupStatus.EMPTY_NAME: "cannot be empty",
+        LookupStatus.SLASH_NAME: "cannot start with a '/'",
+    }.get(status, "")
     where = question if question == "get_latest_common_time" else f"{question} argument {argument}"
     if question == "canTransform":
         why = f"in tf2 frame_ids {why}" if why else "frame does not exist"
@@ -77,10 +87,14 @@ def connection_failure(target: str, source: str, target_root: str, source_root: 
 
 def loop_failure(frames: str) -> Failure:
     """A walk that does not end."""
-    return Failure(f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP)
+    return Failure(
+        f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
+    )
 
 
-def time_failure(status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int) -> Failure:
+def time_failure(
+    status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int
+) -> Failure:
     """A link whose data does not reach a time."""
     asked, oldest, newest = (f"{_seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
     if status == LookupStatus.FUTURE:
@@ -100,7 +114,10 @@ def time_failure(status: LookupStatus, child: str, link: Link, stamp: int, targe
 
 
 def _values(pose: Pose) -> str:
-    numbers = ["-nan" if math.isnan(value) and math.copysign(1.0, value) < 0.0 else f"{value:.6f}" for value in pose]
+    numbers = [
+        "-nan" if math.isnan(value) and math.copysign(1.0, value) < 0.0 else f"{value:.6f}"
+        for value in pose
+    ]
     return f"({' '.join(numbers[:3])}) ({' '.join(numbers[3:])})"
 
 
@@ -128,7 +145,9 @@ def _rate(link: Link) -> float:
 
 def frames_as_string(links: Mapping[str, Link]) -> str:
     """tf2's list of frames and parents."""
-    return "".join(f"Frame {child} exists with parent {link.parent}.\n" for child, link in links.items())
+    return "".join(
+        f"Frame {child} exists with parent {link.parent}.\n" for child, link in links.items()
+    )
 
 
 def frames_as_yaml(links: Mapping[str, Link], now: float, *, empty: bool) -> str:
@@ -164,7 +183,9 @@ def frames_as_dot(frames: list[str], links: Mapping[str, Link], now: float) -> s
     for frame in frames:
         if frame in links and links[frame].has_data:
             continue
-        text.append('edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n')
+        text.append(
+            'edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+        )
         if now > 0.0:
             text.append(f'"Recorded at time: {now:.6f}"[ shape=plaintext ] ;\n')
         text.append(f'}}->"{frame}";\n')

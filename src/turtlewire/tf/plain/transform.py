@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 class Transform:
     """The pose of ``child_frame_id`` (source) in ``frame_id`` (target) at one time: ``target_from_source``.
 
-    Immutable. It takes data of the source frame into the target frame. Translation in metres; rotation a unit quaternion in the order
-    x, y, z, w. ``numpy.asarray(transform)`` gives the seven numbers.
+    Immutable. It takes data of the source frame into the target frame. Translation in metres;
+    rotation a unit quaternion in the order x, y, z, w. ``numpy.asarray(transform)`` gives the seven
+    numbers.
     """
 
     __module__ = "turtlewire"
@@ -26,7 +27,14 @@ class Transform:
     stamp_ns: int
     _pose: Pose
 
-    def __init__(self, frame_id: str, child_frame_id: str, stamp_ns: int, translation: Vector, rotation: Quaternion) -> None:
+    def __init__(
+        self,
+        frame_id: str,
+        child_frame_id: str,
+        stamp_ns: int,
+        translation: Vector,
+        rotation: Quaternion,
+    ) -> None:
         set_field = object.__setattr__
         set_field(self, "frame_id", frame_id)
         set_field(self, "child_frame_id", child_frame_id)

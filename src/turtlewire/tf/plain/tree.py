@@ -61,7 +61,9 @@ class Tree:
         self.malformed = (0, "", "")  # messages; what was wrong with the last one, and who sent it
         self.shown_senders: dict[str, str] = {}
 
-    def set(self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool) -> str:
+    def set(
+        self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool
+    ) -> str:
         """Add a sample. Returns the key of a refusal's text (see texts.refusal), or an empty string."""
         parent, child = parent.removeprefix("/"), child.removeprefix("/")
         authority = self.shown_senders.get(authority, authority)
@@ -74,7 +76,9 @@ class Tree:
 
     def refuse(self, verdict: str, child: str, stamp: int, pose: Pose, authority: str) -> None:
         """Count a sample that is not taken, by the key of the refusal's text."""
-        known = child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
+        known = (
+            child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
+        )
         record = self.refusals.setdefault(known, Refusals())
         record.counts[VERDICT_NAMES[verdict]] += 1
         record.last = (verdict, child, stamp, pose, authority)
@@ -112,7 +116,12 @@ class Tree:
         link = self.links.pop(child, None)
         if link is None:
             return False
-        in_use = {sample.parent for other in self.links.values() for sample in (*other.samples, other.fixed) if sample}
+        in_use = {
+            sample.parent
+            for other in self.links.values()
+            for sample in (*other.samples, other.fixed)
+            if sample
+        }
         for frame in (child, link.parent):
             if frame not in in_use and frame not in self.links:
                 self.frames.pop(frame, None)
@@ -150,12 +159,16 @@ class Tree:
         if latest:
             stamp = self.latest_common_time(target, source)
         try:
-            return stamp, canonical(self._walk(target, source, stamp, lambda link: link.read(stamp))[0])
+            return stamp, canonical(
+                self._walk(target, source, stamp, lambda link: link.read(stamp))[0]
+            )
         except Failure as failure:
             failure.hopeless = failure.hopeless and not latest  # new data moves the latest time on
             raise
 
-    def lookup_by(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
+    def lookup_by(
+        self, target: str, source: str, stamp: int, read: Reader
+    ) -> tuple[Pose, list[str]]:
         """The pose by another rule than tf2's for what a link answers, and the children of the links on the way."""
         self.check_name(target, "lookupTransform", "target_frame")
         self.check_name(source, "lookupTransform", "source_frame")
@@ -187,7 +200,9 @@ class Tree:
         for depth in range(MAX_GRAPH_DEPTH + 2):
             link = self.links.get(frame)
             if frame == top:
-                return between(target_to_top, source_to_top), [f for f in up + down if (f in up) != (f in down)]
+                return between(target_to_top, source_to_top), [
+                    f for f in up + down if (f in up) != (f in down)
+                ]
             if link is None:
                 break
             reading = read(link)
@@ -220,7 +235,9 @@ class Tree:
         if target == source:
             link = self.links.get(source)
             return link.newest if link else 0
-        line: dict[str, int] = {}  # parent on the source's line -> how many of its stamps lie on the way to it
+        line: dict[
+            str, int
+        ] = {}  # parent on the source's line -> how many of its stamps lie on the way to it
         stamps: list[int] = []
         frame = source
         while (link := self.links.get(frame)) and link.has_data:

@@ -6,7 +6,12 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, NodeEndpoints, pack_discovery_info
+from turtlewire.wire.graph import (
+    DISCOVERY_TOPIC,
+    DISCOVERY_TYPE,
+    NodeEndpoints,
+    pack_discovery_info,
+)
 from turtlewire.wire.qos import Durability, QoS
 
 from .endpoint import EndpointSpec
@@ -18,7 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ANNOUNCEMENT_INTERVAL_NS", "Announcer", "NodeRecord"]
 
-#: The first change is announced at once, the next ones not sooner than this after it: a thousand endpoints take a few samples.
+#: The first change is announced at once, the next ones not sooner than this after it: a thousand
+#: endpoints take a few samples.
 ANNOUNCEMENT_INTERVAL_NS = 20_000_000
 
 
@@ -37,7 +43,9 @@ class Announcer:
 
     def __init__(self, participant: Participant, reader: ReaderThread) -> None:
         qos = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
-        self._publisher = CyclonePublisher(participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos))
+        self._publisher = CyclonePublisher(
+            participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos)
+        )
         self._participant = participant
         self._reader = reader
         self._lock = threading.Lock()
@@ -69,7 +77,12 @@ class Announcer:
     def nodes(self) -> list[NodeEndpoints]:
         """The nodes of this participant."""
         with self._lock:
-            return [NodeEndpoints(record.namespace, record.name, tuple(record.readers), tuple(record.writers)) for record in self._records]
+            return [
+                NodeEndpoints(
+                    record.namespace, record.name, tuple(record.readers), tuple(record.writers)
+                )
+                for record in self._records
+            ]
 
     def _publish(self) -> None:
         """On the reader thread."""

@@ -13,11 +13,12 @@ from .ports import max_processes
 
 __all__ = ["domain_configuration"]
 
-#: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes, or the heartbeats of a crowd, arrive in
-#: one burst. (Heartbeats are left alone: rarer ones would calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)
+#: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes,
+#: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are left alone: rarer ones would
+#: calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)
 _INTERNAL = '<Internal><SocketReceiveBufferSize max="10 MB"/></Internal>'
-#: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost datagram in the crowd of a launch
-#: would keep two processes apart for good.
+#: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost
+#: datagram in the crowd of a launch would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
 _PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
 _LAST_PORT = 65535
@@ -31,7 +32,8 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     """
     parts = [_general(discovery), _INTERNAL]
     if discovery.range == Range.OFF:
-        # A tag of our own: participants with different tags do not see each other, not even on this host.
+        # A tag of our own: participants with different tags do not see each other, not even on this
+        # host.
         tag = f"<Tag>ros_discovery_off_{os.getpid()}</Tag>"
         parts.append(f"<Discovery><ParticipantIndex>none</ParticipantIndex>{tag}</Discovery>")
     else:
@@ -48,8 +50,8 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
 def _general(discovery: Discovery) -> str:
     if discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}:
         return ""
-    # Without the loopback interface Cyclone 11 drops what processes with a configuration of rmw_cyclonedds send to localhost; and with
-    # it alone, nobody from outside gets in.
+    # Without the loopback interface Cyclone 11 drops what processes with a configuration of
+    # rmw_cyclonedds send to localhost; and with it alone, nobody from outside gets in.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
     return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
 
@@ -57,10 +59,19 @@ def _general(discovery: Discovery) -> str:
 def _peers(discovery: Discovery) -> str:
     peers = []
     if discovery.range == Range.LOCALHOST:
-        # Never given up, because with static peers it is we who must find the processes of this host (see _general).
-        peers.append('<Peer address="localhost" PruneDelay="inf"/>' if discovery.static_peers else '<Peer address="localhost"/>')
+        # Never given up, because with static peers it is we who must find the processes of this
+        # host (see _general).
+        peers.append(
+            '<Peer address="localhost" PruneDelay="inf"/>'
+            if discovery.static_peers
+            else '<Peer address="localhost"/>'
+        )
     if discovery.range != Range.SYSTEM_DEFAULT:
-        peers += [f'<Peer address="{address}"/>' for address in map(_resolved, discovery.static_peers) if address]
+        peers += [
+            f'<Peer address="{address}"/>'
+            for address in map(_resolved, discovery.static_peers)
+            if address
+        ]
     return f"<Peers>{''.join(peers)}</Peers>" if peers else ""
 
 
@@ -81,9 +92,15 @@ def _resolved(peer: str) -> str:
     try:
         address = socket.getaddrinfo(written["host"], None, socket.AF_INET)[0][4][0]
     except (OSError, UnicodeError) as error:
-        warn_once(f"static peer {peer}", f"ROS_STATIC_PEERS: {peer} is left out, it has no IPv4 address: {error.args[-1]}")
+        warn_once(
+            f"static peer {peer}",
+            f"ROS_STATIC_PEERS: {peer} is left out, it has no IPv4 address: {error.args[-1]}",
+        )
         return ""
     if address == "0.0.0.0":  # noqa: S104 - nothing is bound to it
-        warn_once(f"static peer {peer}", f"ROS_STATIC_PEERS: {peer} is left out, it is the address of nobody")
+        warn_once(
+            f"static peer {peer}",
+            f"ROS_STATIC_PEERS: {peer} is left out, it is the address of nobody",
+        )
         return ""
     return f"{address}:{written['port']}" if written["port"] else str(address)

@@ -100,7 +100,9 @@ class CycloneContext(Context):
             raise WireError(f"{what}: the context is closed")
         if self._process != os.getpid():
             error = WireError(f"{what}: the context was opened before this process was forked")
-            raise error.with_hint("Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context.")
+            raise error.with_hint(
+                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context."
+            )
 
     def close(self) -> None:
         """See :meth:`Context.close`."""

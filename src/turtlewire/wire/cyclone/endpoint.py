@@ -20,7 +20,15 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, TypeId
     from turtlewire.wire.qos import QoS
 
-__all__ = ["Endpoint", "EndpointSpec", "StatusSource", "read_count", "read_incompatible", "read_liveliness_changed", "read_matched"]
+__all__ = [
+    "Endpoint",
+    "EndpointSpec",
+    "StatusSource",
+    "read_count",
+    "read_incompatible",
+    "read_liveliness_changed",
+    "read_matched",
+]
 
 
 class EndpointSpec(NamedTuple):
@@ -63,7 +71,8 @@ class Endpoint(Entity):
         gid: Its 16 bytes.
         on_matched: Each is called on the reader thread after the matching endpoints changed.
         on_closing: Each is called once, before it is deleted.
-        ends_with_participant: Whether the participant is about to be deleted, and all that it has with it: that takes half the time.
+        ends_with_participant: Whether the participant is about to be deleted, and all that it has
+            with it: that takes half the time.
     """
 
     handle: int
@@ -93,7 +102,9 @@ class Endpoint(Entity):
     def create_event(self, kind: EventKind) -> Event:
         """See :meth:`Publisher.create_event`."""
         if kind not in self._sources:
-            raise WireError(f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'")
+            raise WireError(
+                f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'"
+            )
         return self._event(kind)
 
     def _event(self, kind: EventKind) -> StatusEvent:
@@ -138,14 +149,28 @@ def read_count(status: dds.CountStatus) -> EventStatus:
 
 def read_incompatible(status: dds.IncompatibleStatus) -> EventStatus:
     """Incompatible QoS."""
-    return EventStatus(status.total_count, status.total_count_change, last_policy_kind=policy_kind(status.last_policy_id))
+    return EventStatus(
+        status.total_count,
+        status.total_count_change,
+        last_policy_kind=policy_kind(status.last_policy_id),
+    )
 
 
 def read_matched(status: dds.MatchedStatus) -> EventStatus:
     """Matched."""
-    return EventStatus(status.total_count, status.total_count_change, status.current_count, status.current_count_change)
+    return EventStatus(
+        status.total_count,
+        status.total_count_change,
+        status.current_count,
+        status.current_count_change,
+    )
 
 
 def read_liveliness_changed(status: dds.LivelinessChangedStatus) -> EventStatus:
     """Liveliness changed."""
-    return EventStatus(status.not_alive_count, status.not_alive_count_change, status.alive_count, status.alive_count_change)
+    return EventStatus(
+        status.not_alive_count,
+        status.not_alive_count_change,
+        status.alive_count,
+        status.alive_count_change,
+    )

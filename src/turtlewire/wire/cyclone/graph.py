@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from turtlewire.errors import CdrError
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
-from turtlewire.wire.graph import DISCOVERY_TOPIC, DISCOVERY_TYPE, GraphView, NodeEndpoints, parse_user_data, unpack_discovery_info
+from turtlewire.wire.graph import (
+    DISCOVERY_TOPIC,
+    DISCOVERY_TYPE,
+    GraphView,
+    NodeEndpoints,
+    parse_user_data,
+    unpack_discovery_info,
+)
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, QoS
 from turtlewire.wire.report import warn_once
 
@@ -46,8 +53,12 @@ class _BuiltinReader:
     """Reads one of Cyclone's builtin topics."""
 
     def __init__(self, participant: int, topic: int) -> None:
-        self._reader = dds.check(dds.create_reader(participant, topic, None, None), "watch the graph")
-        self.condition = dds.check(dds.create_read_condition(self._reader, dds.ANY_STATE), "watch the graph")
+        self._reader = dds.check(
+            dds.create_reader(participant, topic, None, None), "watch the graph"
+        )
+        self.condition = dds.check(
+            dds.create_read_condition(self._reader, dds.ANY_STATE), "watch the graph"
+        )
 
     def take(self, sample: type[S]) -> Iterator[tuple[bool, S]]:
         """What is new: whether it is alive, and the sample (only its key is valid when not)."""
@@ -60,7 +71,10 @@ class _BuiltinReader:
                 return
             try:
                 for index in range(count):
-                    alive = infos[index].valid_data and infos[index].instance_state == dds.INSTANCE_ALIVE
+                    alive = (
+                        infos[index].valid_data
+                        and infos[index].instance_state == dds.INSTANCE_ALIVE
+                    )
                     yield alive, ctypes.cast(pointers[index] or 0, ctypes.POINTER(sample)).contents
             finally:
                 dds.return_loan(self._reader, pointers, count)
@@ -69,7 +83,9 @@ class _BuiltinReader:
 class CycloneGraph(GraphView):
     """Collects what Cyclone discovers. Started at its first use, because most processes never ask."""
 
-    def __init__(self, participant: Participant, announcer: Announcer, reader: ReaderThread) -> None:
+    def __init__(
+        self, participant: Participant, announcer: Announcer, reader: ReaderThread
+    ) -> None:
         super().__init__()
         self._announcer = announcer
         self._participant_gid = participant.gid
@@ -80,7 +96,9 @@ class CycloneGraph(GraphView):
         self._announced: dict[bytes, list[NodeEndpoints]] = {}
         qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
         self._infos = CycloneSubscription(
-            participant, EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos), ignore_local=True
+            participant,
+            EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos),
+            ignore_local=True,
         )
         self._participants = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PARTICIPANT)
         self._publications = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PUBLICATION)
@@ -97,8 +115,8 @@ class CycloneGraph(GraphView):
     def _update(self) -> None:
         """Take over everything that is new.
 
-        Announcements are taken first and kept only from participants that are known after that: so the last words of one that
-        has gone do not bring its nodes back.
+        Announcements are taken first and kept only from participants that are known after that: so
+        the last words of one that has gone do not bring its nodes back.
         """
         with self._lock:
             infos = self._infos.take(limit=_EVERYTHING)
@@ -124,8 +142,13 @@ class CycloneGraph(GraphView):
                 continue  # Cyclone's own readers of this very information
             if alive:
                 user_data = parse_user_data(read_user_data(sample.qos))
-                topic, type_name = sample.topic_name.decode("utf-8", "replace"), sample.type_name.decode("utf-8", "replace")
-                self._endpoints[gid] = _Endpoint(kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos))
+                topic, type_name = (
+                    sample.topic_name.decode("utf-8", "replace"),
+                    sample.type_name.decode("utf-8", "replace"),
+                )
+                self._endpoints[gid] = _Endpoint(
+                    kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos)
+                )
             else:
                 self._endpoints.pop(gid, None)
 
@@ -133,7 +156,9 @@ class CycloneGraph(GraphView):
         try:
             participant, nodes = unpack_discovery_info(cdr)
         except CdrError as error:
-            warn_once("discovery_info", f"ignored a participant's announcement of its nodes: {error}")
+            warn_once(
+                "discovery_info", f"ignored a participant's announcement of its nodes: {error}"
+            )
             return
         if participant in self._enclaves:
             self._announced[participant] = nodes
@@ -152,8 +177,15 @@ class CycloneGraph(GraphView):
         with self._lock:
             if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:
                 return False
-            others = {gid for gid, enclave in self._enclaves.items() if enclave} - {self._participant_gid}
-            gids = (gid for nodes in self._announced.values() for node in nodes for gid in (*node.readers, *node.writers))
+            others = {gid for gid, enclave in self._enclaves.items() if enclave} - {
+                self._participant_gid
+            }
+            gids = (
+                gid
+                for nodes in self._announced.values()
+                for node in nodes
+                for gid in (*node.readers, *node.writers)
+            )
             return others <= self._announced.keys() and all(gid in self._endpoints for gid in gids)
 
     def nodes(self) -> list[NodeInfo]:
@@ -164,15 +196,26 @@ class CycloneGraph(GraphView):
     def endpoints(self) -> list[EndpointInfo]:
         """See :meth:`Graph.endpoints`."""
         with self._lock:
-            owners = {gid: info for info, node in self._all_nodes() for gid in (*node.readers, *node.writers)}
-            return [_endpoint_info(gid, endpoint, owners.get(gid)) for gid, endpoint in self._endpoints.items()]
+            owners = {
+                gid: info
+                for info, node in self._all_nodes()
+                for gid in (*node.readers, *node.writers)
+            }
+            return [
+                _endpoint_info(gid, endpoint, owners.get(gid))
+                for gid, endpoint in self._endpoints.items()
+            ]
 
 
 def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:
     topic = names.topic_from_dds(endpoint.dds_topic)
     type_name = names.type_from_dds(endpoint.dds_type)
     # a lifespan is the writer's alone; ROS 2 shows readers with an infinite one
-    qos = endpoint.qos if endpoint.kind == "publisher" else endpoint.qos._replace(lifespan_ns=INFINITE_NS)
+    qos = (
+        endpoint.qos
+        if endpoint.kind == "publisher"
+        else endpoint.qos._replace(lifespan_ns=INFINITE_NS)
+    )
     if topic is None:
         topic = endpoint.dds_topic
         qos = qos._replace(avoid_ros_namespace_conventions=names.service_from_dds(topic) is None)

@@ -18,7 +18,8 @@ class Inlet:
 
     Attributes:
         intake: It is kept alive until the inlet is closed.
-        guard: The condition that is true while the intake has kept back messages, or listeners of its buffers are to be called.
+        guard: The condition that is true while the intake has kept back messages, or listeners of
+            its buffers are to be called.
         listener: What to create the reader with.
     """
 

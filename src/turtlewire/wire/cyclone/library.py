@@ -3,7 +3,8 @@
 A function is declared in one of two ways:
 
 - ``_waits``: it may block or take long; ctypes releases the GIL around it.
-- ``_short``: it never waits for anything but a short internal lock; it keeps the GIL, which is several times cheaper and cannot
+- ``_short``: it never waits for anything but a short internal lock; it keeps the GIL, which is
+several times cheaper and cannot
   deadlock, because no thread of Cyclone's ever needs the GIL.
 """
 
@@ -12,7 +13,19 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes import POINTER, c_bool, c_char_p, c_int, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+from ctypes import (
+    POINTER,
+    c_bool,
+    c_char_p,
+    c_int,
+    c_int32,
+    c_int64,
+    c_size_t,
+    c_uint8,
+    c_uint32,
+    c_uint64,
+    c_void_p,
+)
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +45,11 @@ SERDATA_KIND_DATA = 2
 RETCODE_PRECONDITION_NOT_MET = -4
 RETCODE_TIMEOUT = -10
 
-_FILE_PATTERNS = {"linux": "../cyclonedds.libs/libddsc", "darwin": ".dylibs/libddsc", "win32": "../cyclonedds.libs/ddsc"}
+_FILE_PATTERNS = {
+    "linux": "../cyclonedds.libs/libddsc",
+    "darwin": ".dylibs/libddsc",
+    "win32": "../cyclonedds.libs/ddsc",
+}
 
 
 def _find() -> str:
@@ -44,7 +61,9 @@ def _find() -> str:
             for name in sorted(os.listdir(folder)):
                 if name.startswith(start):
                     return os.path.join(folder, name)
-    error = WireError(f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on {sys.platform}")
+    error = WireError(
+        f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on {sys.platform}"
+    )
     raise error.with_hint(
         "pip install cyclonedds==11.0.1 (wheels exist for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows), "
         "or RMW_IMPLEMENTATION=local inside one process."
@@ -62,11 +81,15 @@ def _load() -> tuple[ctypes.CDLL, ctypes.PyDLL]:
 _waiting_library, _short_library = _load()
 
 
-def _declare(library: ctypes.CDLL, name: str, result: Any, arguments: tuple[Any, ...]) -> Callable[..., Any]:
+def _declare(
+    library: ctypes.CDLL, name: str, result: Any, arguments: tuple[Any, ...]
+) -> Callable[..., Any]:
     try:
         function: Any = getattr(library, name)
     except AttributeError as error:
-        raise WireError(f"this version of Cyclone DDS has no {name}; turtlewire needs cyclonedds 11.0.1") from error
+        raise WireError(
+            f"this version of Cyclone DDS has no {name}; turtlewire needs cyclonedds 11.0.1"
+        ) from error
     function.restype = result
     function.argtypes = arguments
     return function  # type: ignore[no-any-return]
@@ -160,13 +183,21 @@ class BuiltinEndpoint(ctypes.Structure):
 class CountStatus(ctypes.Structure):
     """The beginning of all statuses that count; deadline missed has an instance handle behind."""
 
-    _fields_ = [("total_count", c_uint32), ("total_count_change", c_int32), ("last_handle", c_uint64)]
+    _fields_ = [
+        ("total_count", c_uint32),
+        ("total_count_change", c_int32),
+        ("last_handle", c_uint64),
+    ]
 
 
 class IncompatibleStatus(ctypes.Structure):
     """dds_offered_incompatible_qos_status_t and dds_requested_incompatible_qos_status_t."""
 
-    _fields_ = [("total_count", c_uint32), ("total_count_change", c_int32), ("last_policy_id", c_uint32)]
+    _fields_ = [
+        ("total_count", c_uint32),
+        ("total_count_change", c_int32),
+        ("last_policy_id", c_uint32),
+    ]
 
 
 class LivelinessChangedStatus(ctypes.Structure):
@@ -199,7 +230,9 @@ _handle = c_uint64
 
 create_domain = _waits("dds_create_domain", _entity, c_uint32, c_char_p)
 create_participant = _waits("dds_create_participant", _entity, c_uint32, c_void_p, c_void_p)
-create_topic = _waits("dds_create_topic", _entity, _entity, POINTER(TopicDescriptor), c_char_p, c_void_p, c_void_p)
+create_topic = _waits(
+    "dds_create_topic", _entity, _entity, POINTER(TopicDescriptor), c_char_p, c_void_p, c_void_p
+)
 create_writer = _waits("dds_create_writer", _entity, _entity, _entity, c_void_p, c_void_p)
 create_reader = _waits("dds_create_reader", _entity, _entity, _entity, c_void_p, c_void_p)
 create_read_condition = _waits("dds_create_readcondition", _entity, _entity, c_uint32)
@@ -220,14 +253,30 @@ lset_data_available = _short("dds_lset_data_available", None, c_void_p, c_void_p
 
 set_status_mask = _short("dds_set_status_mask", _retcode, _entity, c_uint32)
 get_status_changes = _short("dds_get_status_changes", _retcode, _entity, POINTER(c_uint32))
-publication_matched_status = _short("dds_get_publication_matched_status", _retcode, _entity, POINTER(MatchedStatus))
-subscription_matched_status = _short("dds_get_subscription_matched_status", _retcode, _entity, POINTER(MatchedStatus))
-offered_incompatible_status = _short("dds_get_offered_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus))
-requested_incompatible_status = _short("dds_get_requested_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus))
-offered_deadline_status = _short("dds_get_offered_deadline_missed_status", _retcode, _entity, POINTER(CountStatus))
-requested_deadline_status = _short("dds_get_requested_deadline_missed_status", _retcode, _entity, POINTER(CountStatus))
-liveliness_lost_status = _short("dds_get_liveliness_lost_status", _retcode, _entity, POINTER(CountStatus))
-liveliness_changed_status = _short("dds_get_liveliness_changed_status", _retcode, _entity, POINTER(LivelinessChangedStatus))
+publication_matched_status = _short(
+    "dds_get_publication_matched_status", _retcode, _entity, POINTER(MatchedStatus)
+)
+subscription_matched_status = _short(
+    "dds_get_subscription_matched_status", _retcode, _entity, POINTER(MatchedStatus)
+)
+offered_incompatible_status = _short(
+    "dds_get_offered_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus)
+)
+requested_incompatible_status = _short(
+    "dds_get_requested_incompatible_qos_status", _retcode, _entity, POINTER(IncompatibleStatus)
+)
+offered_deadline_status = _short(
+    "dds_get_offered_deadline_missed_status", _retcode, _entity, POINTER(CountStatus)
+)
+requested_deadline_status = _short(
+    "dds_get_requested_deadline_missed_status", _retcode, _entity, POINTER(CountStatus)
+)
+liveliness_lost_status = _short(
+    "dds_get_liveliness_lost_status", _retcode, _entity, POINTER(CountStatus)
+)
+liveliness_changed_status = _short(
+    "dds_get_liveliness_changed_status", _retcode, _entity, POINTER(LivelinessChangedStatus)
+)
 sample_lost_status = _short("dds_get_sample_lost_status", _retcode, _entity, POINTER(CountStatus))
 assert_liveliness = _waits("dds_assert_liveliness", _retcode, _entity)
 
@@ -238,20 +287,34 @@ return_code_text = _short("dds_strretcode", c_char_p, c_int32)
 free = _short("dds_free", None, c_void_p)
 
 _iovec_count = {"linux": c_size_t, "darwin": c_int}.get(sys.platform, c_uint32)
-serdata_from_bytes = _short("ddsi_serdata_from_ser_iov", c_void_p, c_void_p, c_int, _iovec_count, POINTER(IoVec), c_size_t)
+serdata_from_bytes = _short(
+    "ddsi_serdata_from_ser_iov", c_void_p, c_void_p, c_int, _iovec_count, POINTER(IoVec), c_size_t
+)
 serdata_to_bytes = _short("ddsi_serdata_to_ser", None, c_void_p, c_size_t, c_size_t, c_char_p)
 serdata_size = _short("ddsi_serdata_size", c_uint32, c_void_p)
 serdata_unref = _short("ddsi_serdata_unref", None, c_void_p)
 write_serdata = _waits("dds_writecdr", _retcode, _entity, c_void_p)
-take_serdata = _short("dds_takecdr", _retcode, _entity, POINTER(c_void_p), c_uint32, POINTER(SampleInfo), c_uint32)
+take_serdata = _short(
+    "dds_takecdr", _retcode, _entity, POINTER(c_void_p), c_uint32, POINTER(SampleInfo), c_uint32
+)
 
-take_samples = _short("dds_take", _retcode, _entity, POINTER(c_void_p), POINTER(SampleInfo), c_size_t, c_uint32)
+take_samples = _short(
+    "dds_take", _retcode, _entity, POINTER(c_void_p), POINTER(SampleInfo), c_size_t, c_uint32
+)
 return_loan = _short("dds_return_loan", _retcode, _entity, POINTER(c_void_p), c_int32)
 
-matched_subscriptions = _short("dds_get_matched_subscriptions", _retcode, _entity, POINTER(_handle), c_size_t)
-matched_publications = _short("dds_get_matched_publications", _retcode, _entity, POINTER(_handle), c_size_t)
-matched_subscription_data = _short("dds_get_matched_subscription_data", POINTER(BuiltinEndpoint), _entity, _handle)
-matched_publication_data = _short("dds_get_matched_publication_data", POINTER(BuiltinEndpoint), _entity, _handle)
+matched_subscriptions = _short(
+    "dds_get_matched_subscriptions", _retcode, _entity, POINTER(_handle), c_size_t
+)
+matched_publications = _short(
+    "dds_get_matched_publications", _retcode, _entity, POINTER(_handle), c_size_t
+)
+matched_subscription_data = _short(
+    "dds_get_matched_subscription_data", POINTER(BuiltinEndpoint), _entity, _handle
+)
+matched_publication_data = _short(
+    "dds_get_matched_publication_data", POINTER(BuiltinEndpoint), _entity, _handle
+)
 free_endpoint = _short("dds_builtintopic_free_endpoint", None, POINTER(BuiltinEndpoint))
 
 create_qos = _short("dds_create_qos", c_void_p)
@@ -259,7 +322,17 @@ delete_qos = _short("dds_delete_qos", None, c_void_p)
 qset_reliability = _short("dds_qset_reliability", None, c_void_p, c_int, c_int64)
 qset_history = _short("dds_qset_history", None, c_void_p, c_int, c_int32)
 qset_durability = _short("dds_qset_durability", None, c_void_p, c_int)
-qset_durability_service = _short("dds_qset_durability_service", None, c_void_p, c_int64, c_int, c_int32, c_int32, c_int32, c_int32)
+qset_durability_service = _short(
+    "dds_qset_durability_service",
+    None,
+    c_void_p,
+    c_int64,
+    c_int,
+    c_int32,
+    c_int32,
+    c_int32,
+    c_int32,
+)
 qset_deadline = _short("dds_qset_deadline", None, c_void_p, c_int64)
 qset_lifespan = _short("dds_qset_lifespan", None, c_void_p, c_int64)
 qset_liveliness = _short("dds_qset_liveliness", None, c_void_p, c_int, c_int64)
@@ -267,7 +340,9 @@ qset_user_data = _short("dds_qset_userdata", None, c_void_p, c_char_p, c_size_t)
 qset_ignore_local = _short("dds_qset_ignorelocal", None, c_void_p, c_int)
 qset_writer_data_lifecycle = _short("dds_qset_writer_data_lifecycle", None, c_void_p, c_bool)
 
-qget_reliability = _short("dds_qget_reliability", c_bool, c_void_p, POINTER(c_int), POINTER(c_int64))
+qget_reliability = _short(
+    "dds_qget_reliability", c_bool, c_void_p, POINTER(c_int), POINTER(c_int64)
+)
 qget_history = _short("dds_qget_history", c_bool, c_void_p, POINTER(c_int), POINTER(c_int32))
 qget_durability = _short("dds_qget_durability", c_bool, c_void_p, POINTER(c_int))
 qget_deadline = _short("dds_qget_deadline", c_bool, c_void_p, POINTER(c_int64))

@@ -1,9 +1,11 @@
 """What Cyclone has to complain about, in words for people and not each time anew.
 
-Cyclone writes a line on stderr for every datagram that the network refuses, ten a second and more, and has no setting for it; its
-``dds_set_log_sink`` is not exported by the library in the wheel. A domain writes to what C's ``stderr`` was when it was made; so for
-that moment ``stderr`` is a pipe, which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) What
-Cyclone says right before it aborts is lost with the process; so what makes it abort is kept from it, see ``configuration``.
+Cyclone writes a line on stderr for every datagram that the network refuses, ten a second and more,
+and has no setting for it; its ``dds_set_log_sink`` is not exported by the library in the wheel. A
+domain writes to what C's ``stderr`` was when it was made; so for that moment ``stderr`` is a pipe,
+which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) What
+Cyclone says right before it aborts is lost with the process; so what makes it abort is kept from
+it, see ``configuration``.
 """
 
 from __future__ import annotations
@@ -56,7 +58,8 @@ class CycloneLog:
         except ValueError:  # a C library of another kind: Cyclone goes on writing on stderr
             return
         self._read_end, self._write_end = os.pipe()
-        # Lines are lost when the pipe is full: a thread of Cyclone's must not wait for one of ours, which may be waiting for its lock.
+        # Lines are lost when the pipe is full: a thread of Cyclone's must not wait for one of ours,
+        # which may be waiting for its lock.
         os.set_blocking(self._write_end, False)
         libc.fdopen.restype = ctypes.c_void_p
         libc.fdopen.argtypes = (ctypes.c_int, ctypes.c_char_p)

@@ -61,7 +61,9 @@ class CycloneNode(Node):
             self._serve(subscription, on_message)
         return subscription
 
-    def _serve(self, subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]) -> None:
+    def _serve(
+        self, subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]
+    ) -> None:
         """Have the reader thread call ``on_message`` until the subscription closes."""
         inlet = subscription.inlet
         if inlet is None:
@@ -74,15 +76,23 @@ class CycloneNode(Node):
     def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
         identity = {"clientid": self._service_id()}
-        requests = self._publisher(EndpointSpec(service, names.request_topic(service), request, qos, identity))
-        replies = self._subscription(EndpointSpec(service, names.reply_topic(service), response, qos, identity))
+        requests = self._publisher(
+            EndpointSpec(service, names.request_topic(service), request, qos, identity)
+        )
+        replies = self._subscription(
+            EndpointSpec(service, names.reply_topic(service), response, qos, identity)
+        )
         return CycloneClient(service, requests, replies)
 
     def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
         """See :meth:`Node.create_service`."""
         identity = {"serviceid": self._service_id()}
-        replies = self._publisher(EndpointSpec(service, names.reply_topic(service), response, qos, identity))
-        requests = self._subscription(EndpointSpec(service, names.request_topic(service), request, qos, identity))
+        replies = self._publisher(
+            EndpointSpec(service, names.reply_topic(service), response, qos, identity)
+        )
+        requests = self._subscription(
+            EndpointSpec(service, names.request_topic(service), request, qos, identity)
+        )
         server = CycloneService(service, requests, replies, self.context.reader)
         replies.on_matched.append(server.matched)
         return server
@@ -95,7 +105,9 @@ class CycloneNode(Node):
         self._adopt(publisher, self._record.writers)
         return publisher
 
-    def _subscription(self, spec: EndpointSpec, intake: Intake | None = None) -> CycloneSubscription:
+    def _subscription(
+        self, spec: EndpointSpec, intake: Intake | None = None
+    ) -> CycloneSubscription:
         subscription = CycloneSubscription(self.context.participant, spec, intake=intake)
         self._adopt(subscription, self._record.readers)
         return subscription

@@ -18,7 +18,8 @@ from .ports import max_processes, processes_on_host
 
 __all__ = ["Participant"]
 
-# An opaque type for the default serializer: a struct of at least one byte, without keys. All bytes of a sample are kept as they are.
+# An opaque type for the default serializer: a struct of at least one byte, without keys. All bytes
+# of a sample are kept as they are.
 _ADR, _TYPE_1BY, _RTS = 0x01 << 24, 0x01 << 16, 0x00
 _OPS = (ctypes.c_uint32 * 3)(_ADR | _TYPE_1BY, 0, _RTS)
 _NO_OPTIMIZE, _RESTRICT_DATA_REPRESENTATION = 1 << 0, 1 << 7
@@ -48,8 +49,12 @@ class _Domains:
         if self._process == os.getpid():
             return
         if any(self._users.values()):
-            error = WireError("open a context: this process was forked from one with an open context")
-            raise error.with_hint("Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context.")
+            error = WireError(
+                "open a context: this process was forked from one with an open context"
+            )
+            raise error.with_hint(
+                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context."
+            )
         self._process = os.getpid()
         self._log = None  # its pipe is shared with the parent
 
@@ -57,8 +62,12 @@ class _Domains:
         if self._log is None:
             self._log = CycloneLog()
         with self._log.capturing():
-            handle = dds.create_domain(domain_id, domain_configuration(domain_id, discovery()).encode())
-        if handle == dds.RETCODE_PRECONDITION_NOT_MET:  # somebody else in this process made it: it is theirs
+            handle = dds.create_domain(
+                domain_id, domain_configuration(domain_id, discovery()).encode()
+            )
+        if (
+            handle == dds.RETCODE_PRECONDITION_NOT_MET
+        ):  # somebody else in this process made it: it is theirs
             return
         if handle < 0:
             raise _failure(handle, domain_id, self._log.unread())
@@ -81,11 +90,15 @@ def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
     error = WireError(f"join domain {domain_id}: Cyclone DDS says {reason}")
     processes, limit = processes_on_host(domain_id), max_processes(domain_id)
     if processes is not None and processes >= limit:
-        return error.with_hint(f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain.")
+        return error.with_hint(
+            f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain."
+        )
     if os.environ.get("CYCLONEDDS_URI"):
         return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
     if "interfaces" in reason:
-        return error.with_hint("Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`).")
+        return error.with_hint(
+            "Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`)."
+        )
     return error
 
 
@@ -123,19 +136,25 @@ class Participant:
         sertype = ctypes.c_void_p()
         dds.check(dds.get_sertype(topic, sertype), "check the opaque type")
         probe = b"\x00\x01\x00\x00\x07turtle"
-        serdata = dds.serdata_from_bytes(sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=probe, size=len(probe)), len(probe))
+        serdata = dds.serdata_from_bytes(
+            sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=probe, size=len(probe)), len(probe)
+        )
         copy = bytes(dds.serdata_size(serdata)) if serdata else b""
         if serdata:
             dds.serdata_to_bytes(serdata, 0, len(copy), copy)
             dds.serdata_unref(serdata)
         if copy != probe:
-            raise WireError("this build of Cyclone DDS lays out types in another way; turtlewire needs cyclonedds 11.0.1")
+            raise WireError(
+                "this build of Cyclone DDS lays out types in another way; turtlewire needs cyclonedds 11.0.1"
+            )
 
     def _create(self, enclave: str) -> int:
         qos = dds.create_qos()
         try:
             _set_enclave(qos, enclave)
-            return dds.check(dds.create_participant(self.domain_id, qos, None), f"join domain {self.domain_id}")
+            return dds.check(
+                dds.create_participant(self.domain_id, qos, None), f"join domain {self.domain_id}"
+            )
         finally:
             dds.delete_qos(qos)
 
@@ -167,7 +186,10 @@ class Participant:
             meta=b"",
             restrict_data_representation=_XCDR1,
         )
-        return dds.check(dds.create_topic(self.handle, descriptor, dds_topic.encode(), None, None), f"create topic {dds_topic}")
+        return dds.check(
+            dds.create_topic(self.handle, descriptor, dds_topic.encode(), None, None),
+            f"create topic {dds_topic}",
+        )
 
     def close(self) -> None:
         """Leave the domain; everything made in this participant is deleted."""

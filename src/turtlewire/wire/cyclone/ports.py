@@ -1,7 +1,8 @@
 """How many processes of this host take part in a domain, by the UDP ports that they have bound.
 
-A DDS participant binds a port whose number follows from domain and participant index (DDSI-RTPS 9.6.1.1); Cyclone's participants of one
-process share one. So one can tell without waiting whether discovery still owes an answer.
+A DDS participant binds a port whose number follows from domain and participant index (DDSI-RTPS
+9.6.1.1); Cyclone's participants of one process share one. So one can tell without waiting whether
+discovery still owes an answer.
 """
 
 from __future__ import annotations

@@ -10,7 +10,14 @@ from turtlewire.wire.base import EventKind, Publisher
 from turtlewire.wire.encapsulation import require_message
 
 from . import library as dds
-from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_matched
+from .endpoint import (
+    Endpoint,
+    EndpointSpec,
+    StatusSource,
+    read_count,
+    read_incompatible,
+    read_matched,
+)
 from .qos import MAX_BLOCKING_NS, dds_qos
 
 if TYPE_CHECKING:
@@ -25,10 +32,18 @@ class CyclonePublisher(Endpoint, Publisher):
     """A DDS writer of serialized messages."""
 
     _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
-        EventKind.MATCHED: StatusSource(1 << 11, dds.publication_matched_status, dds.MatchedStatus, read_matched),
-        EventKind.INCOMPATIBLE_QOS: StatusSource(1 << 3, dds.offered_incompatible_status, dds.IncompatibleStatus, read_incompatible),
-        EventKind.DEADLINE_MISSED: StatusSource(1 << 1, dds.offered_deadline_status, dds.CountStatus, read_count),
-        EventKind.LIVELINESS_LOST: StatusSource(1 << 9, dds.liveliness_lost_status, dds.CountStatus, read_count),
+        EventKind.MATCHED: StatusSource(
+            1 << 11, dds.publication_matched_status, dds.MatchedStatus, read_matched
+        ),
+        EventKind.INCOMPATIBLE_QOS: StatusSource(
+            1 << 3, dds.offered_incompatible_status, dds.IncompatibleStatus, read_incompatible
+        ),
+        EventKind.DEADLINE_MISSED: StatusSource(
+            1 << 1, dds.offered_deadline_status, dds.CountStatus, read_count
+        ),
+        EventKind.LIVELINESS_LOST: StatusSource(
+            1 << 9, dds.liveliness_lost_status, dds.CountStatus, read_count
+        ),
     }
 
     def __init__(self, participant: Participant, spec: EndpointSpec) -> None:
@@ -51,7 +66,9 @@ class CyclonePublisher(Endpoint, Publisher):
         with self._lock:  # the sertype must not go away between the test and its use
             if self._closed:
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
-            serdata = dds.serdata_from_bytes(self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size)
+            serdata = dds.serdata_from_bytes(
+                self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size
+            )
         if not serdata:
             raise WireError(f"publish on {self.topic}: Cyclone DDS refuses the message")
         code = dds.write_serdata(self.handle, serdata)
@@ -61,8 +78,12 @@ class CyclonePublisher(Endpoint, Publisher):
     def _refused(self, code: int) -> None:
         if code == dds.RETCODE_TIMEOUT:
             seconds = MAX_BLOCKING_NS / 1e9
-            error = WireError(f"publish on {self.topic}: not sent, a reliable subscription did not keep up for {seconds:g} s")
-            raise error.with_hint("Publish less often, use a smaller depth with KEEP_LAST, or best effort reliability.")
+            error = WireError(
+                f"publish on {self.topic}: not sent, a reliable subscription did not keep up for {seconds:g} s"
+            )
+            raise error.with_hint(
+                "Publish less often, use a smaller depth with KEEP_LAST, or best effort reliability."
+            )
         if self._closed:
             raise WireError(f"publish on {self.topic}: the publisher is closed")
         dds.check(code, f"publish on {self.topic}")

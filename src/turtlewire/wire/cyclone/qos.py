@@ -25,20 +25,27 @@ _AUTOMATIC, _MANUAL_BY_TOPIC = 0, 2
 _IGNORE_LOCAL_PARTICIPANT = 1
 _UNLIMITED = -1
 
-# dds_qos_policy_id_t to rmw_qos_policy_kind_t: durability, deadline, liveliness, reliability, history, lifespan
+# dds_qos_policy_id_t to rmw_qos_policy_kind_t: durability, deadline, liveliness, reliability,
+# history, lifespan
 _POLICY_KINDS = {2: 2, 4: 4, 8: 8, 11: 16, 13: 32, 21: 64}
 _POLICY_KIND_INVALID = 1
 _LIVELINESS = {_AUTOMATIC: Liveliness.AUTOMATIC, _MANUAL_BY_TOPIC: Liveliness.MANUAL_BY_TOPIC}
 
 
 @contextmanager
-def dds_qos(qos: QoS, user_data: bytes, *, writer: bool, ignore_local: bool = False) -> Iterator[int]:
+def dds_qos(
+    qos: QoS, user_data: bytes, *, writer: bool, ignore_local: bool = False
+) -> Iterator[int]:
     """A ``dds_qos_t`` for one endpoint, with the policies that rmw_cyclonedds sets."""
     pointer = dds.create_qos()
     try:
         _set_history_and_durability(pointer, qos)
         reliable = qos.reliability != Reliability.BEST_EFFORT
-        dds.qset_reliability(pointer, _RELIABLE if reliable else _BEST_EFFORT, MAX_BLOCKING_NS if writer else INFINITE_NS)
+        dds.qset_reliability(
+            pointer,
+            _RELIABLE if reliable else _BEST_EFFORT,
+            MAX_BLOCKING_NS if writer else INFINITE_NS,
+        )
         if writer:
             dds.qset_writer_data_lifecycle(pointer, False)
             if qos.lifespan_ns:
@@ -46,7 +53,11 @@ def dds_qos(qos: QoS, user_data: bytes, *, writer: bool, ignore_local: bool = Fa
         if qos.deadline_ns:
             dds.qset_deadline(pointer, qos.deadline_ns)
         manual = qos.liveliness == Liveliness.MANUAL_BY_TOPIC
-        dds.qset_liveliness(pointer, _MANUAL_BY_TOPIC if manual else _AUTOMATIC, qos.liveliness_lease_ns or INFINITE_NS)
+        dds.qset_liveliness(
+            pointer,
+            _MANUAL_BY_TOPIC if manual else _AUTOMATIC,
+            qos.liveliness_lease_ns or INFINITE_NS,
+        )
         if ignore_local:
             dds.qset_ignore_local(pointer, _IGNORE_LOCAL_PARTICIPANT)
         dds.qset_user_data(pointer, user_data, len(user_data))
@@ -76,9 +87,13 @@ def read_qos(pointer: int) -> QoS:
         values["history"] = History.KEEP_ALL if kind.value == _KEEP_ALL else History.KEEP_LAST
         values["depth"] = max(number.value, 0)
     if dds.qget_reliability(pointer, kind, duration):
-        values["reliability"] = Reliability.RELIABLE if kind.value == _RELIABLE else Reliability.BEST_EFFORT
+        values["reliability"] = (
+            Reliability.RELIABLE if kind.value == _RELIABLE else Reliability.BEST_EFFORT
+        )
     if dds.qget_durability(pointer, kind):
-        values["durability"] = Durability.VOLATILE if kind.value == _VOLATILE else Durability.TRANSIENT_LOCAL
+        values["durability"] = (
+            Durability.VOLATILE if kind.value == _VOLATILE else Durability.TRANSIENT_LOCAL
+        )
     if dds.qget_deadline(pointer, duration):
         values["deadline_ns"] = duration.value
     if dds.qget_lifespan(pointer, duration):

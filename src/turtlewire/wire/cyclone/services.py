@@ -43,15 +43,24 @@ class CycloneClient(TopicClient):
     requests: CyclonePublisher
     replies: CycloneSubscription
 
-    def __init__(self, service: str, requests: CyclonePublisher, replies: CycloneSubscription) -> None:
+    def __init__(
+        self, service: str, requests: CyclonePublisher, replies: CycloneSubscription
+    ) -> None:
         handle = ctypes.c_uint64()
         dds.check(dds.get_instance_handle(requests.handle, handle), f"create a client of {service}")
         super().__init__(service, handle.value, requests, replies)
 
     def is_ready(self) -> bool:
         """See :meth:`Client.is_ready`: one and the same server reads our requests and writes replies to us."""
-        readers = _matched_ids(self.requests.handle, dds.matched_subscriptions, dds.matched_subscription_data, "serviceid")
-        writers = _matched_ids(self.replies.handle, dds.matched_publications, dds.matched_publication_data, "serviceid")
+        readers = _matched_ids(
+            self.requests.handle,
+            dds.matched_subscriptions,
+            dds.matched_subscription_data,
+            "serviceid",
+        )
+        writers = _matched_ids(
+            self.replies.handle, dds.matched_publications, dds.matched_publication_data, "serviceid"
+        )
         return not readers.isdisjoint(writers)
 
 
@@ -64,20 +73,29 @@ class _Waiting(NamedTuple):
 class CycloneService(TopicService):
     """A server: a reader of requests and a writer of replies.
 
-    A client's request can arrive before its reply reader is discovered; a reply sent now would be lost. Such replies wait, on the
-    reader thread, for the discovery.
+    A client's request can arrive before its reply reader is discovered; a reply sent now would be
+    lost. Such replies wait, on the reader thread, for the discovery.
     """
 
     requests: CycloneSubscription
     replies: CyclonePublisher
 
-    def __init__(self, service: str, requests: CycloneSubscription, replies: CyclonePublisher, reader: ReaderThread) -> None:
+    def __init__(
+        self,
+        service: str,
+        requests: CycloneSubscription,
+        replies: CyclonePublisher,
+        reader: ReaderThread,
+    ) -> None:
         super().__init__(service, requests, replies)
         self._reader = reader
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
         self._matches = 0  # how often the matching subscriptions changed
-        self._reachable: tuple[int, set[str | None]] = (-1, set())  # the clients that could be reached after so many changes
+        self._reachable: tuple[int, set[str | None]] = (
+            -1,
+            set(),
+        )  # the clients that could be reached after so many changes
         self._waiting: list[_Waiting] = []
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:
@@ -117,7 +135,12 @@ class CycloneService(TopicService):
     def _can_reach(self, client: str) -> bool:
         matches = self._matches  # read first: a change while we look must not be missed
         if self._reachable[0] != matches:
-            ids = _matched_ids(self.replies.handle, dds.matched_subscriptions, dds.matched_subscription_data, "clientid")
+            ids = _matched_ids(
+                self.replies.handle,
+                dds.matched_subscriptions,
+                dds.matched_subscription_data,
+                "clientid",
+            )
             self._reachable = (matches, ids)
         return client in self._reachable[1]
 
@@ -132,7 +155,11 @@ class CycloneService(TopicService):
         now = time.monotonic_ns()
         with self._lock:
             ready = [waiting for waiting in self._waiting if self._can_reach(waiting.client)]
-            self._waiting = [waiting for waiting in self._waiting if waiting not in ready and waiting.deadline_ns > now]
+            self._waiting = [
+                waiting
+                for waiting in self._waiting
+                if waiting not in ready and waiting.deadline_ns > now
+            ]
         for waiting in ready:
             try:
                 self.replies.publish(waiting.payload)
@@ -141,7 +168,10 @@ class CycloneService(TopicService):
 
 
 def _matched_ids(
-    handle: int, list_matched: Callable[..., int], read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]], key: str
+    handle: int,
+    list_matched: Callable[..., int],
+    read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
+    key: str,
 ) -> set[str | None]:
     """The ``clientid`` or ``serviceid`` of all endpoints that match; None stands for those that say none."""
     ids: set[str | None] = set()

@@ -11,7 +11,15 @@ from turtlewire.wire.graph import parse_user_data
 from turtlewire.wire.report import call_guarded, warn_once
 
 from . import library as dds
-from .endpoint import Endpoint, EndpointSpec, StatusSource, read_count, read_incompatible, read_liveliness_changed, read_matched
+from .endpoint import (
+    Endpoint,
+    EndpointSpec,
+    StatusSource,
+    read_count,
+    read_incompatible,
+    read_liveliness_changed,
+    read_matched,
+)
 from .inlet import Inlet
 from .qos import dds_qos, read_user_data
 from .taking import take_messages
@@ -39,16 +47,34 @@ class CycloneSubscription(Endpoint, Subscription):
     """
 
     _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
-        EventKind.MATCHED: StatusSource(1 << 12, dds.subscription_matched_status, dds.MatchedStatus, read_matched),
-        EventKind.INCOMPATIBLE_QOS: StatusSource(1 << 4, dds.requested_incompatible_status, dds.IncompatibleStatus, read_incompatible),
-        EventKind.DEADLINE_MISSED: StatusSource(1 << 2, dds.requested_deadline_status, dds.CountStatus, read_count),
-        EventKind.LIVELINESS_CHANGED: StatusSource(
-            1 << 10, dds.liveliness_changed_status, dds.LivelinessChangedStatus, read_liveliness_changed
+        EventKind.MATCHED: StatusSource(
+            1 << 12, dds.subscription_matched_status, dds.MatchedStatus, read_matched
         ),
-        EventKind.MESSAGE_LOST: StatusSource(1 << 5, dds.sample_lost_status, dds.CountStatus, read_count),
+        EventKind.INCOMPATIBLE_QOS: StatusSource(
+            1 << 4, dds.requested_incompatible_status, dds.IncompatibleStatus, read_incompatible
+        ),
+        EventKind.DEADLINE_MISSED: StatusSource(
+            1 << 2, dds.requested_deadline_status, dds.CountStatus, read_count
+        ),
+        EventKind.LIVELINESS_CHANGED: StatusSource(
+            1 << 10,
+            dds.liveliness_changed_status,
+            dds.LivelinessChangedStatus,
+            read_liveliness_changed,
+        ),
+        EventKind.MESSAGE_LOST: StatusSource(
+            1 << 5, dds.sample_lost_status, dds.CountStatus, read_count
+        ),
     }
 
-    def __init__(self, participant: Participant, spec: EndpointSpec, *, ignore_local: bool = False, intake: Intake | None = None) -> None:
+    def __init__(
+        self,
+        participant: Participant,
+        spec: EndpointSpec,
+        *,
+        ignore_local: bool = False,
+        intake: Intake | None = None,
+    ) -> None:
         super().__init__(spec)
         self.topic = spec.name
         self.wait_sets: set[CycloneWaitSet] = set()
@@ -127,7 +153,10 @@ class CycloneSubscription(Endpoint, Subscription):
         return self._user_data.get(publisher_gid, b"")
 
     def _refuse(self, data: bytes) -> bool:
-        warn_once(f"header {self.topic}", f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)")
+        warn_once(
+            f"header {self.topic}",
+            f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)",
+        )
         return False
 
     def publisher_count(self) -> int:
@@ -141,13 +170,17 @@ class CycloneSubscription(Endpoint, Subscription):
         super().close()
 
     def _delete(self) -> None:
-        self.ends_with_participant = self.ends_with_participant and self.inlet is None  # which must end after the reader
+        self.ends_with_participant = (
+            self.ends_with_participant and self.inlet is None
+        )  # which must end after the reader
         super()._delete()
         if self.inlet is not None:
             self.inlet.close()
 
 
-def deliver_to(subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]) -> Callable[[], None]:
+def deliver_to(
+    subscription: CycloneSubscription, on_message: Callable[[bytes, MessageInfo], None]
+) -> Callable[[], None]:
     """What the reader thread calls when messages are waiting on a subscription."""
 
     def deliver() -> None:
@@ -160,7 +193,9 @@ def deliver_to(subscription: CycloneSubscription, on_message: Callable[[bytes, M
 
 
 def deliver_rest_to(
-    subscription: CycloneSubscription, inlet: Inlet, on_message: Callable[[bytes, MessageInfo], None]
+    subscription: CycloneSubscription,
+    inlet: Inlet,
+    on_message: Callable[[bytes, MessageInfo], None],
 ) -> Callable[[], None]:
     """:func:`deliver_to` of a subscription with an intake: what the reader thread calls when the inlet's guard is triggered."""
 

@@ -25,7 +25,13 @@ def _address(function: Callable[..., object]) -> int:
 #: Addresses of what native code calls of Cyclone.
 NATIVE_FUNCTIONS = tuple(
     _address(function)
-    for function in (dds.take_serdata, dds.serdata_size, dds.serdata_to_bytes, dds.serdata_unref, dds.set_guard_condition)
+    for function in (
+        dds.take_serdata,
+        dds.serdata_size,
+        dds.serdata_to_bytes,
+        dds.serdata_unref,
+        dds.set_guard_condition,
+    )
 )
 
 
@@ -33,7 +39,8 @@ def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
     """Take up to ``limit`` messages of a reader.
 
     Returns:
-        Of each, its bytes, Cyclone's number of the publisher, and the time of sending in nanoseconds; none when the reader has gone.
+        Of each, its bytes, Cyclone's number of the publisher, and the time of sending in
+        nanoseconds; none when the reader has gone.
     """
     taken = []
     serdata = (ctypes.c_void_p * _BATCH)()
@@ -43,7 +50,9 @@ def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
         count = dds.take_serdata(reader, serdata, wanted, infos, dds.ANY_STATE)
         for index in range(count):
             if infos[index].valid_data:
-                data = bytes(dds.serdata_size(serdata[index]))  # new, and nobody else's yet: filled in place
+                data = bytes(
+                    dds.serdata_size(serdata[index])
+                )  # new, and nobody else's yet: filled in place
                 dds.serdata_to_bytes(serdata[index], 0, len(data), data)
                 taken.append((data, infos[index].publication_handle, infos[index].source_timestamp))
             dds.serdata_unref(serdata[index])

@@ -31,7 +31,9 @@ class ConditionSet(Generic[T]):
     def __init__(self, participant: int) -> None:
         self._wait_set = dds.check(dds.create_wait_set(participant), "create a wait set")
         self._guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
-        dds.check(dds.wait_set_attach(self._wait_set, self._guard, _GUARD), "attach a guard condition")
+        dds.check(
+            dds.wait_set_attach(self._wait_set, self._guard, _GUARD), "attach a guard condition"
+        )
         self._objects: dict[int, T] = {}
         self._triggered = (ctypes.c_int64 * 16)()
         self._lock = threading.Lock()
@@ -67,7 +69,9 @@ class ConditionSet(Generic[T]):
             if token == _GUARD:
                 if not self._closed:
                     dds.set_guard_condition(self._guard, False)
-            elif (triggered_object := self._objects.get(token)) is not None:  # None: detached by another thread
+            elif (
+                triggered_object := self._objects.get(token)
+            ) is not None:  # None: detached by another thread
                 found.append(triggered_object)
         return found
 

@@ -58,7 +58,9 @@ class Bus:
 
     def subscriptions(self) -> list[LocalSubscription]:
         """All of them; called with the lock held."""
-        return [subscription for topic in self._topics.values() for subscription in topic.subscriptions]
+        return [
+            subscription for topic in self._topics.values() for subscription in topic.subscriptions
+        ]
 
     def _topic_of(self, endpoint: LocalEndpoint) -> _Topic:
         return self._topics.setdefault((endpoint.dds_topic, endpoint.type_id.name), _Topic({}, {}))
@@ -110,22 +112,32 @@ def _meet(publisher: LocalPublisher, subscription: LocalSubscription) -> None:
     if policy:
         for endpoint in (publisher, subscription):
             total = endpoint.incompatible_count = endpoint.incompatible_count + 1
-            endpoint.event(EventKind.INCOMPATIBLE_QOS).add(EventStatus(total, 1, last_policy_kind=policy))
+            endpoint.event(EventKind.INCOMPATIBLE_QOS).add(
+                EventStatus(total, 1, last_policy_kind=policy)
+            )
         return
     publisher.matched.append(subscription)
     subscription.matched.append(publisher)
     for endpoint in (publisher, subscription):
         endpoint.matched_count += 1
-        endpoint.event(EventKind.MATCHED).add(EventStatus(endpoint.matched_count, 1, len(endpoint.matched), 1))
+        endpoint.event(EventKind.MATCHED).add(
+            EventStatus(endpoint.matched_count, 1, len(endpoint.matched), 1)
+        )
     subscription.receive_late(publisher)
 
 
 def _misfit(publisher: LocalPublisher, subscription: LocalSubscription) -> int:
     """The policy that does not fit, or 0."""
     offered, requested = publisher.qos, subscription.qos
-    if offered.reliability == Reliability.BEST_EFFORT and requested.reliability != Reliability.BEST_EFFORT:
+    if (
+        offered.reliability == Reliability.BEST_EFFORT
+        and requested.reliability != Reliability.BEST_EFFORT
+    ):
         return _POLICY_RELIABILITY
-    if offered.durability != Durability.TRANSIENT_LOCAL and requested.durability == Durability.TRANSIENT_LOCAL:
+    if (
+        offered.durability != Durability.TRANSIENT_LOCAL
+        and requested.durability == Durability.TRANSIENT_LOCAL
+    ):
         return _POLICY_DURABILITY
     return 0
 

@@ -6,7 +6,17 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names
-from turtlewire.wire.base import Client, Context, EndpointInfo, MessageInfo, Node, NodeInfo, Publisher, Service, Subscription
+from turtlewire.wire.base import (
+    Client,
+    Context,
+    EndpointInfo,
+    MessageInfo,
+    Node,
+    NodeInfo,
+    Publisher,
+    Service,
+    Subscription,
+)
 from turtlewire.wire.graph import GraphView, with_best_available
 from turtlewire.wire.services import TopicClient, TopicService
 
@@ -90,7 +100,9 @@ class _LocalGraph(GraphView):
         """See :meth:`Graph.endpoints`."""
         with self._bus.lock:
             publishers = [publisher.info("publisher") for publisher in self._bus.publishers()]
-            return publishers + [subscription.info("subscription") for subscription in self._bus.subscriptions()]
+            return publishers + [
+                subscription.info("subscription") for subscription in self._bus.subscriptions()
+            ]
 
 
 class LocalContext(Context):

@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names
-from turtlewire.wire.base import EndpointInfo, Entity, EventKind, MessageInfo, Publisher, Subscription
+from turtlewire.wire.base import (
+    EndpointInfo,
+    Entity,
+    EventKind,
+    MessageInfo,
+    Publisher,
+    Subscription,
+)
 from turtlewire.wire.encapsulation import require_message
 from turtlewire.wire.events import StatusEvent
 from turtlewire.wire.qos import Durability, History
@@ -34,7 +41,9 @@ _EVENTS = {EventKind.MATCHED, EventKind.INCOMPATIBLE_QOS}
 class LocalEndpoint(Entity):
     """What publishers and subscriptions have in common. The bus's lock guards all of it."""
 
-    def __init__(self, node: LocalNode, name: str, dds_topic: str, type_id: TypeId, qos: QoS) -> None:
+    def __init__(
+        self, node: LocalNode, name: str, dds_topic: str, type_id: TypeId, qos: QoS
+    ) -> None:
         self.topic = name
         self.dds_topic = dds_topic
         self.type_id = type_id
@@ -46,7 +55,9 @@ class LocalEndpoint(Entity):
         self.matched_count = 0
         self.incompatible_count = 0
         self._closed = False
-        self._queue: deque[_Message] = deque(maxlen=None if qos.history == History.KEEP_ALL else max(qos.depth, 1))
+        self._queue: deque[_Message] = deque(
+            maxlen=None if qos.history == History.KEEP_ALL else max(qos.depth, 1)
+        )
         self._events: dict[EventKind, StatusEvent] = {}
 
     def create_event(self, kind: EventKind) -> Event:
@@ -92,7 +103,9 @@ class LocalEndpoint(Entity):
 class LocalPublisher(LocalEndpoint, Publisher):
     """Hands its messages to the queues of the matching subscriptions."""
 
-    def __init__(self, node: LocalNode, name: str, dds_topic: str, type_id: TypeId, qos: QoS) -> None:
+    def __init__(
+        self, node: LocalNode, name: str, dds_topic: str, type_id: TypeId, qos: QoS
+    ) -> None:
         super().__init__(node, name, dds_topic, type_id, qos)
         self._join(self.bus.add_publisher)
 

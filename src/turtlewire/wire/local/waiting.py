@@ -61,13 +61,21 @@ class LocalWaitSet(EventWatcher, WaitSet):
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
         """See :meth:`WaitSet.wait`."""
         with self._condition:
-            self._condition.wait_for(self._has_news, None if timeout_ns is None else timeout_ns / 1e9)
+            self._condition.wait_for(
+                self._has_news, None if timeout_ns is None else timeout_ns / 1e9
+            )
             self._woken = self._closed
-            ready: list[Entity] = [entity for subscription, entity in self._attached.items() if subscription.is_ready]
+            ready: list[Entity] = [
+                entity for subscription, entity in self._attached.items() if subscription.is_ready
+            ]
             return ready + self.ready_events()
 
     def _has_news(self) -> bool:
-        return self._woken or any(subscription.is_ready for subscription in self._attached) or bool(self.ready_events())
+        return (
+            self._woken
+            or any(subscription.is_ready for subscription in self._attached)
+            or bool(self.ready_events())
+        )
 
     def wake(self) -> None:
         """See :meth:`WaitSet.wake`."""
@@ -111,7 +119,9 @@ class ReaderThread:
             self._work.append(work)
             self._condition.notify()
             if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name="turtlewire-reader", daemon=True)
+                self._thread = threading.Thread(
+                    target=self._run, name="turtlewire-reader", daemon=True
+                )
                 self._thread.start()
 
     def _run(self) -> None:
