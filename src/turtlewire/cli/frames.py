@@ -10,6 +10,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.printable import printable
 from turtlewire.tf import inspection
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.frame_tree import read_frame_tree
@@ -91,7 +92,7 @@ class Picture(NamedTuple):
         """A line for each frame; ``columns`` cuts them."""
         if not self.rows:
             return [_NOTHING.format(domain=os.environ.get("ROS_DOMAIN_ID") or 0)]
-        names = [row.branch + _printable(row.frame) for row in self.rows]
+        names = [row.branch + printable(row.frame) for row in self.rows]
         width = max(map(len, names))
         lines = []
         for row, name in zip(self.rows, names, strict=True):
@@ -99,14 +100,9 @@ class Picture(NamedTuple):
             colour = _RED if row.stale else _BLUE if row.static else ""
             lines.append(f"{colour}{line}{_PLAIN}" if coloured and colour else line)
         return lines + [
-            ("Loop: " + " -> ".join(map(_printable, (*loop, loop[0]))))[:columns]
+            ("Loop: " + " -> ".join(map(printable, (*loop, loop[0]))))[:columns]
             for loop in self.loops
         ]
-
-
-def _printable(name: str) -> str:
-    """A name from the wire without what would steer the terminal."""
-    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in name)
 
 
 def _figures(row: Row) -> str:
@@ -114,7 +110,7 @@ def _figures(row: Row) -> str:
         return ""
     state = "static" if row.age_s is None else f"{row.age_s:.3f} s"
     rate = f"{row.rate_hz:.1f} Hz" if row.rate_hz else ""
-    return f"  {state:>9}  {rate:>9}  {', '.join(map(_printable, row.publishers))}{'  (stale)' if row.stale else ''}"
+    return f"  {state:>9}  {rate:>9}  {', '.join(map(printable, row.publishers))}{'  (stale)' if row.stale else ''}"
 
 
 def take_picture(buffer: Buffer, wall_ns: int) -> Picture:

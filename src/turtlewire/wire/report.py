@@ -6,6 +6,8 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
+from turtlewire.printable import printable
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -24,9 +26,9 @@ def warn_once(key: str, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Write ``text`` as a ROS 2 warning."""
+    """Write ``text`` as a ROS 2 warning, on one line whatever a peer put into it."""
     seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
-    sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {text}\n")
+    sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {printable(text)}\n")
     sys.stderr.flush()
 
 
