@@ -1,11 +1,14 @@
-"""Which turtles others reckon with although they do not exist: somebody listens to their pose, or sends them commands."""
+"""Turtles that are referenced but were never spawned: a node subscribes to their pose or sends them commands."""
 
 from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING
 
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from turtlesim.msg import Color, Pose
+from turtlesim.srv import Spawn
 from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
@@ -16,21 +19,23 @@ if TYPE_CHECKING:
 
 __all__ = ["MissingTurtles", "find_missing"]
 
-#: How long a turtle must be missing before anybody is told: most programs spawn theirs right after
+#: How long a turtle must be missing before the first hint: most programs spawn theirs right after
 #: they start [s].
 _PATIENCE_S = 2.0
-#: Among more turtles than this nobody misses one; and to look at the endpoints of so many would
-#: hold the simulator up.
+#: Time between two hints: the lines of a node that waits push the last one off the screen [s].
+_REMINDER_S = 10.0
+#: With more turtles than this there are no hints: looking at the endpoints of so many would delay
+#: the simulator.
 _MOST_TURTLES = 200
-#: Only the simulator serves these, so that who subscribes to one waits for a turtle.
+#: Only the simulator publishes these, so a node that subscribes to one waits for a turtle.
 _TURTLE_TOPICS = {"pose": type_name(Pose), "color_sensor": type_name(Color)}
 
 
 class MissingTurtles:
-    """Watches the graph, on its changes only.
+    """Looks at the graph when it changes, and logs how to spawn a missing turtle until it is there.
 
     Attributes:
-        names: The turtles that are missing at the moment, as far as is known.
+        names: The turtles that were missing at the last look.
     """
 
     def __init__(
@@ -47,18 +52,31 @@ class MissingTurtles:
         self._node = node
         self._turtles = turtles
         self._on_change = on_change
-        self._patience = node.create_timer(_PATIENCE_S, self._look)
+        real_time = Clock(clock_type=ClockType.STEADY_TIME)
+        self._patience = node.create_timer(_PATIENCE_S, self._look, clock=real_time)
+        self._reminder = node.create_timer(
+            _REMINDER_S, self._remind, clock=real_time, autostart=False
+        )
         self._changed = node.create_guard_condition(self._begin_to_wait)
         self._graph = node.context.wire.graph
         self._stop_listening = self._graph.add_listener(self._changed.trigger)
 
     def close(self) -> None:
-        """Watch no longer."""
+        """Stop watching."""
         self._stop_listening()
 
     def forget(self, name: str) -> None:
-        """The turtle is there now."""
-        self.names = tuple(missing for missing in self.names if missing != name)
+        """Note that the turtle exists now."""
+        self._set_names(tuple(missing for missing in self.names if missing != name))
+
+    def hint(self, name: str) -> str:
+        """The command that spawns a missing turtle."""
+        service = self._node.resolve_service_name("spawn")
+        request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
+        return (
+            f"Somebody waits for {name}, and there is no turtle of that name. "
+            f'To add it, type: ros2 service call {service} {type_name(Spawn)} "{request}"'
+        )
 
     def _begin_to_wait(self) -> None:
         if self._patience.is_canceled():
@@ -74,14 +92,35 @@ class MissingTurtles:
             else find_missing(self._graph.endpoints(), self._node.get_namespace(), turtles)
         )
         if names != self.names:
-            self.names = names
+            self._log_hints(set(names) - set(self.names))
+            self._set_names(names)
             self._on_change()
+
+    def _set_names(self, names: tuple[str, ...]) -> None:
+        self.names = names
+        if not names:
+            self._reminder.cancel()
+        elif self._reminder.is_canceled():
+            self._reminder.reset()
+
+    def _remind(self) -> None:
+        self._log_hints(self.names)
+
+    def _log_hints(self, names: Iterable[str]) -> None:
+        for name in sorted(names):
+            self._node.get_logger().info(self.hint(name))
 
 
 def find_missing(
     endpoints: Iterable[EndpointInfo], namespace: str, turtles: Iterable[str]
 ) -> tuple[str, ...]:
-    """Names of turtles in ``namespace`` that an endpoint reckons with, that no simulator serves, and that are not in ``turtles``."""
+    """Names of turtles in ``namespace`` that endpoints refer to and that do not exist.
+
+    Args:
+        endpoints: The graph's publishers and subscriptions.
+        namespace: The simulator's namespace.
+        turtles: Turtles that exist; those of other simulators are known by their publishers.
+    """
     pattern = re.compile(re.escape(namespace.rstrip("/")) + r"/([^/]+)/(pose|color_sensor|cmd_vel)")
     wanted: set[str] = set()
     served = set(turtles)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import Any, NamedTuple
 
 __all__ = [
@@ -26,6 +25,8 @@ __all__ = [
 _TEXT_FIELDS = frozenset({"turtle", "name", "target", "source"})
 #: Longest name that a page may send.
 _MAX_NAME = 255
+#: Largest number that a page may send, positive or negative.
+_LARGEST_NUMBER = 1_000_000
 
 
 class CommandError(ValueError):
@@ -117,13 +118,15 @@ def parse_command(text: str | bytes) -> Command:
     """The command in a message such as ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
 
     Raises:
-        CommandError: No JSON, an unknown type, or a field that is missing, unknown or of the wrong
-            kind.
+        CommandError: The text is not JSON or too deeply nested, the type is unknown, or a field is
+            missing, unknown or of the wrong kind.
     """
     try:
         message = json.loads(text)
     except ValueError as error:
         raise CommandError(f"not JSON: {error}") from error
+    except RecursionError as error:
+        raise CommandError("not a command: the JSON is nested too deeply") from error
     if (
         not isinstance(message, dict)
         or not isinstance(message.get("type"), str)
@@ -146,8 +149,7 @@ def _checked(name: str, value: object) -> str | float:
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, float))
-        or not math.isfinite(value)
-        or abs(value) > 1e6
+        or not abs(value) <= _LARGEST_NUMBER  # true for NaN, too
     ):
-        raise CommandError(f"{name} is a number between -1000000 and 1000000")
+        raise CommandError(f"{name} is a number between -{_LARGEST_NUMBER} and {_LARGEST_NUMBER}")
     return float(value)

@@ -27,7 +27,6 @@ from turtlesim.page_rotations import PageRotations
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
 from turtlesim.turtle_endpoints import QUEUE_DEPTH, TurtleEndpoints, are_finite
-from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -71,7 +70,6 @@ class TurtlesimNode(CppNode):
         self._page_publishers: dict[str, Publisher] = {}
         self._page_rotations = PageRotations(self)
         self._screen: Screen | None = None
-        self._hinted: set[str] = set()
         self.create_service(Empty, "clear", self._on_clear)
         self.create_service(Empty, "reset", self._on_reset)
         self.create_service(Spawn, "spawn", self._on_spawn)
@@ -79,7 +77,7 @@ class TurtlesimNode(CppNode):
         self.get_logger().info(
             f"Starting turtlesim with node name {self.get_fully_qualified_name()}"
         )
-        self._missing = MissingTurtles(self, lambda: self.world.turtles, self._on_missing)
+        self._missing = MissingTurtles(self, lambda: self.world.turtles, self._show_scene)
         self._add(self.world.spawn_centred())
         self.add_post_set_parameters_callback(lambda _: self._show_scene())
         self.context.on_shutdown(self._on_shutdown)
@@ -302,21 +300,6 @@ class TurtlesimNode(CppNode):
     def _show_scene(self) -> None:
         if self._screen is not None:
             self._screen.set_scene(self._scene())
-
-    def _on_missing(self) -> None:
-        for name in set(self._missing.names) - self._hinted:
-            self._hinted.add(name)
-            self.get_logger().info(self.missing_hint(name))
-        self._show_scene()
-
-    def missing_hint(self, name: str) -> str:
-        """What to type when a turtle is missing."""
-        service = self.resolve_service_name("spawn")
-        request = f"{{x: 4.0, y: 2.0, theta: 0.0, name: '{name}'}}"
-        return (
-            f"Somebody waits for {name}, and there is no turtle of that name. "
-            f'To add it, type: ros2 service call {service} {type_name(Spawn)} "{request}"'
-        )
 
     def _drive_from_page(self, command: page_commands.Drive) -> None:
         """Publish the command, so that it arrives like any other and everybody can listen to it."""

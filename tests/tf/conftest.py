@@ -22,7 +22,7 @@ def cores() -> list[Any]:
     found: list[Any] = [pytest.param(plain, id="python")]
     try:
         from turtlewire import _native
-    except ModuleNotFoundError:
+    except ImportError:
         found.append(
             pytest.param(
                 None,

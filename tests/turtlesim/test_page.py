@@ -386,4 +386,10 @@ def test_what_a_page_sends_wrong_is_answered(simulator):
         assert [json.loads(text) for text in texts] == [
             {"type": "error", "text": "linear is a number between -1000000 and 1000000"}
         ]
+        raw.send("[" * 60_000)
+        answers = (message for _ in range(100) if isinstance(message := raw.recv(timeout=60), str))
+        assert json.loads(next(answers)) == {
+            "type": "error",
+            "text": "not a command: the JSON is nested too deeply",
+        }
     assert simulator.commands == []

@@ -55,6 +55,8 @@ def test_commands(message, command):
         ("", "not JSON"),
         ("{", "not JSON"),
         (b"\xff\xfe\x00", "not JSON"),
+        ("[" * 60_000, "nested too deeply"),
+        ('{"a":' * 10_000, "nested too deeply"),
         (
             "[1]",
             "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, unwatch",
@@ -67,6 +69,10 @@ def test_commands(message, command):
         ('{"type": "kill", "turtle": "' + 300 * "x" + '"}', "at most 255"),
         ('{"type": "drive", "turtle": "t", "linear": NaN, "angular": 0}', "linear is a number"),
         ('{"type": "drive", "turtle": "t", "linear": 1e400, "angular": 0}', "linear is a number"),
+        (
+            '{"type": "drive", "turtle": "t", "linear": 1' + 400 * "0" + ', "angular": 0}',
+            "linear is a number between -1000000 and 1000000",
+        ),
         ('{"type": "drive", "turtle": "t", "linear": true, "angular": 0}', "linear is a number"),
         ('{"type": "drive", "turtle": "t", "linear": 0, "angular": "1"}', "angular is a number"),
     ],

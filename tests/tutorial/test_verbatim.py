@@ -53,7 +53,6 @@ def test_it_reports_the_missing_turtle_then_follows_it_and_stops_at_ctrl_c(run, 
     stamps = [float(report[1]) for report in reports]
     assert 0.09 < median(later - earlier for earlier, later in pairwise(stamps)) < 0.15
     launch.wait_for(re.escape(f'ros2 service call /spawn turtlesim/srv/Spawn "{SPAWN}"'))
-    assert launch.text.count("ros2 service call /spawn") == 1
 
     spawn = run(ROS2, "service", "call", "/spawn", "turtlesim/srv/Spawn", SPAWN)
     assert spawn.wait() == 0, spawn.text

@@ -30,7 +30,9 @@ def test_own_pages_are_welcome(host, origin):
         ["127.0.0.1.evil.example"],
         ["localhost:x"],
         ["127.0.0.1:80:80"],
-        ["a", "localhost"],
+        ["evil.example", "localhost"],
+        ["localhost", "evil.example"],
+        ["localhost", "localhost"],
         [""],
     ],
 )

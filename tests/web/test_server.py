@@ -6,7 +6,10 @@ import contextlib
 import http.client
 import json
 import socket
+import subprocess
+import sys
 import threading
+import types
 
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -73,6 +76,18 @@ def get(server: Server, path: str, method: str = "GET", **headers: str) -> http.
         connection.close()
 
 
+def get_with_hosts(server: Server, *hosts: str) -> int:
+    """The status of a request with these ``Host`` headers."""
+    host, port = server.url.removeprefix("http://").rstrip("/").split(":")
+    connection = http.client.HTTPConnection(host, int(port), timeout=60)
+    with contextlib.closing(connection):
+        connection.putrequest("GET", "/", skip_host=True)
+        for name in hosts:
+            connection.putheader("Host", name)
+        connection.endheaders()
+        return connection.getresponse().status
+
+
 def live(server: Server, **options) -> connect:
     return connect(server.url.replace("http", "ws") + "live", **options)
 
@@ -116,6 +131,9 @@ def test_nothing_else_is_served(server, path):
 
 def test_foreign_names_and_pages_are_refused(server):
     assert get(server, "/", Host="evil.example:80").status == 403
+    assert get_with_hosts(server, "localhost", "evil.example") == 403
+    assert get_with_hosts(server, "localhost", "localhost") == 403
+    assert get_with_hosts(server, "localhost") == 200
     assert get(server, "/", Origin="http://evil.example").status == 403
     with pytest.raises(InvalidStatus) as refused, live(server, origin="http://evil.example"):
         pass
@@ -234,10 +252,47 @@ def test_closing_at_once_returns(page, shared):
         Server(page, lambda: Counter(shared)).close()
 
 
-def test_importing_the_room_stays_light():
-    import subprocess
-    import sys
+#: A server that may open only a few more files, until its standard input ends.
+FEW_FILES = """
+import os, pathlib, resource, sys
+from turtlewire.web import Server
+class Session:
+    def outgoing(self): return []
+    def receive(self, message): pass
+    def closed(self): pass
+server = Server(pathlib.Path(sys.argv[1]), Session)
+import http, websockets.http11
+limit = max(map(int, os.listdir("/proc/self/fd"))) + 8
+resource.setrlimit(resource.RLIMIT_NOFILE, (limit, limit))
+print(server.url, flush=True)
+sys.stdin.read()
+"""
 
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files in /proc")
+def test_running_out_of_files_is_reported_once_and_passes(page):
+    with subprocess.Popen(
+        [sys.executable, "-c", FEW_FILES, str(page)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as program:
+        url = program.stdout.readline().strip()
+        address = ("127.0.0.1", int(url.split(":")[2].rstrip("/")))
+        with contextlib.ExitStack() as sockets:
+            for _ in range(40):
+                sockets.enter_context(socket.create_connection(address, timeout=60))
+            said = program.stderr.readline()
+        response = get(types.SimpleNamespace(url=url), "/")
+        assert (response.status, response.text) == (200, "<p>hello</p>")
+        program.stdin.close()
+        assert program.stderr.read() == ""
+        assert program.wait(60) == 0
+    assert "The page accepts no further browser for now: Too many open files." in said
+
+
+def test_importing_the_room_stays_light():
     code = "import sys, turtlewire.web; print(*[name for name in ('asyncio', 'websockets', 'http') if name in sys.modules])"
     assert (
         subprocess.run(

@@ -6,7 +6,7 @@ import errno
 import os
 import socket
 import threading
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from turtlewire.web.files import find_files
 from turtlewire.web.origin import refusal
@@ -26,6 +26,8 @@ __all__ = ["Server", "Session"]
 LIVE_PATH = "/live"
 #: Longest message that a page may send [bytes].
 _MAX_MESSAGE = 65536
+#: Errors of the system that pass when files or memory are freed; the server tries again each second.
+_OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 #: How long a browser may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
 #: Everything comes from this server; nobody may put the page into a frame.
@@ -126,6 +128,7 @@ class Server:
         from websockets.asyncio.server import serve
 
         self._stopping = asyncio.Event()
+        asyncio.get_running_loop().set_exception_handler(_ExceptionHandler())
         server = await serve(
             self._handle,
             sock=self._socket,
@@ -230,6 +233,25 @@ async def _receive(connection: ServerConnection, session: Session, wake_up: asyn
     async for message in connection:
         session.receive(message)
         wake_up.set()
+
+
+class _ExceptionHandler:
+    """Reports once that no connection can be accepted: asyncio would report each of its attempts."""
+
+    def __init__(self) -> None:
+        self._reported = False
+
+    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        error = context.get("exception")
+        if not isinstance(error, OSError) or error.errno not in _OUT_OF_RESOURCES:
+            loop.default_exception_handler(context)
+        elif not self._reported:
+            self._reported = True
+            _logger().warning(
+                "The page accepts no further browser for now: %s. "
+                "Close pages or other programs, or raise the limit (ulimit -n).",
+                error.strerror,
+            )
 
 
 def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConnection]:
