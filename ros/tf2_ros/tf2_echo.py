@@ -15,6 +15,7 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from tf_transformations import euler_from_quaternion
 from turtlewire.errors import TransformException
+from turtlewire.printable import printable_lines
 
 from .buffer import Buffer
 from .command_line import Parser, count, digits, frame_id
@@ -95,18 +96,14 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
         known, reason = answer
         if known:
             break
-        node.get_logger().info(
-            f"Waiting for transform {source} ->  {target}: {reason}{_hint(buffer, source, target)}"
-        )
+        why = printable_lines(f"{reason}{_hint(buffer, source, target)}")
+        node.get_logger().info(f"Waiting for transform {source} ->  {target}: {why}")
     while not stopped.is_set():
         try:
             transform = buffer.lookup_transform(source, target, Time())
         except TransformException as error:
-            print(f"Failure at {node.get_clock().now().nanoseconds / 1e9:f}")  # noqa: T201
-            print(  # noqa: T201
-                f"Exception thrown:{error}\nThe current list of frames is:\n{buffer.all_frames_as_string()}",
-                flush=True,
-            )
+            text = _failure(node.get_clock().now().nanoseconds, error, buffer)
+            print(printable_lines(text), flush=True)  # noqa: T201
         else:
             print(as_json(transform) if options.json else describe(transform, options), flush=True)  # noqa: T201
             printed += 1
@@ -121,6 +118,14 @@ def _hint(buffer: Buffer, source: str, target: str) -> str:
     except TransformException as error:
         return f"\n{error.hint}" if error.hint else ""
     return ""  # it has come just now
+
+
+def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:
+    """What ROS 2 prints when a transform that was known is not known any more."""
+    return (
+        f"Failure at {now_ns / 1e9:f}\nException thrown:{error}\n"
+        f"The current list of frames is:\n{buffer.all_frames_as_string()}"
+    )
 
 
 def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
@@ -142,7 +147,7 @@ def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
     lines.append(f"- Rotation: in RPY (degree) [{row(math.degrees(angle) for angle in angles)}]")
     lines.append("- Matrix:")
     lines += [
-        " ".join(f"{number:{digits + 3}.{digits}f}" for number in numbers)
+        "".join(f" {number:{digits + 3}.{digits}f}" for number in numbers)
         for numbers in _matrix(t, q)
     ]
     if options.distance:

@@ -13,6 +13,7 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from turtlewire import msg
 from turtlewire.errors import TransformException
+from turtlewire.printable import printable_lines
 from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME
 from turtlewire.wire.base import TypeId
@@ -85,12 +86,14 @@ class Statistics:
             self._name(gid)  # while the publisher is there
             delays, span = self._publishers.setdefault(gid, (Delays(), [now, now]))
             span[1] = now
+            of_message = Delays()
             for transform in message.transforms:
                 delay = now - (transform.header.stamp.sec + transform.header.stamp.nanosec / 1e9)
-                delays.add(delay)
+                of_message.add(delay)
                 _, of_frame = self._frames.get(transform.child_frame_id, (gid, Delays()))
                 of_frame.add(delay)
                 self._frames[transform.child_frame_id] = (gid, of_frame)
+            delays.add(of_message.mean)  # as ROS 2: a broadcaster's figures count messages
 
     def _name(self, gid: bytes) -> str:
         """Of a publisher; the first message of one may come before the graph knows whose it is."""
@@ -271,7 +274,9 @@ def _report(
             data |= {"error": str(error), "hint": error.hint}
         data |= {"chain": way, "net_delay": {"average": net.mean, "max": net.maximum}}
         data["frames"] = [entry for entry in data["frames"] if entry["frame"] in way]
-    return json.dumps(data) if options.json else _in_lines(options.frames, data)
+    if options.json:
+        return json.dumps(data)
+    return printable_lines(_in_lines(options.frames, data))
 
 
 def _in_lines(frames: list[str], data: dict[str, Any]) -> str:

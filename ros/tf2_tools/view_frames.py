@@ -19,6 +19,7 @@ from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, Transform
 from tf2_ros.pipes import leave_pipe
 from tf2_tools.dot import dot_from_tree
 from tf2_tools.pdf import pdf_from_drawing
+from turtlewire.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
@@ -70,8 +71,9 @@ class ViewFrames(Node):
                 f"No tf data received on {self._topics[0]} and {self._topics[1]}. Is a broadcaster running, in this ROS_DOMAIN_ID?"
             )
         for loop in tree.loops:
+            names = printable(" -> ".join([*loop, loop[0]]))
             self.get_logger().warning(
-                f"These frames form a loop, no lookup across it works: {' -> '.join([*loop, loop[0]])}"
+                f"These frames form a loop, no lookup across it works: {names}"
             )
         return tree
 

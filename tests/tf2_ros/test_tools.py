@@ -19,7 +19,15 @@ from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
-from tf2_ros import Buffer, BufferClient, TransformListener, command_line, tf2_echo, tf2_monitor
+from tf2_ros import (
+    Buffer,
+    BufferClient,
+    StaticTransformBroadcaster,
+    TransformListener,
+    command_line,
+    tf2_echo,
+    tf2_monitor,
+)
 from tf2_ros import static_transform_publisher as publisher
 from turtlewire import msg, wire
 from turtlewire.tf.listener import QOS, TYPE_NAME
@@ -261,8 +269,8 @@ def test_echo_prints_what_ros_2_prints(tool):
     block = (
         r"At time \d+\.\d{9}\n- Translation: \[2\.000, -1\.000, 0\.000\]\n- Rotation: in Quaternion \[0\.000, 0\.000, 0\.000, 1\.000\]\n"
         r"- Rotation: in RPY \(radian\) \[0\.000, -0\.000, 0\.000\]\n- Rotation: in RPY \(degree\) \[0\.000, -0\.000, 0\.000\]\n- Matrix:\n"
-        r" 1\.000  0\.000  0\.000  2\.000\n 0\.000  1\.000  0\.000 -1\.000\n"
-        r" 0\.000  0\.000  1\.000  0\.000\n 0\.000  0\.000  0\.000  1\.000\n"
+        r"  1\.000  0\.000  0\.000  2\.000\n  0\.000  1\.000  0\.000 -1\.000\n"
+        r"  0\.000  0\.000  1\.000  0\.000\n  0\.000  0\.000  0\.000  1\.000\n"
         r"- Distance: 2\.236\n- In words: seen from world, robot is 2\.000 m ahead, 1\.000 m to the right\n"
     )
     assert re.fullmatch(block * 2, out), out
@@ -476,6 +484,46 @@ def test_statistics(stamped):
     assert data["broadcasters"] == [
         {"node": "/one", "rate": 1.5, "average_delay": 2.25, "max_delay": 3.0}
     ]
+
+
+def test_broadcasters_are_counted_by_messages_not_transforms(stamped):
+    """A node that sends three transforms in each message, 20 messages a second, sends at 20 Hz."""
+    now = [0.0]
+    statistics = tf2_monitor.Statistics(lambda _gid: "/three", lambda: now[0])
+    transforms = [stamped(child=f"frame{number}", stamp_s=-number) for number in range(3)]
+    message = msg.get_message(TYPE_NAME)(transforms=transforms)
+    for tick in range(21):
+        now[0] = tick / 20
+        statistics.take(message, MessageInfo(0, 0, b"three"))
+    (broadcaster,) = statistics.as_dict()["broadcasters"]
+    assert broadcaster["rate"] == pytest.approx(20.0)
+    # ROS 2's figures of a broadcaster are those of its messages' mean delays
+    assert broadcaster["average_delay"] == pytest.approx(1.5)
+    assert broadcaster["max_delay"] == pytest.approx(2.0)
+
+
+STEERING = "robot\x1b]0;title\x07\x1b[2J"
+STEERING_SHOWN = r"robot\x1b]0;title\x07\x1b[2J"
+
+
+def test_monitor_escapes_names_that_would_steer_the_terminal(stamped):
+    statistics = tf2_monitor.Statistics(lambda _gid: STEERING, lambda: 0.0)
+    message = msg.get_message(TYPE_NAME)(transforms=[stamped(child=STEERING)])
+    statistics.take(message, MessageInfo(0, 0, b"one"))
+    options = argparse.Namespace(frames=[], json=False)
+    report = tf2_monitor._report(options, Buffer(), statistics, tf2_monitor.Delays())
+    assert f"Frame: {STEERING_SHOWN}, published by {STEERING_SHOWN}, " in report
+    assert "\x1b" not in report
+
+
+def test_echo_escapes_names_that_would_steer_the_terminal(tool, listening, stamped):
+    node = listening[1]
+    broadcaster = StaticTransformBroadcaster(node)
+    broadcaster.sendTransform([stamped(STEERING, "world"), stamped("elsewhere", "robot")])
+    process = tool("tf2_echo", "world", "robot")
+    text = read_until(process, r"belongs to the tree of root", "stderr")
+    assert STEERING_SHOWN in text
+    assert "\x1b]0" not in text
 
 
 @pytest.mark.usefixtures("talker")
