@@ -1,23 +1,30 @@
-"""A field full of turtles, each of which follows the one before it: `ros2 launch learning_tf2_py swarm.launch.py count:=1000`."""
+"""Turtles that follow one another: `ros2 launch learning_tf2_py swarm.launch.py count:=1000`."""
+
+from importlib.util import find_spec
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+# The simulator of turtlewire is a Python module that shares a process with the swarm, which carries
+# a thousand turtles. The simulator of ROS 2 is a C++ program; over topics, some hundreds are possible.
+SIMULATOR_IS_A_MODULE = find_spec("turtlesim.turtlesim_node") is not None
+
 
 def generate_launch_description():
+    swarm = Node(
+        package="learning_tf2_py",
+        executable="swarm_with_simulator" if SIMULATOR_IS_A_MODULE else "swarm",
+        parameters=[{"count": LaunchConfiguration("count")}],
+        output="screen",
+        sigterm_timeout="30",  # a thousand turtles need seconds to leave the graph
+    )
+    simulator = Node(package="turtlesim", executable="turtlesim_node")
     return LaunchDescription(
         [
-            DeclareLaunchArgument(
-                "count", default_value="1000", description="How many turtles there are."
-            ),
-            Node(
-                package="learning_tf2_py",
-                executable="swarm_with_simulator",
-                parameters=[{"count": LaunchConfiguration("count")}],
-                output="screen",
-                sigterm_timeout="30",  # a thousand turtles take seconds to leave, and longer on a busy machine
-            ),
+            DeclareLaunchArgument("count", default_value="1000", description="How many turtles."),
+            *([] if SIMULATOR_IS_A_MODULE else [simulator]),
+            swarm,
         ]
     )

@@ -1,14 +1,20 @@
-"""The swarm and its simulator in one process, which shares the poses: nobody listens to their topics, so that none is sent."""
+"""The swarm and turtlewire's simulator in one process: poses are shared, not sent."""
+
+import sys
 
 import rclpy
 from learning_tf2_py.swarm import Swarm
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from turtlesim.turtlesim_node import (
-    TurtlesimNode,
-)  # turtlewire's; beside a simulator in C++ run `swarm`
+
+try:
+    from turtlesim.turtlesim_node import TurtlesimNode
+except ImportError:  # the simulator of ROS 2 is a C++ program
+    TurtlesimNode = None
 
 
 def main(args=None):
+    if TurtlesimNode is None:
+        sys.exit("This simulator cannot share a process: run turtlesim_node and swarm instead.")
     rclpy.init(args=args)
     try:
         simulator = TurtlesimNode()
