@@ -28,10 +28,10 @@ reservations = []
 
 
 def free_domain():
-    """A domain in which nobody on this computer listens; up to 101, its ports stay clear of those that systems hand out.
+    """A domain in which no process of this computer listens.
 
-    Until this process ends, no other test process takes it: a TCP port that DDS does not use stands
-    for the domain.
+    Up to 101, its ports stay clear of those that systems hand out. Until this process ends, no other test process takes it: a
+    TCP port that DDS does not use stands for the domain.
     """
     for offset in range(101):
         domain = 1 + (os.getpid() + offset) % 101
@@ -52,6 +52,14 @@ os.environ["ROS_DOMAIN_ID"] = free_domain()
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="turtlewire-test-log-")
 os.environ.pop("RMW_IMPLEMENTATION", None)
+
+
+# A shell starts what ends with `&` with SIGINT ignored, and `nohup` ignores SIGHUP; children inherit
+# that. With handlers here, the children have the defaults again, as the tests expect.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def pytest_unconfigure():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import sys
 
 import pytest
@@ -15,6 +16,18 @@ ROS2 = (
 )
 
 
+@pytest.fixture
+def _multicast():
+    """Skips on a host that no interface joins to a multicast group."""
+    group = socket.inet_aton("225.0.0.1") + socket.inet_aton("0.0.0.0")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
+        except OSError as error:
+            pytest.skip(f"no interface of this host takes part in multicast: {error}")
+
+
+@pytest.mark.usefixtures("_multicast")
 def test_a_datagram_arrives(run, capsys):
     receiver = run(*ROS2, "multicast", "receive", "--port", "49151")
     receiver.wait_for(r"^Waiting for UDP multicast datagram\.\.\.$")
