@@ -28,6 +28,8 @@ Ctrl-C of the tutorial's nodes ends in tracebacks, exit code -2 or 1
 a waiting lookup sleeps 20 ms at a time, on the system clock
   tf/test_buffer.py test_wakes_when_data_comes
   tf2_ros/test_waiting_in_callbacks.py test_waiting_never_hangs_and_answers_right
+`RMW_IMPLEMENTATION` names a middleware that is not installed: every program ends in a traceback
+  wire/test_environment.py test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken
 Python errors carry a text
   rclpy/test_exceptions.py test_hints_are_notes
 

@@ -1,3 +1,4 @@
+#include "../cyclone/abort.hpp"
 #include "buffer.hpp"
 #include "errors.hpp"
 #include "intake.hpp"
@@ -15,4 +16,6 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
+  module.def("print_on_abort", &turtlewire::cyclone::print_on_abort, nanobind::arg("pipe"),
+             "When this process aborts, write on stderr what can be read from a pipe.");
 }

@@ -64,15 +64,17 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
 
 
 def get_rmw_implementation_identifier() -> str:
-    """The middleware in use: ``rmw_cyclonedds_cpp`` unless ``RMW_IMPLEMENTATION`` says otherwise."""
-    import os
+    """The middleware in use: ``rmw_cyclonedds_cpp`` unless ``RMW_IMPLEMENTATION`` names another."""
+    from turtlewire.wire.environment import middleware_name
 
-    return os.environ.get("RMW_IMPLEMENTATION") or "rmw_cyclonedds_cpp"
+    return middleware_name()
 
 
 def get_available_rmw_implementations() -> set[str]:
     """The middlewares that ``RMW_IMPLEMENTATION`` may name."""
-    return {"rmw_cyclonedds_cpp", "local"}
+    from turtlewire.wire.environment import MIDDLEWARES
+
+    return set(MIDDLEWARES)
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:

@@ -11,6 +11,8 @@ __all__ = ["system_report"]
 
 def system_report() -> str:
     """All sections, each with a title and a line for every fact."""
+    from turtlewire.wire.environment import middleware_name
+
     sections: dict[str, dict[str, object]] = {
         "PLATFORM INFORMATION": {
             "system": platform.system(),
@@ -19,9 +21,7 @@ def system_report() -> str:
             "processor": platform.machine(),
             "python": f"{platform.python_version()} ({sys.executable})",
         },
-        "RMW MIDDLEWARE": {
-            "middleware name": os.environ.get("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
-        },
+        "RMW MIDDLEWARE": {"middleware name": middleware_name()},
         "ROS 2 INFORMATION": _ros_information(),
     }
     blocks = [_block(title, [facts]) for title, facts in sections.items()]

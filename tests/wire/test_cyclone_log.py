@@ -1,15 +1,17 @@
-"""Cyclone's complaints are passed on in our words, each kind once."""
+"""Cyclone's complaints are passed on in our words, a few in a minute."""
 
 from __future__ import annotations
 
+import hashlib
 import os
 import subprocess
 import sys
 import threading
+import tracemalloc
 
 import pytest
 
-from turtlewire.wire.cyclone.log import CycloneLog, explain
+from turtlewire.wire.cyclone.log import CycloneLog, LineLimiter, explain
 
 pytestmark = pytest.mark.skipif(
     sys.platform == "win32", reason="there Cyclone writes on stderr itself"
@@ -65,6 +67,70 @@ def test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends(monkeypatch)
     log.stop()
     assert threading.active_count() == before
     assert said == ["Cyclone DDS says: thing 0 failed", "Cyclone DDS says: another thing"]
+
+
+def test_a_flood_of_ever_new_lines_is_a_few_sentences_and_a_summary():
+    limiter = LineLimiter()
+    said = []
+    for number in range(30_000):
+        garbage = hashlib.sha256(number.to_bytes(4, "big")).hexdigest()
+        said += limiter.sentences(f"malformed packet {garbage}", number / 1000)
+    assert len(said) == 5
+    assert limiter.summary(59.9) == []
+    [summary] = limiter.summary(60.0)
+    assert summary.endswith("(the last of 29995 more lines)")
+    assert limiter.summary(120.0) == []
+    assert limiter.period_end is None
+
+
+def test_a_flood_leaves_no_memory_behind():
+    limiter = LineLimiter()
+    lines = [f"malformed packet {hashlib.sha256(bytes([n])).hexdigest()}" for n in range(256)]
+
+    def flood(start: int) -> None:
+        for number, line in enumerate(lines * 40):
+            limiter.sentences(f"{line}{number:x}", start + number / 100)
+
+    flood(0)
+    tracemalloc.start()
+    flood(1000)
+    size, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert size < 20_000
+
+
+def test_a_kind_is_said_again_in_the_next_period():
+    limiter = LineLimiter()
+    assert limiter.sentences("thing 1 failed", 0.0) == ["Cyclone DDS says: thing 1 failed"]
+    assert limiter.sentences("thing 2 failed", 59.0) == []
+    assert limiter.sentences("thing 3 failed", 61.0) == [
+        "Cyclone DDS says: thing 2 failed (the last of 1 more lines)",
+        "Cyclone DDS says: thing 3 failed",
+    ]
+
+
+def test_a_long_line_is_cut():
+    assert explain("x" * 10_000) == f"Cyclone DDS says: {'x' * 300}…"
+
+
+def test_the_summary_comes_without_another_line(monkeypatch):
+    """The thread waits no longer than the period lasts."""
+    said: list[str] = []
+    summarised = threading.Event()
+
+    def warn(text: str) -> None:
+        said.append(text)
+        if "more lines" in text:
+            summarised.set()
+
+    monkeypatch.setattr("turtlewire.wire.cyclone.log.warn", warn)
+    monkeypatch.setattr("turtlewire.wire.cyclone.log._PERIOD_S", 0.2)
+    log = CycloneLog()
+    log.start()
+    os.write(log._write_end, b"thing 1 failed\nthing 2 failed\n")
+    assert summarised.wait(60)
+    log.stop()
+    assert said[-1] == "Cyclone DDS says: thing 2 failed (the last of 1 more lines)"
 
 
 def fill(pipe: int) -> None:

@@ -77,6 +77,34 @@ def test_localhost_only_is_honoured_and_deprecated(
     assert environment.discovery().range == Range.SUBNET
 
 
+@pytest.mark.parametrize("theirs", ["rmw_fastrtps_cpp", "rmw_zenoh_cpp", "rmw_nope"])
+def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: str):
+    """In a process of its own: this one may have said it before."""
+    code = (
+        "from turtlewire.wire import open_context\n"
+        "for _ in range(2):\n"
+        "    context = open_context(5)\n"
+        "    print(type(context).__name__)\n"
+        "    context.close()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+        env=os.environ | {"RMW_IMPLEMENTATION": theirs},
+    )
+    assert done.stdout.split() == ["CycloneContext", "CycloneContext"]
+    [line] = done.stderr.splitlines()
+    assert f"RMW_IMPLEMENTATION is {theirs}, which is not available here" in line
+
+
+def test_a_middleware_that_a_program_asks_for_must_be_there():
+    with pytest.raises(WireError, match="middleware 'rmw_nope' is not available"):
+        open_context(5, middleware="rmw_nope")
+
+
 def configuration(discovery: Discovery) -> ET.Element:
     domain = ET.fromstring(domain_configuration(7, discovery)).find("Domain")
     assert domain is not None
@@ -103,7 +131,7 @@ def test_configuration_of_each_range():
     local = configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))
     assert local.findtext("General/AllowMulticast") == "false"
     assert local.findtext("Discovery/MaxAutoParticipantIndex") == "120"
-    assert peers(local) == ["localhost", "10.0.0.1"]
+    assert peers(local) == ["127.0.0.1", "10.0.0.1"]
     subnet = configuration(Discovery(Range.SUBNET, ("10.0.0.1",)))
     assert subnet.findtext("General/AllowMulticast") is None
     assert peers(subnet) == ["10.0.0.1"]
@@ -156,7 +184,7 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
 
     monkeypatch.setattr(socket, "getaddrinfo", nobody)
     for _ in range(2):
-        assert peers(configuration(Discovery(Range.LOCALHOST, ("robot",)))) == ["localhost"]
+        assert peers(configuration(Discovery(Range.LOCALHOST, ("robot",)))) == ["127.0.0.1"]
     [line] = capsys.readouterr().err.splitlines()
     assert line.endswith(
         "ROS_STATIC_PEERS: robot is left out, it has no IPv4 address: Name or service not known"

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
@@ -23,8 +22,8 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
 
     Args:
         domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
-        middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS, the default) or ``local`` (inside this
-            process); None takes ``RMW_IMPLEMENTATION``, or the default.
+        middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS) or ``local`` (inside this process); None
+            takes :func:`.environment.middleware_name`.
 
     Raises:
         WireError: No such middleware, it is not available on this platform, or the domain cannot be
@@ -34,9 +33,10 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
         domain_id = environment.domain_id()
     if not 0 <= domain_id <= environment.MAX_DOMAIN_ID:
         raise WireError(
-            f"domain {domain_id} does not exist: domains have numbers from 0 to {environment.MAX_DOMAIN_ID}"
+            f"domain {domain_id} does not exist: "
+            f"domains have numbers from 0 to {environment.MAX_DOMAIN_ID}"
         )
-    name = middleware or os.environ.get("RMW_IMPLEMENTATION") or "rmw_cyclonedds_cpp"
+    name = middleware or environment.middleware_name()
     if name == "rmw_cyclonedds_cpp":
         from .cyclone.context import CycloneContext
 
@@ -46,6 +46,4 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
 
         return LocalContext(domain_id)
     error = WireError(f"middleware {name!r} is not available")
-    raise error.with_hint(
-        "RMW_IMPLEMENTATION may be 'rmw_cyclonedds_cpp' (the default) or 'local' (inside one process)."
-    )
+    raise error.with_hint(f"There are {' and '.join(environment.MIDDLEWARES)}.")

@@ -10,7 +10,19 @@ from turtlewire.errors import WireError
 
 from .report import warn_once
 
-__all__ = ["MAX_DOMAIN_ID", "Discovery", "Range", "discovery", "domain_id"]
+__all__ = [
+    "MAX_DOMAIN_ID",
+    "MIDDLEWARES",
+    "Discovery",
+    "Range",
+    "discovery",
+    "domain_id",
+    "middleware_name",
+]
+
+#: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), and ``local``, which stays
+#: inside the process.
+MIDDLEWARES = ("rmw_cyclonedds_cpp", "local")
 
 #: Above it, the ports of a domain would not fit.
 MAX_DOMAIN_ID = 232
@@ -54,6 +66,23 @@ def domain_id() -> int:
             "Set it to a number that your robots share, for example: export ROS_DOMAIN_ID=7"
         )
     return int(text)
+
+
+def middleware_name() -> str:
+    """``RMW_IMPLEMENTATION``; Cyclone DDS if it is not set or, after a warning, names another one.
+
+    A shell that sourced a real ROS 2 often has a middleware set that only exists there.
+    """
+    name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
+    if name in MIDDLEWARES:
+        return name
+    if name:
+        warn_once(
+            "RMW_IMPLEMENTATION",
+            f"RMW_IMPLEMENTATION is {name}, which is not available here: "
+            f"{MIDDLEWARES[0]} is taken (valid: {', '.join(MIDDLEWARES)})",
+        )
+    return MIDDLEWARES[0]
 
 
 def discovery() -> Discovery:

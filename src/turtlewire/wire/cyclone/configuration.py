@@ -59,12 +59,12 @@ def _general(discovery: Discovery) -> str:
 def _peers(discovery: Discovery) -> str:
     peers = []
     if discovery.range == Range.LOCALHOST:
-        # Never given up, because with static peers it is we who must find the processes of this
-        # host (see _general).
+        # With static peers it is never given up, because then we must find the processes of this
+        # host (see _general). Not "localhost": Cyclone aborts where nothing resolves that name.
         peers.append(
-            '<Peer address="localhost" PruneDelay="inf"/>'
+            '<Peer address="127.0.0.1" PruneDelay="inf"/>'
             if discovery.static_peers
-            else '<Peer address="localhost"/>'
+            else '<Peer address="127.0.0.1"/>'
         )
     if discovery.range != Range.SYSTEM_DEFAULT:
         peers += [

@@ -1,11 +1,10 @@
-"""What Cyclone has to complain about, in words for people and not each time anew.
+"""What Cyclone complains about, in words for people, and bounded.
 
-Cyclone writes a line on stderr for every datagram that the network refuses, ten a second and more,
-and has no setting for it; its ``dds_set_log_sink`` is not exported by the library in the wheel. A
+Cyclone writes a line on stderr for every datagram that the network refuses or a peer garbles, and
+has no setting for it; its ``dds_set_log_sink`` is not exported by the library in the wheel. A
 domain writes to what C's ``stderr`` was when it was made; so for that moment ``stderr`` is a pipe,
-which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) What
-Cyclone says right before it aborts is lost with the process; so what makes it abort is kept from
-it, see ``configuration``.
+which a thread of ours reads. (Python writes on file descriptor 2, which stays as it is.) When
+Cyclone aborts the process, the compiled core writes on stderr what the pipe still holds.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import select
 import sys
 import threading
 import time
@@ -24,10 +24,13 @@ from turtlewire.wire.report import warn
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["CycloneLog", "explain"]
+__all__ = ["CycloneLog", "LineLimiter", "explain"]
 
-#: What is about the same is said once in this time.
-_SILENCE_S = 60.0
+#: In each period of so many seconds, so many lines are passed on; the others are counted.
+_PERIOD_S = 60.0
+_LINES = 5
+_MAX_LETTERS = 300
+_BLOCK = 1 << 16
 # patterns, compiled when there is something to say
 _HEAD = r"[\d.]+ \[\w*\] +\S+: "
 _REFUSED = r"ddsi_udp_conn_write to udp/(.+):\d+ failed"
@@ -38,8 +41,49 @@ def explain(line: str) -> str:
     """A line of Cyclone's, without its time and thread, as a sentence of ours."""
     refused = re.match(_REFUSED, line)
     if refused:
-        return f"the network does not let us send to {refused.group(1)}: is the link down? Reliable messages are sent again once it is up."
+        return (
+            f"the network does not let us send to {refused.group(1)}: is the link down? "
+            "Reliable messages are sent again once it is up."
+        )
+    if len(line) > _MAX_LETTERS:
+        line = f"{line[:_MAX_LETTERS]}…"
     return f"Cyclone DDS says: {line}"
+
+
+class LineLimiter:
+    """Chooses the lines to pass on: a few kinds in a period, each once, and a count of the rest.
+
+    Attributes:
+        period_end: When the period ends, in the seconds of the caller's clock; None between two.
+    """
+
+    def __init__(self) -> None:
+        self.period_end: float | None = None
+        self._kinds: set[str] = set()
+        self._more = 0
+        self._last = ""
+
+    def sentences(self, line: str, now: float) -> list[str]:
+        """What to say when Cyclone wrote ``line``."""
+        said = self.summary(now)
+        if self.period_end is None:
+            self.period_end = now + _PERIOD_S
+        kind = re.sub(r"<.*|[0-9a-f]*\d[0-9a-f]*", "#", line)  # without dumps and numbers
+        if kind in self._kinds or len(self._kinds) >= _LINES:
+            self._more += 1
+            self._last = line
+        else:
+            self._kinds.add(kind)
+            said.append(explain(line))
+        return said
+
+    def summary(self, now: float) -> list[str]:
+        """What to say of the lines that a period left out, if it has ended by ``now``."""
+        if self.period_end is None or now < self.period_end:
+            return []
+        more, self._more, self.period_end = self._more, 0, None
+        self._kinds.clear()
+        return [f"{explain(self._last)} (the last of {more} more lines)"] if more else []
 
 
 class CycloneLog:
@@ -48,7 +92,6 @@ class CycloneLog:
     def __init__(self) -> None:
         self._thread: threading.Thread | None = None
         self._ending = False
-        self._silent_until: dict[str, float] = {}
         self._file = None
         if sys.platform not in _STDERR:
             return
@@ -61,9 +104,11 @@ class CycloneLog:
         # Lines are lost when the pipe is full: a thread of Cyclone's must not wait for one of ours,
         # which may be waiting for its lock.
         os.set_blocking(self._write_end, False)
+        os.set_blocking(self._read_end, False)
         libc.fdopen.restype = ctypes.c_void_p
         libc.fdopen.argtypes = (ctypes.c_int, ctypes.c_char_p)
         self._file = libc.fdopen(self._write_end, b"w")
+        _print_on_abort(self._read_end)
 
     @contextmanager
     def capturing(self) -> Iterator[None]:
@@ -79,36 +124,35 @@ class CycloneLog:
             self._stderr.value = before
 
     def unread(self) -> list[str]:
-        """What was said and nobody has read; for the time before :meth:`start`."""
+        """What was written and nobody has read; for the time before :meth:`start`."""
         if self._file is None or self._thread is not None:
             return []
-        os.set_blocking(self._read_end, False)
-        text = b""
+        return [_text_of(line) for line in self._read().splitlines()]
+
+    def _read(self) -> bytes:
         with suppress(BlockingIOError):
-            text = os.read(self._read_end, 1 << 16)
-        os.set_blocking(self._read_end, True)
-        return [_text_of(line) for line in text.splitlines()]
+            return os.read(self._read_end, _BLOCK)
+        return b""
 
     def start(self) -> None:
-        """Begin to pass on what is said, unless that has begun."""
+        """Begin to pass on what is written, unless that has begun."""
         if self._file is not None and self._thread is None:
             self._ending = False
             self._thread = threading.Thread(target=self._run, name="turtlewire-log", daemon=True)
             self._thread.start()
 
     def _run(self) -> None:
-        with open(self._read_end, "rb", closefd=False) as lines:
-            for line in lines:
-                if self._ending:
-                    return
-                self._say(_text_of(line))
-
-    def _say(self, text: str) -> None:
-        kind = re.sub(r"\d+", "#", text)
-        now = time.monotonic()
-        if text and now >= self._silent_until.get(kind, now):
-            self._silent_until[kind] = now + _SILENCE_S
-            warn(explain(text))
+        limiter, unfinished = LineLimiter(), b""
+        readable = select.poll()
+        readable.register(self._read_end, select.POLLIN)
+        while not self._ending:
+            end = limiter.period_end
+            readable.poll(None if end is None else max(0.0, end - time.monotonic()) * 1000)
+            *lines, unfinished = (unfinished[-_BLOCK:] + self._read()).split(b"\n")
+            now = time.monotonic()
+            for text in filter(None, map(_text_of, lines)):
+                _warn_each(limiter.sentences(text, now))
+            _warn_each(limiter.summary(now))
 
     def stop(self) -> None:
         """End the thread."""
@@ -120,5 +164,18 @@ class CycloneLog:
             self._thread = None
 
 
+def _warn_each(sentences: list[str]) -> None:
+    for sentence in sentences:
+        warn(sentence)
+
+
 def _text_of(line: bytes) -> str:
     return re.sub(_HEAD, "", line.decode("utf-8", "replace").strip(), count=1)
+
+
+def _print_on_abort(pipe: int) -> None:
+    """Have what ``pipe`` holds written on stderr when the process aborts (compiled core only)."""
+    with suppress(ModuleNotFoundError):
+        from turtlewire._native import print_on_abort
+
+        print_on_abort(pipe)

@@ -25,6 +25,10 @@ _OPS = (ctypes.c_uint32 * 3)(_ADR | _TYPE_1BY, 0, _RTS)
 _NO_OPTIMIZE, _RESTRICT_DATA_REPRESENTATION = 1 << 0, 1 << 7
 _XCDR1 = 1 << 0
 
+#: Files that must be free before a domain is made: it takes 6 and one or two for each network
+#: interface, the log takes 2, and some are for the program.
+_FILES = 24
+
 
 class _Domains:
     """The Cyclone domains of this process; a domain ends with the last participant in it."""
@@ -59,6 +63,7 @@ class _Domains:
         self._log = None  # its pipe is shared with the parent
 
     def _create(self, domain_id: int) -> None:
+        _require_files(domain_id)
         if self._log is None:
             self._log = CycloneLog()
         with self._log.capturing():
@@ -82,6 +87,26 @@ class _Domains:
                 dds.delete(self._handles.pop(domain_id))
                 if not self._handles and self._log is not None:
                     self._log.stop()
+
+
+def _require_files(domain_id: int) -> None:
+    """Make sure that the process may open the files of a domain; Cyclone 11 crashes if it may not.
+
+    Raises:
+        WireError: It may not.
+    """
+    opened: list[int] = []
+    try:
+        while len(opened) < _FILES:
+            opened.append(os.open(os.devnull, os.O_RDONLY))
+    except OSError as reason:
+        error = WireError(f"join domain {domain_id}: {reason.strerror} ({_FILES} are needed)")
+        raise error.with_hint(
+            "Close files that are not needed, or allow more of them: `ulimit -n 1024` in the shell."
+        ) from reason
+    finally:
+        for file in opened:
+            os.close(file)
 
 
 def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:

@@ -1,0 +1,77 @@
+"""What used to end the process without a word inside Cyclone: one clear error instead."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from turtlewire.tf.buffer import CORE
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals of POSIX")
+
+OPEN = "from turtlewire.wire import open_context\nopen_context(5).close()\n"
+LIMIT_S = 60
+
+
+def run(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+        env=os.environ | environment,
+    )
+
+
+@pytest.mark.parametrize("more", [0, 1, 2, 3, 4, 6, 8, 12, 16, 20])
+def test_few_files_left_is_one_clear_error(more: int):
+    """Cyclone 11 crashes in ``dds_create_domain`` when it cannot open its sockets."""
+    code = (
+        "import os, resource\n"
+        "from turtlewire.errors import WireError\n"
+        "from turtlewire.wire import open_context\n"
+        "import turtlewire.wire.cyclone.context\n"
+        "used = max(map(int, os.listdir('/dev/fd')))\n"
+        f"resource.setrlimit(resource.RLIMIT_NOFILE, (used + {more}, used + 99))\n"
+        "try:\n"
+        "    open_context(5)\n"
+        "except WireError as error:\n"
+        "    print(error, '|', error.hint)\n"
+    )
+    done = run(code)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("join domain 5: Too many open files")
+    assert "ulimit -n" in done.stdout
+    assert done.stderr == ""
+
+
+def test_the_files_that_were_tried_are_free_again():
+    code = (
+        "import os\n"
+        "from turtlewire.wire import open_context\n"
+        "for _ in range(5):\n"
+        "    open_context(5).close()\n"
+        "    print(len(os.listdir('/dev/fd')))\n"
+    )
+    assert len(set(run(code).stdout.split())) == 1
+
+
+@pytest.mark.skipif(CORE == "python", reason="the compiled core writes them")
+def test_the_last_words_of_cyclone_survive_an_abort():
+    peers = "<Discovery><Peers><Peer address='no.such.host.invalid'/></Peers></Discovery>"
+    done = run(OPEN, CYCLONEDDS_URI=peers)
+    assert done.returncode == -signal.SIGABRT
+    assert "no.such.host.invalid" in done.stderr
+
+
+@pytest.mark.skipif(CORE == "python", reason="the compiled core writes them")
+def test_an_abort_for_another_reason_ends_as_before():
+    code = f"{OPEN}import faulthandler, os\nfaulthandler.enable()\nopen_context(5)\nos.abort()\n"
+    done = run(code)
+    assert done.returncode == -signal.SIGABRT
+    assert done.stderr.count("Fatal Python error: Aborted") == 1
