@@ -69,12 +69,17 @@ def test_many_lines_of_one_kind_are_one_warning_and_the_thread_ends(monkeypatch)
     assert said == ["Cyclone DDS says: thing 0 failed", "Cyclone DDS says: another thing"]
 
 
+def word(number: int) -> str:
+    """A word of its own for each number."""
+    digits = hashlib.sha256(number.to_bytes(4, "big")).hexdigest()
+    return digits.translate(str.maketrans("0123456789abcdef", "ghijklmnopqrstuv"))
+
+
 def test_a_flood_of_ever_new_lines_is_a_few_sentences_and_a_summary():
     limiter = LineLimiter()
     said = []
     for number in range(30_000):
-        garbage = hashlib.sha256(number.to_bytes(4, "big")).hexdigest()
-        said += limiter.sentences(f"malformed packet {garbage}", number / 1000)
+        said += limiter.sentences(f"malformed {word(number)}", number / 1000)
     assert len(said) == 5
     assert limiter.summary(59.9) == []
     [summary] = limiter.summary(60.0)
@@ -85,11 +90,11 @@ def test_a_flood_of_ever_new_lines_is_a_few_sentences_and_a_summary():
 
 def test_a_flood_leaves_no_memory_behind():
     limiter = LineLimiter()
-    lines = [f"malformed packet {hashlib.sha256(bytes([n])).hexdigest()}" for n in range(256)]
+    words = [word(number) for number in range(2000)]
 
     def flood(start: int) -> None:
-        for number, line in enumerate(lines * 40):
-            limiter.sentences(f"{line}{number:x}", start + number / 100)
+        for number, each in enumerate(words):
+            limiter.sentences(f"malformed {each}", start + number / 10)
 
     flood(0)
     tracemalloc.start()
@@ -97,6 +102,12 @@ def test_a_flood_leaves_no_memory_behind():
     size, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert size < 20_000
+
+
+def test_dumps_and_numbers_make_no_kinds():
+    limiter = LineLimiter()
+    assert len(limiter.sentences("malformed packet UNKNOWN(e6) <52545053 aabb>", 0.0)) == 1
+    assert limiter.sentences("malformed packet UNKNOWN(43) <52545053 ccdd>", 0.0) == []
 
 
 def test_a_kind_is_said_again_in_the_next_period():
