@@ -21,7 +21,8 @@ using namespace nb::literals;
 
 class IntakeObject {
  public:
-  IntakeObject(bool is_static, std::size_t most_kept) : core(is_static, most_kept) {}
+  IntakeObject(bool is_static, std::size_t most_kept, nb::callable on_expected)
+      : core(is_static, most_kept), on_expected_(std::move(on_expected)) {}
 
   Intake core;
 
@@ -39,12 +40,15 @@ class IntakeObject {
   }
 
   void call_listeners() {
+    if (core.take_expected()) on_expected_();
     if (!core.take_news()) return;
     const nb::tuple fed = buffers_;
     for (const nb::handle buffer : fed) nb::cast<BufferObject&>(buffer).call_listeners();
   }
 
   nb::handle buffers() const { return buffers_; }
+  nb::handle on_expected() const { return on_expected_; }
+  void forget_callback() { on_expected_ = nb::none(); }
 
   // The dds_on_data_available_fn, on the thread of Cyclone that received something, or on the one
   // of a publisher in this process. It must not want the GIL: who holds that may be waiting for a
@@ -79,6 +83,7 @@ class IntakeObject {
   Entity guard_ = 0;
   std::vector<unsigned char> bytes_;  // Cyclone calls a listener on one thread at a time
   nb::tuple buffers_;                 // keeps those alive that the core fills
+  nb::object on_expected_;
 };
 
 nb::list take(IntakeObject& self) {
@@ -99,12 +104,18 @@ std::string_view view_of(const nb::bytes& bytes) { return {bytes.c_str(), bytes.
 
 int traverse(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));
-  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<IntakeObject>(self)->buffers().ptr());
+  if (!nb::inst_ready(self)) return 0;
+  const auto* intake = nb::inst_ptr<IntakeObject>(self);
+  Py_VISIT(intake->buffers().ptr());
+  Py_VISIT(intake->on_expected().ptr());
   return 0;
 }
 
 int clear_references(PyObject* self) {
-  if (nb::inst_ready(self)) nb::inst_ptr<IntakeObject>(self)->feed(nb::tuple());
+  if (!nb::inst_ready(self)) return 0;
+  auto* intake = nb::inst_ptr<IntakeObject>(self);
+  intake->feed(nb::tuple());
+  intake->forget_callback();
   return 0;
 }
 
@@ -149,8 +160,9 @@ void add_intake_type(nb::module_& module) {
       "told, and malformed ones. Safe for use from many threads.\n\n"
       "Args:\n"
       "    static: Whether the transforms hold for all times.\n"
-      "    most_kept: So many messages at most are kept back, the newest; 0: any number.")
-      .def(nb::init<bool, std::size_t>(), "static"_a, "most_kept"_a)
+      "    most_kept: So many messages at most are kept back, the newest; 0: any number.\n"
+      "    on_expected: Called by call_listeners after an expected message.")
+      .def(nb::init<bool, std::size_t, nb::callable>(), "static"_a, "most_kept"_a, "on_expected"_a)
       .def("feed", &IntakeObject::feed, "buffers"_a,
            "Which buffers to fill from now on; without any, all messages are kept back.")
       .def(
@@ -170,9 +182,15 @@ void add_intake_type(nb::module_& module) {
            "of sending in ns). "
            "To be\n"
            "called until there are none: only then new ones take the short way again.")
+      .def(
+          "stored", [](IntakeObject& self) { return self.core.stored(); },
+          "The number of messages stored so far.")
+      .def(
+          "expect", [](IntakeObject& self) { self.core.expect(); },
+          "Have on_expected called after the next message that is stored.")
       .def("call_listeners", &IntakeObject::call_listeners,
            "Calls the change listeners of the buffers, if data came for any of them since the last "
-           "time.")
+           "time,\nand on_expected after an expected message.")
       .def(
           "connect",
           [](nb::handle_t<IntakeObject> self, const Addresses& functions, Entity guard) {

@@ -10,7 +10,7 @@ bool Intake::receive(std::uint64_t publisher, Stamp sent, std::span<const unsign
     if (most_kept_ != 0 && kept_.size() == most_kept_) kept_.pop_front();
     kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
   }
-  return (news_ || !kept_.empty()) && !std::exchange(called_, true);
+  return (news_ || expected_came_ || !kept_.empty()) && !std::exchange(called_, true);
 }
 
 // Call with the lock held. Null if the publisher was not introduced, or has no name.
@@ -29,6 +29,8 @@ bool Intake::store(std::uint64_t publisher, std::span<const unsigned char> bytes
     const Added added = buffer->add(message_.transforms(), *name, is_static_);
     news_ = news_ || (added.accepted > 0 && added.listened_to);
   }
+  ++stored_;
+  expected_came_ = std::exchange(expecting_, false) || expected_came_;
   return true;
 }
 
@@ -68,6 +70,22 @@ bool Intake::take_news() {
   const std::scoped_lock lock(mutex_);
   called_ = false;
   return std::exchange(news_, false);
+}
+
+std::uint64_t Intake::stored() {
+  const std::scoped_lock lock(mutex_);
+  return stored_;
+}
+
+void Intake::expect() {
+  const std::scoped_lock lock(mutex_);
+  expecting_ = true;
+}
+
+bool Intake::take_expected() {
+  const std::scoped_lock lock(mutex_);
+  called_ = false;
+  return std::exchange(expected_came_, false);
 }
 
 }  // namespace turtlewire

@@ -48,6 +48,13 @@ class Intake {
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
 
+  // How many messages were stored so far.
+  std::uint64_t stored();
+  // The next message that is stored wakes the caretaker.
+  void expect();
+  // Whether an expected message came since the last time.
+  bool take_expected();
+
  private:
   static constexpr std::size_t kMostPublishers =
       1000;  // they come and go; beyond it, all are introduced anew
@@ -68,6 +75,9 @@ class Intake {
   bool taken_care_of_ = false;  // the caretaker is busy with what he took
   bool called_ = false;         // the caretaker was told to come
   bool news_ = false;
+  std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
+  bool expecting_ = false;    // the next message is expected
+  bool expected_came_ = false;
 };
 
 }  // namespace turtlewire

@@ -205,9 +205,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     executor = get_global_executor() if executor is None else executor
     added = executor.add_node(node)
     try:
-        while executor.context.ok():
-            executor.spin_once()
-        executor._after_spin()
+        executor.spin()
     finally:
         if added:
             executor.remove_node(node)

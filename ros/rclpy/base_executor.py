@@ -77,6 +77,7 @@ class Executor:
         self._response_awaited: Future | None = None
         self._blocked_waits: set[threading.Event] = set()
         self._is_shutdown = False
+        self._in_spin = False
         self._context.on_shutdown(self.wake)
 
     @property
@@ -190,8 +191,12 @@ class Executor:
             KeyboardInterrupt: Ctrl-C, in the main thread.
             Exception: What a callback raised.
         """
-        while self._context.ok() and not self._is_shutdown:
-            self.spin_once()
+        outer, self._in_spin = self._in_spin, True
+        try:
+            while self._context.ok() and not self._is_shutdown:
+                self.spin_once()
+        finally:
+            self._in_spin = outer
         self._after_spin()
 
     def _after_spin(self) -> None:
@@ -201,6 +206,8 @@ class Executor:
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for one callback and run it.
+
+        A message for a TransformListener counts, although another thread has stored it already.
 
         Args:
             timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
@@ -345,6 +352,8 @@ class Executor:
         if self._response_awaited is None:
             with self._lock:
                 tasks, self._tasks = self._tasks, []
+            if not self._in_spin or self._running.of_this_thread():
+                self._wait.expect_background()
         entities = self._wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
         self._self_waits.warn()
         self._ready.extend(reversed(tasks))

@@ -166,6 +166,6 @@ class Client(IntrospectedEndpoint):
                     sequence_number,
                     response=response,
                 )
-            future._set_executor(None if self._executor is None else self._executor())
+            future._set_executor(self._serving_executor())
             return future.set_result, (response,)
         return None

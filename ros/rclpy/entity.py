@@ -50,6 +50,10 @@ class Entity:
             self.callback_group = callback_group
             callback_group.add_entity(self)
 
+    def _serving_executor(self) -> Executor | None:
+        reference = self._executor  # one look: another thread may detach it at any moment
+        return None if reference is None else reference()
+
     @property
     def handle(self) -> Any:
         """The entity itself: there is no C handle behind it. Usable in a ``with`` statement, as ROS 2's handles are."""
@@ -72,7 +76,7 @@ class Entity:
         if self._destroyed:
             return
         self._destroyed = True
-        executor = None if self._executor is None else self._executor()
+        executor = self._serving_executor()
         if executor is not None:
             executor._detach(self)
         self._close()

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
+    from .background_events import BackgroundEvents
     from .entity import Entity
 
 __all__ = ["ExecutorWait"]
@@ -25,10 +26,12 @@ class ExecutorWait:
 
     Attributes:
         timers: When each timer is due.
+        background: Messages that other threads handle; see :meth:`expect_background`.
     """
 
     def __init__(self, wait_set: base.WaitSet) -> None:
         self.timers = TimerQueue(wait_set.wake)
+        self.background: set[BackgroundEvents] = set()
         self._wait_set = wait_set
         self._by_wire: dict[base.Entity, Entity] = {}
         self._notified: deque[Entity] = deque()
@@ -49,6 +52,11 @@ class ExecutorWait:
         """Report ``entity`` at once."""
         self._notified.append(entity)
         self.wake()
+
+    def expect_background(self) -> None:
+        """Have the next message that another thread handles end the wait."""
+        for events in list(self.background):
+            events.expect()
 
     def wake(self) -> None:
         """End the current wait, or the next one at once."""

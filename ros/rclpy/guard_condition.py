@@ -38,7 +38,7 @@ class GuardCondition(Entity):
         """Have the callback run. Safe from any thread."""
         self._check_usable()
         self._triggered = True
-        executor = None if self._executor is None else self._executor()
+        executor = self._serving_executor()
         if executor is not None:
             executor._wait.notify(self)
 

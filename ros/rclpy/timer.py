@@ -122,7 +122,7 @@ class Timer(Entity):
         return None if self._follows_clock_topic() else delay_ns
 
     def _reschedule(self) -> None:
-        executor = None if self._executor is None else self._executor()
+        executor = self._serving_executor()
         if executor is not None:
             executor._wait.timers.schedule(self, self._delay_ns())
 
@@ -215,7 +215,7 @@ class Rate:
             RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would
                 end the sleep.
         """
-        executor = None if self._timer._executor is None else self._timer._executor()
+        executor = self._timer._serving_executor()
         if executor is not None and executor._spinning_thread == threading.get_ident():
             raise RuntimeError(
                 "Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"

@@ -39,7 +39,7 @@ def wait_for_response(future: Future, client: Client, timeout_sec: float | None)
         ExternalShutdownException, ShutdownException: The context or the executor was shut down.
     """
     deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
-    executor = None if client._executor is None else client._executor()
+    executor = client._serving_executor()
     if executor is not None and executor._spinning_thread == threading.get_ident():
         _serve_responses(executor, future, client, deadline)
     else:

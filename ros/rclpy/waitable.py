@@ -147,7 +147,7 @@ class Waitable(Entity):
 
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
-        executor = None if self._executor is None else self._executor()
+        executor = self._serving_executor()
         future._set_executor(executor)
 
     def _attach(self, executor: Executor) -> None:

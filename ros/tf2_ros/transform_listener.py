@@ -5,6 +5,7 @@ from __future__ import annotations
 from threading import current_thread
 from typing import TYPE_CHECKING, Any
 
+from rclpy.background_events import BackgroundEvents
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from turtlewire.tf import listener as engine
 
@@ -92,6 +93,8 @@ class TransformListener:
             self._follow_clock = self.node.get_clock().create_jump_callback(
                 JUMP_BACK, post_callback=buffer.time_jump_callback
             )
+        self._events = BackgroundEvents(self._engine)
+        self.node._rclpy_endpoints.keep(self._events)
         self.node._rclpy_endpoints.keep(self)
         self.executor: SingleThreadedExecutor | None = None
         self.dedicated_listener_thread: Thread | None = None
@@ -106,6 +109,7 @@ class TransformListener:
 
     def destroy(self) -> None:
         """What :meth:`unregister` does; the node calls it when it is destroyed itself."""
+        self._events.destroy()
         self._engine.close()
         if self._follow_clock is not None:
             self._follow_clock.unregister()

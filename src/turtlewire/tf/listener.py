@@ -25,7 +25,7 @@ if TYPE_CHECKING or CORE == "native":
     from turtlewire._native import Intake
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from types import TracebackType
     from typing import Protocol
 
@@ -62,6 +62,42 @@ class _Member(NamedTuple):
     store: Store
 
 
+class _Arrivals:
+    """Tells waiting threads of the next message of a channel, after it was stored. Thread-safe.
+
+    With an intake, native code stores and counts most messages; Python counts the others.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._count = 0
+        self._calls: dict[Callable[[], None], None] = {}
+
+    def total(self, intake: Intake | None) -> int:
+        """The number of messages so far."""
+        return self._count + (0 if intake is None else intake.stored())
+
+    def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
+        """Have ``call()`` called once after the next message."""
+        with self._lock:
+            self._calls[call] = None
+        if intake is not None:
+            intake.expect()
+
+    def count(self, messages: int = 1) -> None:
+        """Count messages that native code does not count (any more)."""
+        with self._lock:
+            self._count += messages
+        self.tell()
+
+    def tell(self) -> None:
+        """Call everybody who waits."""
+        with self._lock:
+            calls, self._calls = self._calls, {}
+        for call in calls:
+            call()
+
+
 class _Feed:
     """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name.
 
@@ -70,10 +106,19 @@ class _Feed:
             plain-Python core.
     """
 
-    def __init__(self, members: tuple[_Member, ...], topic: str, qos: QoS, *, static: bool) -> None:
+    def __init__(
+        self,
+        members: tuple[_Member, ...],
+        topic: str,
+        qos: QoS,
+        *,
+        static: bool,
+        arrivals: _Arrivals,
+    ) -> None:
         self._topic = topic
         self._static = static
-        self.intake = Intake(static, _most_kept(qos)) if CORE == "native" else None
+        self._arrivals = arrivals
+        self.intake = Intake(static, _most_kept(qos), arrivals.tell) if CORE == "native" else None
         self.members = members
         self._publishers = PublisherNames(members[0].graph, self._rename)
 
@@ -95,6 +140,7 @@ class _Feed:
             self._store(member.store, cdr, publisher)
         if self.intake is not None:
             self._tell_name(self.intake, info.publisher_gid)
+        self._arrivals.count()
 
     def _tell_name(self, intake: Intake, gid: bytes) -> None:
         told = None
@@ -123,6 +169,7 @@ class _Feed:
         """Let go of the graph and of the members."""
         self._publishers.close()
         self.members = ()
+        self._arrivals.count(0 if self.intake is None else self.intake.stored())
 
 
 def _most_kept(qos: QoS) -> int:
@@ -139,6 +186,7 @@ class _Channel:
         self._static = static
         self._latched = qos.durability == Durability.TRANSIENT_LOCAL
         self._lock = threading.Lock()
+        self._arrivals = _Arrivals()
         self._feed: _Feed | None = None
         self._subscription: base.Subscription | None = None
 
@@ -152,6 +200,16 @@ class _Channel:
                 self._subscribe(members)
             else:
                 self._feed.members = members
+
+    def total(self) -> int:
+        """The number of messages so far."""
+        feed = self._feed
+        return self._arrivals.total(None if feed is None else feed.intake)
+
+    def expect(self, call: Callable[[], None]) -> None:
+        """Have ``call()`` called once after the next message; it may come without one, too."""
+        feed = self._feed
+        self._arrivals.expect(call, None if feed is None else feed.intake)
 
     def leave(self, member: _Member) -> None:
         """Feed one buffer less; the last one ends the subscription."""
@@ -180,7 +238,9 @@ class _Channel:
         former, former_feed = self._subscription, self._feed
         if former is not None and self._latched:
             former.close()
-        self._feed = _Feed(members, self._topic, self._qos, static=self._static)
+        self._feed = _Feed(
+            members, self._topic, self._qos, static=self._static, arrivals=self._arrivals
+        )
         type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
         self._subscription = members[0].node.create_subscription(
             self._topic, type_id, self._qos, self._feed, self._feed.intake
@@ -249,9 +309,27 @@ class TransformListener:
         self._member = _Member(node, context.graph, buffer)
         self._lock = threading.Lock()
         self._joined: list[_Channel] = []
+        self._seen: dict[_Channel, int] = {}
         for channel in self._wanted(context, topic, static_topic, qos, static_qos):
+            self._seen[channel] = channel.total()
             channel.join(self._member)
             self._joined.append(channel)
+
+    def expect_message(self, call: Callable[[], None]) -> bool:
+        """Whether a message was stored since :meth:`take_arrivals`.
+
+        If not, ``call()`` is called once after the next one, on a thread of the wire; it may also
+        be called without one.
+        """
+        for channel in self._seen:
+            channel.expect(call)
+        return any(channel.total() != seen for channel, seen in self._seen.items())
+
+    def take_arrivals(self) -> bool:
+        """Whether a message was stored since the last call."""
+        former = self._seen
+        self._seen = {channel: channel.total() for channel in former}
+        return self._seen != former
 
     @staticmethod
     def _wanted(

@@ -31,10 +31,14 @@ class Inlet:
         dds.lset_data_available(self.listener, callback)
 
     def rest(self) -> list[tuple[bytes, int, int]]:
-        """Reset the guard condition, call listeners, and return what was kept back; to be repeated until that is nothing."""
+        """Reset the guard condition, take what was kept back, and call listeners.
+
+        To be repeated until it returns nothing.
+        """
         dds.set_guard_condition(self.guard, False)
+        kept = self.intake.take()  # first: it may store messages, which the listeners are told of
         self.intake.call_listeners()
-        return self.intake.take()
+        return kept
 
     def close(self) -> None:
         """To be called when the reader has been deleted: then no thread is in the native code any more."""

@@ -1,0 +1,65 @@
+"""Messages that another thread handles, and that still end a ``spin_once``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from .entity import Entity, Work
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .executors import Executor
+
+__all__ = ["BackgroundEvents"]
+
+
+class Arrivals(Protocol):
+    """What handles the messages, such as :class:`turtlewire.tf.listener.TransformListener`."""
+
+    def expect_message(self, call: Callable[[], None]) -> bool:
+        """Whether a message came since :meth:`take_arrivals`; if not, ``call()`` follows one."""
+        ...
+
+    def take_arrivals(self) -> bool:
+        """Whether a message came since the last call."""
+        ...
+
+
+class BackgroundEvents(Entity):
+    """Lets messages that the wire's own threads handle count as events of an executor.
+
+    In ROS 2 a TransformListener's subscriptions are served by the executor, so programs wait for
+    transforms with ``spin_once`` in a loop. Here the executor asks for the next message while a
+    ``spin_once`` waits, and only then: ``spin`` is not woken by messages that need no callback.
+    """
+
+    _ORDER = 5
+    _GATED = False
+
+    def __init__(self, arrivals: Arrivals) -> None:
+        super().__init__(None)
+        self._arrivals = arrivals
+
+    def expect(self) -> None:
+        """Report the next message to the executor, at once if one came already."""
+        if self._arrivals.expect_message(self._report):
+            self._report()
+
+    def _report(self) -> None:
+        executor = self._serving_executor()
+        if executor is not None:
+            executor._wait.notify(self)
+
+    def _attach(self, executor: Executor) -> None:
+        executor._wait.background.add(self)
+
+    def _detach(self, executor: Executor) -> None:
+        executor._wait.background.discard(self)
+
+    def _take(self) -> Work | None:
+        return (_nothing, ()) if self._arrivals.take_arrivals() else None
+
+
+def _nothing() -> None:
+    """The message has been handled already."""
