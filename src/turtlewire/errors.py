@@ -3,6 +3,7 @@
 ::
 
     TurtlewireError
+    ├── BagError                      a bag is damaged, incomplete or of an unknown kind
     ├── CdrError                      malformed CDR bytes, or a value that its field cannot hold
     ├── InterfaceError                an unknown or unreadable .msg/.srv/.action definition
     ├── WireError                     the middleware refused something, or is missing
@@ -28,6 +29,7 @@ from typing import Any
 
 __all__ = [
     "BackwardExtrapolationException",
+    "BagError",
     "CdrError",
     "ConnectivityException",
     "ExtrapolationException",
@@ -59,6 +61,10 @@ class TurtlewireError(Exception):
         if hint and hasattr(self, "add_note"):
             self.add_note(hint)
         return self
+
+
+class BagError(TurtlewireError, ValueError):
+    """A bag is damaged, incomplete, or of a kind that cannot be read or written."""
 
 
 class CdrError(TurtlewireError, ValueError):

@@ -11,7 +11,12 @@ import os
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.definition import ActionDefinition, MessageDefinition, ServiceDefinition
+from turtlewire.msg.definition import (
+    ActionDefinition,
+    MessageDefinition,
+    ServiceDefinition,
+    split_name,
+)
 from turtlewire.msg.parser import parse_action, parse_message, parse_service
 
 if TYPE_CHECKING:
@@ -20,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "KINDS",
     "Definition",
+    "define",
     "interface_names",
     "interface_path",
     "interfaces_in",
@@ -119,16 +125,29 @@ def load_interface(full_name: str) -> Definition:
     definition = _loaded.get(full_name)
     if definition is None:
         package, kind, name = [*full_name.split("/"), "", ""][:3]
-        _parse_file(f"{package}/{kind}/{name.partition('_')[0]}", kind)
+        _parse_file(f"{package}/{kind}/{name.partition('_')[0]}")
         definition = _loaded.get(full_name)
         if definition is None:
             raise InterfaceError(f"unknown interface '{full_name}'")
     return definition
 
 
-def _parse_file(full_name: str, kind: str) -> None:
+def _parse_file(full_name: str) -> None:
     with open(interface_path(full_name), encoding="utf-8") as file:
-        text = file.read()
+        define(full_name, file.read())
+
+
+def define(full_name: str, text: str) -> None:
+    """Make an interface known by its text, as if it had been read from a file.
+
+    Args:
+        full_name: ``"pkg/msg/X"``, ``"pkg/srv/X"`` or ``"pkg/action/X"``.
+        text: What the file would hold.
+
+    Raises:
+        InterfaceError: The text cannot be parsed; says which line and why.
+    """
+    _, kind, _ = split_name(full_name)
     if kind == "msg":
         _loaded[full_name] = parse_message(full_name, text)
     elif kind == "srv":

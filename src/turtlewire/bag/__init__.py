@@ -1,0 +1,50 @@
+"""Bags: what ROS 2 records, read and written without ROS.
+
+::
+
+    from turtlewire.bag import open_bag
+
+    with open_bag("my_bag") as bag:
+        print(bag)
+        for message in bag.messages("/odom"):
+            print(message.log_time_ns, message.decode())
+
+=================  ==================================================================
+module             what it holds
+=================  ==================================================================
+`reader`           `Bag` and `open_bag`: messages in order of time over all files
+`transforms`       `load_transforms`: the TF of a bag in a buffer, and what is wrong with it
+`message`          `BagMessage`
+`writer`           `BagWriter`
+`storage`          one file of a bag, MCAP or sqlite3, behind one interface
+`mcap_reader`      the MCAP format: summary, chunks, files without a summary
+`mcap_records`     the records of MCAP as bytes and objects
+`mcap_writer`      writes MCAP files
+`sqlite_reader`    rosbag2's sqlite3 schema, versions 1 to 4
+`sqlite_writer`    writes sqlite3 files
+`metadata`         ``metadata.yaml``, versions 1 to 9
+`qos_yaml`         the QoS of recorded topics as YAML
+`definitions`      message definitions as bags carry them
+`compression`      zstd and lz4, with limits
+=================  ==================================================================
+"""
+
+from __future__ import annotations
+
+from turtlewire.bag.message import BagMessage
+from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
+from turtlewire.bag.reader import Bag, open_bag
+from turtlewire.bag.transforms import TransformReport, load_transforms
+from turtlewire.bag.writer import BagWriter
+
+__all__ = [
+    "Bag",
+    "BagMessage",
+    "BagMetadata",
+    "BagWriter",
+    "FileInfo",
+    "TopicInfo",
+    "TransformReport",
+    "load_transforms",
+    "open_bag",
+]

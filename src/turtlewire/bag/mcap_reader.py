@@ -1,0 +1,321 @@
+"""Reads one MCAP file: its definitions, its blocks of records, and the messages in them.
+
+A file that was closed ends with a summary that says where each chunk lies. A file whose writer was
+killed, or that was written without an index, is walked from the start; all that is whole is read.
+"""
+
+from __future__ import annotations
+
+import mmap
+import os
+import struct
+import zlib
+from typing import TYPE_CHECKING
+
+from turtlewire.bag.compression import decompress
+from turtlewire.bag.mcap_records import (
+    MAGIC,
+    OPCODE_AND_LENGTH,
+    Channel,
+    ChunkIndex,
+    Op,
+    RecordReader,
+    Schema,
+    Statistics,
+)
+from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterator
+
+__all__ = ["McapFile"]
+
+_MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
+_PREFIX = OPCODE_AND_LENGTH.size
+_MESSAGE_OPCODE, _MESSAGE_FIELDS = Op.MESSAGE, _MESSAGE.size  # names of a module are found faster
+_DEFINITIONS = (Op.SCHEMA, Op.CHANNEL)
+_FOOTER_SIZE = OPCODE_AND_LENGTH.size + 20
+_NO_TIME = (1 << 64) - 1
+
+
+class McapFile:
+    """An open MCAP file.
+
+    Attributes:
+        path: Where it is.
+        channels: Its channels by id.
+        schemas: Its schemas by id.
+        metadata: Contents of its Metadata records by name; of several with one name, the last.
+        statistics: Counts and times of the whole file.
+        chunks: Its chunks and runs of bare records, in the order of the file.
+        closed_properly: Whether the file ends with its summary.
+        indexed: Whether its messages lie in chunks with a message index.
+        problems: What is damaged, one sentence each with the position; filled while reading.
+
+    Raises:
+        BagError: It is no MCAP file.
+        OSError: It cannot be opened.
+    """
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+        self.channels: dict[int, Channel] = {}
+        self.schemas: dict[int, Schema] = {}
+        self.metadata: dict[str, dict[str, str]] = {}
+        self.statistics = Statistics(0, 0, 0, {})
+        self.chunks: list[ChunkIndex] = []
+        self.problems: list[str] = []
+        self._map, self._bytes = _map_file(path)
+        try:
+            self.closed_properly = self._read_summary()
+            self.indexed = self.closed_properly and bool(self.chunks)
+            if not self.closed_properly or (self.statistics.message_count and not self.chunks):
+                self._walk_file()
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Release the file; the bytes of its messages must not be used afterwards."""
+        try:
+            self._bytes.release()
+            self._map.close()
+        except BufferError:  # a message is still in use: the garbage collector closes the file
+            pass
+
+    def records(self, chunk: ChunkIndex) -> bytes:
+        """The records of a chunk, decompressed and checked.
+
+        Raises:
+            BagError: The chunk is damaged; the text says where it lies.
+        """
+        content = self._bytes[chunk.offset : chunk.offset + chunk.length]
+        if content[0] != Op.CHUNK:
+            return bytes(content)
+        try:
+            return _chunk_records(content[OPCODE_AND_LENGTH.size :])
+        except BagError as error:
+            raise BagError(f"{self.path}: chunk at byte {chunk.offset}: {error}") from None
+
+    def messages(
+        self, chunk: ChunkIndex, wanted: Container[int] | None = None
+    ) -> Iterator[tuple[int, int, int, bytes]]:
+        """Log time, channel, publish time and bytes of a chunk's messages, in the file's order.
+
+        Args:
+            chunk: One of `chunks`.
+            wanted: The channels whose messages are wanted; None takes all.
+
+        Raises:
+            BagError: The chunk is damaged; the messages before the damage were yielded.
+        """
+        return self.messages_in(self.records(chunk), chunk, wanted)
+
+    def messages_in(
+        self, records: bytes, chunk: ChunkIndex, wanted: Container[int] | None = None
+    ) -> Iterator[tuple[int, int, int, bytes]]:
+        """The same of a chunk's records, as `records` returns them."""
+        unpack, unpack_message = OPCODE_AND_LENGTH.unpack_from, _MESSAGE.unpack_from
+        position, end = 0, len(records)
+        while position < end:
+            body = position + _PREFIX
+            if body > end:
+                raise self._cut(chunk, position)
+            opcode, length = unpack(records, position)
+            position = body + length
+            if position > end or (opcode == _MESSAGE_OPCODE and length < _MESSAGE_FIELDS):
+                raise self._cut(chunk, body)
+            if opcode == _MESSAGE_OPCODE:
+                channel, _, log_time, publish_time = unpack_message(records, body)
+                if wanted is None or channel in wanted:
+                    yield (
+                        log_time,
+                        channel,
+                        publish_time,
+                        records[body + _MESSAGE_FIELDS : position],
+                    )
+            elif opcode in _DEFINITIONS:
+                self._read_definition(opcode, memoryview(records)[body:position])
+
+    def _cut(self, chunk: ChunkIndex, position: int) -> BagError:
+        return BagError(
+            f"{self.path}: chunk at byte {chunk.offset}: "
+            f"its records are damaged at byte {position} of their decompressed bytes"
+        )
+
+    def _read_definition(self, opcode: int, content: memoryview) -> None:
+        reader = RecordReader(content)
+        if opcode == Op.SCHEMA:
+            schema = reader.schema()
+            self.schemas.setdefault(schema.id, schema)
+        elif opcode == Op.CHANNEL:
+            channel = reader.channel()
+            self.channels.setdefault(channel.id, channel)
+
+    # -- the summary
+
+    def _read_summary(self) -> bool:
+        """Read the summary section; False if there is none or it is damaged."""
+        data = self._bytes
+        footer = len(data) - len(MAGIC) - _FOOTER_SIZE
+        if footer < len(MAGIC) or data[-len(MAGIC) :] != MAGIC or data[footer] != Op.FOOTER:
+            return False
+        fields = RecordReader(data[footer + OPCODE_AND_LENGTH.size :])
+        start, _, expected_crc = fields.u64(), fields.u64(), fields.u32()
+        if not start:
+            return False
+        if start > footer:
+            self.problems.append(f"{self.path}: the footer points behind the file's end")
+            return False
+        if expected_crc and zlib.crc32(data[start : len(data) - len(MAGIC) - 4]) != expected_crc:
+            self.problems.append(f"{self.path}: the summary at byte {start} is damaged")
+            return False
+        try:
+            for opcode, content, _ in self._top_records(start, footer):
+                self._read_summary_record(opcode, content)
+        except BagError as error:
+            self.problems.append(f"{self.path}: the summary at byte {start} is damaged: {error}")
+            self.chunks.clear()
+            return False
+        return True
+
+    def _read_summary_record(self, opcode: int, content: memoryview) -> None:
+        if opcode in (Op.SCHEMA, Op.CHANNEL):
+            self._read_definition(opcode, content)
+        elif opcode == Op.CHUNK_INDEX:
+            chunk = RecordReader(content).chunk_index()
+            if chunk.offset + chunk.length > len(self._bytes):
+                raise BagError("it tells of a chunk behind the file's end")
+            self.chunks.append(chunk)
+        elif opcode == Op.STATISTICS:
+            self.statistics = RecordReader(content).statistics()
+        elif opcode == Op.METADATA_INDEX:
+            offset = RecordReader(content).u64()
+            for found, record, _ in self._top_records(offset, len(self._bytes)):
+                if found == Op.METADATA:
+                    self._read_metadata(record)
+                break
+
+    def _read_metadata(self, content: memoryview) -> None:
+        reader = RecordReader(content)
+        name = reader.string()
+        self.metadata[name] = reader.text_map()
+
+    def _top_records(self, position: int, end: int) -> Iterator[tuple[int, memoryview, int]]:
+        """Opcode, content and position of the records between two positions of the file."""
+        data = self._bytes
+        while position < end:
+            body = position + OPCODE_AND_LENGTH.size
+            if body > end:
+                raise BagError(f"the file ends in the middle of a record at byte {position}")
+            opcode, length = OPCODE_AND_LENGTH.unpack_from(data, position)
+            if body + length > end or not opcode:
+                raise BagError(f"the record at byte {position} is cut off or damaged")
+            yield opcode, data[body : body + length], position
+            position = body + length
+
+    # -- a file without a summary
+
+    def _walk_file(self) -> None:
+        """Find chunks, definitions and counts by reading the whole file."""
+        self.chunks.clear()
+        totals = _Totals()
+        try:
+            for opcode, content, position in self._top_records(len(MAGIC), len(self._bytes)):
+                if opcode in (Op.SCHEMA, Op.CHANNEL):
+                    self._read_definition(opcode, content)
+                elif opcode == Op.METADATA:
+                    self._read_metadata(content)
+                elif opcode == Op.CHUNK:
+                    size = len(content) + OPCODE_AND_LENGTH.size
+                    self._add_chunk(ChunkIndex(0, 0, position, size, None), totals)
+                elif opcode == Op.MESSAGE:
+                    self._add_bare_message(position, content, totals)
+                elif opcode == Op.DATA_END:
+                    break
+        except BagError as error:
+            self.problems.append(f"{self.path}: {error}; what lies before it is read")
+        self.statistics = totals.statistics()
+
+    def _add_chunk(self, chunk: ChunkIndex, totals: _Totals) -> None:
+        own = _Totals()
+        try:
+            for log_time, channel, _, _ in self.messages(chunk):
+                own.add(channel, log_time)
+        except BagError as error:
+            self.problems.append(str(error))
+        if own.counts:
+            channels = frozenset(own.counts)
+            self.chunks.append(
+                ChunkIndex(own.start_ns, own.end_ns, chunk.offset, chunk.length, channels)
+            )
+            totals.merge(own)
+
+    def _add_bare_message(self, position: int, content: memoryview, totals: _Totals) -> None:
+        """Add a message outside of chunks; messages in a row make up one block."""
+        if len(content) < _MESSAGE.size:
+            raise BagError(f"the message at byte {position} is damaged")
+        channel, _, log_time, _ = _MESSAGE.unpack_from(content)
+        totals.add(channel, log_time)
+        length = len(content) + OPCODE_AND_LENGTH.size
+        last = self.chunks[-1] if self.chunks else None
+        if (
+            last is None
+            or last.offset + last.length != position
+            or self._bytes[last.offset] != Op.MESSAGE
+            or last.length > _BARE_BLOCK_BYTES
+        ):
+            self.chunks.append(ChunkIndex(log_time, log_time, position, length, None))
+            return
+        start, end = min(last.start_ns, log_time), max(last.end_ns, log_time)
+        self.chunks[-1] = ChunkIndex(start, end, last.offset, last.length + length, None)
+
+
+class _Totals:
+    """Counts and times of the messages seen so far."""
+
+    def __init__(self) -> None:
+        self.counts: dict[int, int] = {}
+        self.start_ns = _NO_TIME
+        self.end_ns = 0
+
+    def add(self, channel: int, log_time: int) -> None:
+        self.counts[channel] = self.counts.get(channel, 0) + 1
+        self.start_ns = min(self.start_ns, log_time)
+        self.end_ns = max(self.end_ns, log_time)
+
+    def merge(self, other: _Totals) -> None:
+        for channel, count in other.counts.items():
+            self.counts[channel] = self.counts.get(channel, 0) + count
+        self.start_ns = min(self.start_ns, other.start_ns)
+        self.end_ns = max(self.end_ns, other.end_ns)
+
+    def statistics(self) -> Statistics:
+        start = self.start_ns if self.counts else 0
+        return Statistics(sum(self.counts.values()), start, self.end_ns, self.counts)
+
+
+#: Bare messages are grouped into blocks of about this size, so that they can be put in order.
+_BARE_BLOCK_BYTES = 1 << 20
+
+
+def _map_file(path: str) -> tuple[mmap.mmap, memoryview]:
+    with open(path, "rb") as file:
+        if os.fstat(file.fileno()).st_size < len(MAGIC):
+            raise BagError(f"{path} is not an MCAP file: it has fewer than {len(MAGIC)} bytes")
+        mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    if mapped[: len(MAGIC)] != MAGIC:
+        mapped.close()
+        raise BagError(f"{path} is not an MCAP file: it does not begin with its magic bytes")
+    return mapped, memoryview(mapped)
+
+
+def _chunk_records(content: memoryview) -> bytes:
+    reader = RecordReader(content)
+    reader.take(16)  # the times of the first and last message
+    size, crc, compression = reader.u64(), reader.u32(), reader.string()
+    compressed = reader.take(reader.u64())
+    records = decompress(compression, compressed, size)
+    if crc and zlib.crc32(records) != crc:
+        raise BagError("the checksum does not fit")
+    return records

@@ -1,0 +1,228 @@
+"""The records of an MCAP file, as bytes and as objects.
+
+Source: the MCAP specification (version 0). Numbers are little-endian; a string is its length (u32)
+and UTF-8 bytes; maps and arrays are their length in bytes (u32) and their entries.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+
+from turtlewire.errors import BagError
+
+__all__ = [
+    "MAGIC",
+    "OPCODE_AND_LENGTH",
+    "Channel",
+    "ChunkIndex",
+    "Op",
+    "RecordReader",
+    "Schema",
+    "Statistics",
+    "pack_map",
+    "pack_string",
+    "record",
+]
+
+MAGIC = b"\x89MCAP0\r\n"
+
+#: What each record begins with.
+OPCODE_AND_LENGTH = struct.Struct("<BQ")
+
+_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+
+
+class Op:
+    """The record types (a plain class: comparing IntEnum members costs time for each message)."""
+
+    HEADER = 0x01
+    FOOTER = 0x02
+    SCHEMA = 0x03
+    CHANNEL = 0x04
+    MESSAGE = 0x05
+    CHUNK = 0x06
+    MESSAGE_INDEX = 0x07
+    CHUNK_INDEX = 0x08
+    STATISTICS = 0x0B
+    METADATA = 0x0C
+    METADATA_INDEX = 0x0D
+    SUMMARY_OFFSET = 0x0E
+    DATA_END = 0x0F
+
+
+@dataclass(frozen=True)
+class Schema:
+    """The definition of a type.
+
+    Attributes:
+        id: Its number in the file, never 0.
+        name: ``tf2_msgs/msg/TFMessage``.
+        encoding: ``ros2msg``, ``ros2idl``; empty or ``unknown`` if the definition is missing.
+        data: The text of the definition in UTF-8.
+    """
+
+    id: int
+    name: str
+    encoding: str
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A topic with its type.
+
+    Attributes:
+        id: Its number in the file.
+        schema_id: The number of its schema; 0 for none.
+        topic: The topic's name.
+        message_encoding: ``cdr``.
+        metadata: For rosbag2 ``offered_qos_profiles`` (YAML) and ``topic_type_hash``.
+    """
+
+    id: int
+    schema_id: int
+    topic: str
+    message_encoding: str
+    metadata: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ChunkIndex:
+    """Where a chunk lies and what it holds.
+
+    Attributes:
+        start_ns: Smallest log time of its messages.
+        end_ns: Largest log time.
+        offset: Position of the chunk's record in the file.
+        length: Length of that record, opcode and length included.
+        channels: The channels with messages in it; None if the file does not tell.
+    """
+
+    start_ns: int
+    end_ns: int
+    offset: int
+    length: int
+    channels: frozenset[int] | None
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """What the whole file holds.
+
+    Attributes:
+        message_count: Number of messages.
+        start_ns: Smallest log time.
+        end_ns: Largest log time.
+        channel_counts: Number of messages of each channel.
+    """
+
+    message_count: int
+    start_ns: int
+    end_ns: int
+    channel_counts: dict[int, int]
+
+
+class RecordReader:
+    """Reads the fields of one record's content, in order.
+
+    Raises:
+        BagError: From each method, when the content ends too early or holds no UTF-8.
+    """
+
+    def __init__(self, content: memoryview) -> None:
+        self._content = content
+        self.position = 0
+
+    def _number(self, layout: struct.Struct) -> int:
+        try:
+            (value,) = layout.unpack_from(self._content, self.position)
+        except struct.error:
+            raise BagError("a record ends in the middle of a field") from None
+        self.position += layout.size
+        number: int = value
+        return number
+
+    def u16(self) -> int:
+        """An unsigned number of two bytes."""
+        return self._number(_U16)
+
+    def u32(self) -> int:
+        """An unsigned number of four bytes."""
+        return self._number(_U32)
+
+    def u64(self) -> int:
+        """An unsigned number of eight bytes."""
+        return self._number(_U64)
+
+    def take(self, length: int) -> memoryview:
+        """The next ``length`` bytes."""
+        end = self.position + length
+        if end > len(self._content):
+            raise BagError("a field is longer than its record")
+        part = self._content[self.position : end]
+        self.position = end
+        return part
+
+    def string(self) -> str:
+        """A string."""
+        try:
+            return str(self.take(self.u32()), "utf-8")
+        except UnicodeDecodeError:
+            raise BagError("a text is not UTF-8") from None
+
+    def text_map(self) -> dict[str, str]:
+        """A map of strings to strings."""
+        end = self.u32() + self.position
+        entries = {}
+        while self.position < end:
+            key = self.string()
+            entries[key] = self.string()
+        return entries
+
+    def number_map(self) -> dict[int, int]:
+        """A map of u16 to u64."""
+        end = self.u32() + self.position
+        entries = {}
+        while self.position < end:
+            key = self.u16()
+            entries[key] = self.u64()
+        return entries
+
+    def schema(self) -> Schema:
+        """The content of a Schema record."""
+        return Schema(self.u16(), self.string(), self.string(), bytes(self.take(self.u32())))
+
+    def channel(self) -> Channel:
+        """The content of a Channel record."""
+        return Channel(self.u16(), self.u16(), self.string(), self.string(), self.text_map())
+
+    def chunk_index(self) -> ChunkIndex:
+        """The content of a ChunkIndex record."""
+        start, end, offset, length = self.u64(), self.u64(), self.u64(), self.u64()
+        indexes = self.number_map()
+        # Without message indexes the map is empty although the chunk has messages.
+        return ChunkIndex(start, end, offset, length, frozenset(indexes) if indexes else None)
+
+    def statistics(self) -> Statistics:
+        """The content of a Statistics record."""
+        count = self.u64()
+        self.take(2 + 4 * 4)  # numbers of schemas, channels, attachments, metadata and chunks
+        return Statistics(count, self.u64(), self.u64(), self.number_map())
+
+
+def pack_string(text: str) -> bytes:
+    """A string as its length and UTF-8 bytes."""
+    data = text.encode()
+    return _U32.pack(len(data)) + data
+
+
+def pack_map(entries: dict[str, str]) -> bytes:
+    """A map of strings to strings."""
+    data = b"".join(pack_string(key) + pack_string(value) for key, value in entries.items())
+    return _U32.pack(len(data)) + data
+
+
+def record(opcode: int, content: bytes) -> bytes:
+    """A whole record."""
+    return OPCODE_AND_LENGTH.pack(opcode, len(content)) + content

@@ -1,0 +1,252 @@
+"""Writes one MCAP file in chunks, as rosbag2 does.
+
+What was flushed survives a process that is killed: chunks are whole records, and a reader walks a
+file that has no summary.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from itertools import accumulate
+
+from turtlewire.bag.compression import compress
+from turtlewire.bag.mcap_records import (
+    MAGIC,
+    OPCODE_AND_LENGTH,
+    Channel,
+    Op,
+    Schema,
+    pack_map,
+    pack_string,
+    record,
+)
+
+__all__ = ["CHUNK_BYTES", "McapWriter"]
+
+#: rosbag2's default.
+CHUNK_BYTES = 768 * 1024
+
+_MESSAGE = struct.Struct("<BQHIQQ")
+_LIBRARY = "turtlewire"
+
+
+class McapWriter:
+    """An MCAP file that is being written.
+
+    Args:
+        path: The file; it must not exist.
+        compression: Of the chunks: ``""``, ``"zstd"`` or ``"lz4"``.
+        level: Compression level of zstd.
+        chunk_bytes: Size of a chunk before compression.
+        checksums: Whether chunks carry a CRC-32.
+
+    Raises:
+        FileExistsError: There is such a file.
+        OSError: From each method: the file cannot be written, for example because the disk is full.
+    """
+
+    def __init__(
+        self,
+        path: str,
+        *,
+        compression: str = "",
+        level: int = 1,
+        chunk_bytes: int = CHUNK_BYTES,
+        checksums: bool = True,
+    ) -> None:
+        compress(compression, b"", level)  # refuse a compression that is not known or not installed
+        self.path = path
+        self._compression = compression
+        self._level = level
+        self._chunk_bytes = chunk_bytes
+        self._checksums = checksums
+        #: Channel, log time, publish time and bytes of the messages of the chunk to come.
+        self._pending: list[tuple[int, int, int, bytes]] = []
+        self._pending_bytes = 0
+        self._new_definitions: list[bytes] = []
+        self._definitions: list[bytes] = []
+        self._schemas = 0
+        self._channels = 0
+        self._chunk_indexes: list[bytes] = []
+        self._metadata_indexes: list[bytes] = []
+        self._file = open(path, "xb")  # noqa: SIM115 - closed by close()
+        self.file_bytes = 0
+        self.message_count = 0
+        self.start_ns = (1 << 64) - 1
+        self.end_ns = 0
+        self.channel_counts: dict[int, int] = {}
+        self._put(MAGIC + record(Op.HEADER, pack_string("ros2") + pack_string(_LIBRARY)))
+
+    @property
+    def size(self) -> int:
+        """Bytes in the file and waiting for it."""
+        return self.file_bytes + self._pending_bytes
+
+    def add_schema(self, name: str, encoding: str, data: bytes) -> int:
+        """Add a type; returns its id."""
+        self._schemas += 1
+        schema = Schema(self._schemas, name, encoding, data)
+        content = struct.pack("<H", schema.id) + pack_string(name) + pack_string(encoding)
+        self._define(record(Op.SCHEMA, content + struct.pack("<I", len(data)) + data))
+        return schema.id
+
+    def add_channel(self, schema_id: int, topic: str, metadata: dict[str, str]) -> int:
+        """Add a topic with CDR messages; returns its id."""
+        channel = Channel(self._channels, schema_id, topic, "cdr", metadata)
+        self._channels += 1
+        self._define(
+            record(
+                Op.CHANNEL,
+                struct.pack("<HH", channel.id, schema_id)
+                + pack_string(topic)
+                + pack_string(channel.message_encoding)
+                + pack_map(metadata),
+            )
+        )
+        return channel.id
+
+    def _define(self, definition: bytes) -> None:
+        self._definitions.append(definition)
+        self._new_definitions.append(definition)
+
+    def write(self, channel_id: int, log_time_ns: int, publish_time_ns: int, data: bytes) -> None:
+        """Add a message; it reaches the file when its chunk is full or at `flush`."""
+        # Only collects: making the records of a whole chunk at once takes half the time.
+        self._pending.append((channel_id, log_time_ns, publish_time_ns, data))
+        self._pending_bytes += _MESSAGE.size + len(data)
+        if self._pending_bytes >= self._chunk_bytes:
+            self.flush()
+
+    def write_metadata(self, name: str, entries: dict[str, str]) -> None:
+        """Add a Metadata record between chunks."""
+        self.flush()
+        content = record(Op.METADATA, pack_string(name) + pack_map(entries))
+        index = struct.pack("<QQ", self.file_bytes, len(content)) + pack_string(name)
+        self._metadata_indexes.append(record(Op.METADATA_INDEX, index))
+        self._put(content)
+
+    def flush(self) -> None:
+        """Write the pending messages as a chunk and hand it to the operating system."""
+        if not self._pending and not self._new_definitions:
+            return
+        pack, fields = _MESSAGE.pack, _MESSAGE.size - OPCODE_AND_LENGTH.size
+        definitions = b"".join(self._new_definitions)
+        messages = [
+            # rosbag2 writes the sequence number 0 always.
+            pack(Op.MESSAGE, fields + len(data), channel, 0, log_time, publish_time) + data
+            for channel, log_time, publish_time, data in self._pending
+        ]
+        offsets = accumulate(map(len, messages), initial=len(definitions))
+        index: dict[int, list[int]] = {}
+        for (channel, log_time, _, _), offset in zip(self._pending, offsets, strict=False):
+            index.setdefault(channel, []).extend((log_time, offset))
+        self._write_chunk(definitions + b"".join(messages), index)
+        self._new_definitions.clear()
+        self._pending.clear()
+        self._pending_bytes = 0
+
+    def _write_chunk(self, records: bytes, index: dict[int, list[int]]) -> None:
+        """Write a chunk with its message indexes.
+
+        Args:
+            records: What it holds.
+            index: Log time and offset of each message, alternating, by channel.
+        """
+        times = [time for entries in index.values() for time in entries[::2]]
+        start, end = (min(times), max(times)) if times else (0, 0)
+        crc = zlib.crc32(records) if self._checksums else 0
+        packed = compress(self._compression, records, self._level)
+        chunk = record(
+            Op.CHUNK,
+            struct.pack("<QQQI", start, end, len(records), crc)
+            + pack_string(self._compression)
+            + struct.pack("<Q", len(packed))
+            + packed,
+        )
+        indexes, offsets = _message_indexes(index, self.file_bytes + len(chunk))
+        chunk_index = (
+            struct.pack("<QQQQI", start, end, self.file_bytes, len(chunk), len(offsets))
+            + offsets
+            + struct.pack("<Q", len(indexes))
+            + pack_string(self._compression)
+            + struct.pack("<QQ", len(packed), len(records))
+        )
+        self._put(chunk + indexes)
+        self._chunk_indexes.append(record(Op.CHUNK_INDEX, chunk_index))
+        for channel, entries in index.items():
+            self.channel_counts[channel] = self.channel_counts.get(channel, 0) + len(entries) // 2
+        if times:
+            self.start_ns = min(self.start_ns, start)
+            self.end_ns = max(self.end_ns, end)
+        self.message_count += len(times)
+
+    def _put(self, data: bytes) -> None:
+        self._file.write(data)
+        self._file.flush()
+        self.file_bytes += len(data)
+
+    def close(self) -> None:
+        """Write the summary and close the file."""
+        try:
+            self.flush()
+            self._put(record(Op.DATA_END, bytes(4)) + self._summary() + MAGIC)
+        finally:
+            self._file.close()
+
+    def _summary(self) -> bytes:
+        """The summary section with its offsets and the footer."""
+        start = self.file_bytes + OPCODE_AND_LENGTH.size + 4  # behind the DataEnd record
+        schemas = [part for part in self._definitions if part[0] == Op.SCHEMA]
+        channels = [part for part in self._definitions if part[0] == Op.CHANNEL]
+        groups = [
+            (Op.SCHEMA, schemas),
+            (Op.CHANNEL, channels),
+            (Op.STATISTICS, [self._statistics()]),
+            (Op.CHUNK_INDEX, self._chunk_indexes),
+            (Op.METADATA_INDEX, self._metadata_indexes),
+        ]
+        summary = b""
+        offsets = b""
+        for opcode, records in groups:
+            data = b"".join(records)
+            if data:
+                place = struct.pack("<BQQ", opcode, start + len(summary), len(data))
+                offsets += record(Op.SUMMARY_OFFSET, place)
+            summary += data
+        fields = struct.pack("<QQ", start, start + len(summary))
+        footer = OPCODE_AND_LENGTH.pack(Op.FOOTER, len(fields) + 4) + fields
+        covered = summary + offsets + footer
+        return covered + struct.pack("<I", zlib.crc32(covered))
+
+    def _statistics(self) -> bytes:
+        counts = b"".join(
+            struct.pack("<HQ", channel, count) for channel, count in self.channel_counts.items()
+        )
+        return record(
+            Op.STATISTICS,
+            struct.pack(
+                "<QHIIIIQQ",
+                self.message_count,
+                self._schemas,
+                self._channels,
+                0,
+                len(self._metadata_indexes),
+                len(self._chunk_indexes),
+                self.start_ns if self.message_count else 0,
+                self.end_ns,
+            )
+            + struct.pack("<I", len(counts))
+            + counts,
+        )
+
+
+def _message_indexes(index: dict[int, list[int]], offset: int) -> tuple[bytes, bytes]:
+    """The MessageIndex records that follow a chunk, and the map of where each lies."""
+    records, offsets = [], []
+    for channel, entries in index.items():
+        data = struct.pack(f"<{len(entries)}Q", *entries)
+        records.append(record(Op.MESSAGE_INDEX, struct.pack("<HI", channel, len(data)) + data))
+        offsets.append(struct.pack("<HQ", channel, offset))
+        offset += len(records[-1])
+    return b"".join(records), b"".join(offsets)

@@ -1,0 +1,313 @@
+"""A bag to read: a folder of rosbag2, or a single ``.mcap`` or ``.db3`` file."""
+
+from __future__ import annotations
+
+import heapq
+import os
+import shutil
+import tempfile
+import weakref
+from typing import TYPE_CHECKING
+
+from turtlewire.bag.compression import decompress, read_zstd_file
+from turtlewire.bag.definitions import learn_types
+from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo, read_metadata
+from turtlewire.bag.storage import StorageFile, open_storage
+from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from turtlewire.bag.message import BagMessage
+
+__all__ = ["Bag", "open_bag"]
+
+_FOREVER = (1 << 64) - 1
+
+
+class Bag:
+    """A bag that is open for reading; use it in a ``with`` statement or call `close`.
+
+    ::
+
+        with turtlewire.bag.open_bag("my_bag") as bag:
+            for message in bag.messages("/odom"):
+                print(message.log_time_ns, message.decode().pose.pose.position)
+
+    Not thread-safe; open a bag twice to read it in two threads.
+
+    Attributes:
+        path: The folder or file.
+        metadata: What it holds; computed from the files where ``metadata.yaml`` is missing.
+        problems: What is damaged or missing, one sentence each with file and position. What can be
+            read is read all the same; `messages` raises a `BagError` at its end if a chunk in the
+            middle was damaged.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self.problems: list[str] = []
+        self._files: dict[str, StorageFile] = {}
+        self._scratch: str | None = None
+        if not os.path.exists(self.path):
+            raise FileNotFoundError(f"there is no bag at {self.path}")
+        if os.path.isdir(self.path):
+            self._folder = self.path
+            self.metadata = read_metadata(self.path) or self._metadata_of(_storage_files(self.path))
+        else:
+            self._folder = os.path.dirname(self.path)
+            self.metadata = self._metadata_of([os.path.basename(self.path)])
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        _type: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __len__(self) -> int:
+        return self.metadata.message_count
+
+    def __iter__(self) -> Iterator[BagMessage]:
+        return self.messages()
+
+    def __contains__(self, topic: object) -> bool:
+        return topic in self.topics
+
+    def __repr__(self) -> str:
+        seconds = self.metadata.duration_ns / 1e9
+        return f"<Bag {self.path!r}: {len(self)} messages of {len(self.topics)} topics, {seconds:.3f} s>"
+
+    def close(self) -> None:
+        """Release the files; decompressed copies are deleted."""
+        for file in self._files.values():
+            file.close()
+        self._files.clear()
+        if self._scratch is not None:
+            shutil.rmtree(self._scratch, ignore_errors=True)
+            self._scratch = None
+
+    @property
+    def topics(self) -> dict[str, TopicInfo]:
+        """The topics by name."""
+        return {topic.name: topic for topic in self.metadata.topics}
+
+    @property
+    def start_ns(self) -> int:
+        """Log time of the oldest message."""
+        return self.metadata.start_ns
+
+    @property
+    def end_ns(self) -> int:
+        """Log time of the newest message."""
+        return self.metadata.start_ns + self.metadata.duration_ns
+
+    def definitions(self) -> dict[str, tuple[str, str]]:
+        """Encoding (``ros2msg``) and text of each type's definition, as far as the bag has them."""
+        found: dict[str, tuple[str, str]] = {}
+        for file in self.files():
+            found.update(file.definitions())
+        return found
+
+    def learn_types(self) -> None:
+        """Make the message types that only this bag defines known to `turtlewire.msg`.
+
+        Raises:
+            InterfaceError: A definition cannot be parsed.
+        """
+        for name, (encoding, text) in self.definitions().items():
+            if encoding == "ros2msg" and text:
+                learn_types(name, text)
+
+    def files(self) -> Iterator[StorageFile]:
+        """The bag's files in their order, opened when they are reached.
+
+        Raises:
+            BagError: One is missing or not what it should be.
+        """
+        for path in self.metadata.paths:
+            yield self._file(path)
+
+    def messages(
+        self,
+        topics: str | Iterable[str] | None = None,
+        *,
+        types: str | Iterable[str] | None = None,
+        start_ns: int = 0,
+        end_ns: int = _FOREVER,
+    ) -> Iterator[BagMessage]:
+        """The messages in order of their log time.
+
+        Args:
+            topics: A topic or several; None takes all.
+            types: A message type or several; None takes all.
+            start_ns: The log time from which on messages are taken.
+            end_ns: The last log time that is taken.
+
+        Yields:
+            The messages; those of one time in the order of the file.
+
+        Raises:
+            BagError: A topic does not exist; or, after all messages that can be read, a part of the
+                bag is damaged.
+        """
+        wanted = self._wanted(_names(topics), _names(types))
+        damage: list[BagError] = []
+        for group in _overlapping(self.metadata):
+            streams = [self._messages_of(path, wanted, start_ns, end_ns, damage) for path in group]
+            yield from heapq.merge(*streams, key=_log_time) if len(streams) > 1 else streams[0]
+        if damage:
+            raise damage[0]
+
+    def _messages_of(
+        self,
+        path: str,
+        wanted: Callable[[TopicInfo], bool],
+        start_ns: int,
+        end_ns: int,
+        damage: list[BagError],
+    ) -> Iterator[BagMessage]:
+        messages = self._file(path).messages(wanted, start_ns, end_ns, damage.append)
+        if self.metadata.compression_mode != "MESSAGE":
+            return messages
+        unpack = self.metadata.compression_format
+        return (message._replace(data=decompress(unpack, message.data)) for message in messages)
+
+    def _wanted(
+        self, topics: set[str] | None, types: set[str] | None
+    ) -> Callable[[TopicInfo], bool]:
+        known = self.topics
+        for name in topics or ():
+            if name not in known:
+                raise BagError(f"the bag has no topic '{name}'").with_hint(_nearest(name, known))
+        return lambda topic: (
+            (topics is None or topic.name in topics) and (types is None or topic.type in types)
+        )
+
+    def _file(self, path: str) -> StorageFile:
+        file = self._files.get(path)
+        if file is None:
+            file = open_storage(self._plain_file(path))
+            self._files[path] = file
+            self.problems += file.problems
+        return file
+
+    def _plain_file(self, path: str) -> str:
+        """The file itself, or a decompressed copy that lives as long as the bag is open."""
+        full = os.path.join(self._folder, path)
+        if not full.endswith(".zstd"):
+            return full
+        if self._scratch is None:
+            self._scratch = tempfile.mkdtemp(prefix="turtlewire-bag-")
+            weakref.finalize(self, shutil.rmtree, self._scratch, ignore_errors=True)
+        plain = os.path.join(self._scratch, os.path.basename(path).removesuffix(".zstd"))
+        with open(plain, "wb") as out:
+            try:
+                out.writelines(read_zstd_file(full))
+            except BagError as error:
+                self.problems.append(str(error))
+        return plain
+
+    def _metadata_of(self, paths: list[str]) -> BagMetadata:
+        """Metadata from the files themselves."""
+        if not paths:
+            raise BagError(f"{self.path} is no bag: it holds no .mcap or .db3 file")
+        return _joined(paths, [self._file(path).summary() for path in paths])
+
+
+def open_bag(path: str | os.PathLike[str]) -> Bag:
+    """Open a bag for reading.
+
+    Args:
+        path: A folder of rosbag2 (with or without ``metadata.yaml``), a ``.mcap`` or a ``.db3``
+            file; compressed or not, finished or left behind by a recorder that was killed.
+
+    Raises:
+        FileNotFoundError: There is nothing at ``path``.
+        BagError: It is no bag.
+    """
+    return Bag(path)
+
+
+def _names(names: str | Iterable[str] | None) -> set[str] | None:
+    return None if names is None else {names} if isinstance(names, str) else set(names)
+
+
+def _nearest(name: str, known: Iterable[str]) -> str:
+    import difflib
+
+    near = difflib.get_close_matches(name, list(known), 3, 0.5)
+    if near:
+        return f"Did you mean {' or '.join(near)}?"
+    return f"Its topics are {', '.join(sorted(known))}." if known else "It has no topics."
+
+
+def _log_time(message: BagMessage) -> int:
+    return message.log_time_ns
+
+
+def _storage_files(folder: str) -> list[str]:
+    """The storage files of a folder without metadata, in the order of their numbers."""
+    endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
+    names = [name for name in os.listdir(folder) if name.endswith(endings)]
+    return sorted(names, key=lambda name: (_number(name), name))
+
+
+def _number(name: str) -> int:
+    """The number at the end of ``my_bag_12.mcap``; -1 without one."""
+    number = name.split(".", maxsplit=1)[0].rpartition("_")[2]
+    return int(number) if number.isdecimal() else -1
+
+
+def _overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
+    """Paths of the files in order of time; those whose times overlap come together."""
+    paths, files = metadata.paths, metadata.files
+    if len(files) != len(paths):  # metadata before version 5 does not tell the times of files
+        yield paths
+        return
+    group: list[str] = []
+    end = 0
+    for file, path in sorted(zip(files, paths, strict=True), key=lambda pair: pair[0].start_ns):
+        if group and file.start_ns > end:
+            yield group
+            group = []
+        group.append(path)
+        end = max(end, file.start_ns + file.duration_ns)
+    if group:
+        yield group
+
+
+def _joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
+    """The metadata of a bag that consists of these files."""
+    files = [
+        FileInfo(path, part.start_ns, part.duration_ns, part.message_count)
+        for path, part in zip(paths, parts, strict=True)
+    ]
+    topics: dict[str, TopicInfo] = {}
+    for topic in (topic for part in parts for topic in part.topics):
+        known = topics.setdefault(topic.name, topic)
+        if known is not topic:
+            known.message_count += topic.message_count
+    filled = [part for part in parts if part.message_count]
+    start = min((part.start_ns for part in filled), default=0)
+    end = max((part.start_ns + part.duration_ns for part in filled), default=0)
+    return BagMetadata(
+        storage=parts[0].storage,
+        paths=paths,
+        files=files,
+        topics=list(topics.values()),
+        start_ns=start,
+        duration_ns=end - start,
+        message_count=sum(part.message_count for part in parts),
+        compression_format=parts[0].compression_format,
+        compression_mode=parts[0].compression_mode,
+        custom_data=parts[0].custom_data,
+        ros_distro=parts[0].ros_distro,
+    )

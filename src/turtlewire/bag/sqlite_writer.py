@@ -1,0 +1,120 @@
+"""Writes one ``.db3`` file of rosbag2 (schema version 4)."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+
+__all__ = ["SqliteWriter"]
+
+_SCHEMA = """
+CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
+CREATE TABLE metadata(
+    id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);
+CREATE TABLE topics(
+    id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
+    serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL,
+    type_description_hash TEXT NOT NULL);
+CREATE TABLE message_definitions(
+    id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding TEXT NOT NULL,
+    encoded_message_definition TEXT NOT NULL, type_description_hash TEXT NOT NULL);
+CREATE TABLE messages(
+    id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
+    data BLOB NOT NULL);
+CREATE INDEX timestamp_idx ON messages (timestamp ASC);
+"""
+_SCHEMA_VERSION = 4
+_BATCH_BYTES = 768 * 1024
+
+
+class SqliteWriter:
+    """A sqlite3 file that is being written.
+
+    While it is open a write-ahead log lies beside it, so that a killed process loses only what was
+    not flushed; closing merges the log into the file.
+
+    Args:
+        path: The file; it must not exist.
+        ros_distro: Name of the ROS distribution that records.
+
+    Raises:
+        FileExistsError: There is such a file.
+        sqlite3.Error: From each method: the file cannot be written.
+    """
+
+    def __init__(self, path: str, ros_distro: str) -> None:
+        if os.path.exists(path):
+            raise FileExistsError(f"{path} exists already")
+        self.path = path
+        self._database = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
+        self._database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF;")
+        self._database.executescript(_SCHEMA)
+        self._database.execute("INSERT INTO schema VALUES (?, ?)", (_SCHEMA_VERSION, ros_distro))
+        self._pending: list[tuple[int, int, bytes]] = []
+        self._pending_bytes = 0
+        self._file_bytes = 0
+        self._types: set[str] = set()
+        self.message_count = 0
+        self.start_ns = (1 << 64) - 1
+        self.end_ns = 0
+        self.topic_counts: dict[int, int] = {}
+
+    @property
+    def size(self) -> int:
+        """Bytes of the messages in the file and waiting for it."""
+        return self._file_bytes + self._pending_bytes
+
+    def add_definition(self, type_name: str, encoding: str, text: str, type_hash: str) -> None:
+        """Add the definition of a type, once."""
+        if type_name not in self._types:
+            self._types.add(type_name)
+            self._database.execute(
+                "INSERT INTO message_definitions VALUES (NULL, ?, ?, ?, ?)",
+                (type_name, encoding, text, type_hash),
+            )
+
+    def add_topic(self, name: str, type_name: str, qos: str, type_hash: str) -> int:
+        """Add a topic with CDR messages; returns its id."""
+        cursor = self._database.execute(
+            "INSERT INTO topics VALUES (NULL, ?, ?, 'cdr', ?, ?)", (name, type_name, qos, type_hash)
+        )
+        topic_id = cursor.lastrowid or 0
+        self.topic_counts[topic_id] = 0
+        return topic_id
+
+    def write(self, topic_id: int, log_time_ns: int, _publish_time_ns: int, data: bytes) -> None:
+        """Add a message; the publish time has no place in this format."""
+        self._pending.append((topic_id, log_time_ns, data))
+        self._pending_bytes += len(data)
+        if self._pending_bytes >= _BATCH_BYTES:
+            self.flush()
+
+    def write_metadata(self, version: int, text: str) -> None:
+        """Add metadata as YAML; the last one counts."""
+        self._database.execute("INSERT INTO metadata VALUES (NULL, ?, ?)", (version, text))
+
+    def flush(self) -> None:
+        """Write the pending messages in one transaction."""
+        if not self._pending:
+            return
+        self._database.execute("BEGIN")
+        self._database.executemany(
+            "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
+        )
+        self._database.execute("COMMIT")
+        for topic_id, log_time, _ in self._pending:
+            self.topic_counts[topic_id] += 1
+            self.start_ns = min(self.start_ns, log_time)
+            self.end_ns = max(self.end_ns, log_time)
+        self.message_count += len(self._pending)
+        self._file_bytes += self._pending_bytes
+        self._pending.clear()
+        self._pending_bytes = 0
+
+    def close(self) -> None:
+        """Write what is pending, merge the log and close the file."""
+        try:
+            self.flush()
+            self._database.execute("PRAGMA journal_mode = DELETE")
+        finally:
+            self._database.close()

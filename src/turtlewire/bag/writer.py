@@ -1,0 +1,317 @@
+"""A bag to write: a folder that rosbag2, Foxglove and others read."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from turtlewire.bag.compression import compress, write_zstd_file
+from turtlewire.bag.definitions import ENCODING, definition_text
+from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
+from turtlewire.bag.metadata import (
+    NEWEST_VERSION,
+    BagMetadata,
+    FileInfo,
+    TopicInfo,
+    dump_metadata,
+    write_metadata,
+)
+from turtlewire.bag.qos_yaml import qos_to_yaml
+from turtlewire.bag.sqlite_writer import SqliteWriter
+from turtlewire.errors import BagError, InterfaceError
+from turtlewire.msg import Message, serialize, type_hash
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from turtlewire.wire.qos import QoS
+
+__all__ = ["BagWriter"]
+
+_ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
+
+
+class BagWriter:
+    """Writes a bag; use it in a ``with`` statement or call `close`.
+
+    ::
+
+        with turtlewire.bag.BagWriter("out") as writer:
+            writer.add_topic("/chatter", "std_msgs/msg/String")
+            writer.write("/chatter", String(data="hi"), log_time_ns=1_000_000_000)
+
+    Not thread-safe.
+
+    Args:
+        path: The folder to make; it must not exist.
+        storage: ``"mcap"`` or ``"sqlite3"``.
+        compression: Compression of an MCAP file's chunks: ``""``, ``"zstd"`` or ``"lz4"``.
+        level: Compression level of zstd.
+        chunk_bytes: Size of a chunk of an MCAP file before compression.
+        compression_mode: ``"FILE"`` compresses each finished file with zstd as a whole,
+            ``"MESSAGE"`` each message (sqlite3 only), as rosbag2 does; ``""`` does neither.
+        max_file_bytes: A new file begins when one has this size; 0 for one file.
+        max_file_ns: A new file begins after this much recorded time; 0 for one file.
+        custom_data: Texts to keep in the metadata.
+        ros_distro: Name of the distribution in the metadata.
+
+    Raises:
+        FileExistsError: ``path`` exists.
+        BagError: A combination of arguments that rosbag2 does not know.
+    """
+
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        storage: str = "mcap",
+        compression: str = "",
+        level: int = 1,
+        chunk_bytes: int = CHUNK_BYTES,
+        compression_mode: str = "",
+        max_file_bytes: int = 0,
+        max_file_ns: int = 0,
+        custom_data: dict[str, str] | None = None,
+        ros_distro: str = "",
+    ) -> None:
+        if storage not in _ENDINGS:
+            raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
+        if compression_mode == "MESSAGE" and storage == "mcap":
+            raise BagError("MCAP files compress chunks, not messages").with_hint(
+                "Give compression='zstd' instead."
+            )
+        self.path = os.path.abspath(os.fspath(path))
+        self._chunks: dict[str, Any] = {
+            "compression": compression,
+            "level": level,
+            "chunk_bytes": chunk_bytes,
+        }
+        self._max_file_bytes = max_file_bytes
+        self._max_file_ns = max_file_ns
+        self._splits = bool(max_file_bytes or max_file_ns)
+        self._compresses_messages = compression_mode == "MESSAGE"
+        self._topics: dict[str, TopicInfo] = {}
+        self._definitions: dict[str, tuple[str, str]] = {}
+        self._ids: dict[str, int] = {}
+        self._file_start_ns: int | None = None
+        self.metadata = BagMetadata(
+            storage,
+            compression_format="zstd" if compression_mode else "",
+            compression_mode=compression_mode,
+            custom_data=dict(custom_data or {}),
+            ros_distro=ros_distro,
+        )
+        os.makedirs(self.path)
+        self._file: McapWriter | SqliteWriter | None = self._open_file()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        _type: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @property
+    def topics(self) -> dict[str, TopicInfo]:
+        """The topics that were added, by name."""
+        return dict(self._topics)
+
+    def add_topic(
+        self,
+        name: str,
+        type_name: str,
+        *,
+        qos: Sequence[QoS] = (),
+        hash_of_type: str | None = None,
+        definition: tuple[str, str] | None = None,
+    ) -> None:
+        """Add a topic; adding the same one again changes nothing.
+
+        Args:
+            name: ``"/tf"``.
+            type_name: ``"tf2_msgs/msg/TFMessage"``.
+            qos: What its publishers offer.
+            hash_of_type: ``"RIHS01_…"``; None computes it from the definition.
+            definition: Encoding and text of the type's definition; None takes the known type's.
+
+        Raises:
+            BagError: The topic has another type already.
+        """
+        known = self._topics.get(name)
+        if known is not None:
+            if known.type != type_name:
+                raise BagError(f"{name} has the type {known.type} already, not {type_name}")
+            return
+        if definition is None:
+            definition = _known_definition(type_name)
+        if hash_of_type is None:
+            hash_of_type = _known_hash(type_name)
+        self._definitions[type_name] = definition
+        topic = TopicInfo(name, type_name, "cdr", list(qos), hash_of_type)
+        self._topics[name] = topic
+        self._ids[name] = self._define(self._open(), topic)
+
+    def write(
+        self,
+        topic: str,
+        data: bytes | Message,
+        log_time_ns: int,
+        publish_time_ns: int | None = None,
+    ) -> None:
+        """Write one message.
+
+        Args:
+            topic: A topic that was added.
+            data: The message, or its CDR bytes.
+            log_time_ns: When it was received, nanoseconds since 1970.
+            publish_time_ns: When it was sent; None if it is not known.
+
+        Raises:
+            BagError: The topic was not added, or the bag is closed.
+            OSError: The disk is full, for example. What was written before stays readable.
+        """
+        number = self._ids.get(topic)
+        file = self._file
+        if number is None or file is None:
+            self._open()
+            raise BagError(f"the topic '{topic}' was not added").with_hint(
+                "Call add_topic() first."
+            )
+        if isinstance(data, Message):
+            data = serialize(data)
+        if self._compresses_messages:
+            data = compress("zstd", data)
+        if publish_time_ns is None:
+            publish_time_ns = log_time_ns
+        file.write(number, log_time_ns, publish_time_ns, data)
+        if self._splits:
+            self._split_if_due(file, log_time_ns)
+
+    def flush(self) -> None:
+        """Hand all messages to the operating system: they survive this process."""
+        self._open().flush()
+
+    def split(self) -> tuple[str, str]:
+        """Finish the current file and begin another.
+
+        Returns:
+            Paths of the finished and of the new file.
+        """
+        finished = self._finish_file(self._open())
+        self._file = self._open_file()
+        self._file_start_ns = None
+        for name, topic in self._topics.items():
+            self._ids[name] = self._define(self._file, topic)
+        return finished, self._file.path
+
+    def close(self) -> None:
+        """Finish the file and write ``metadata.yaml``; closing twice does nothing."""
+        if self._file is not None:
+            file, self._file = self._file, None
+            self._finish_file(file)
+            write_metadata(self.path, self._whole_metadata())
+
+    # -- one file
+
+    def _open(self) -> McapWriter | SqliteWriter:
+        if self._file is None:
+            raise BagError(f"{self.path} is closed")
+        return self._file
+
+    def _open_file(self) -> McapWriter | SqliteWriter:
+        storage = self.metadata.storage
+        number = len(self.metadata.paths)
+        name = f"{os.path.basename(self.path)}_{number}.{_ENDINGS[storage]}"
+        path = os.path.join(self.path, name)
+        file = (
+            McapWriter(path, **self._chunks)
+            if storage == "mcap"
+            else SqliteWriter(path, self.metadata.ros_distro)
+        )
+        self._embed(file, self._whole_metadata())
+        return file
+
+    def _define(self, file: McapWriter | SqliteWriter, topic: TopicInfo) -> int:
+        """Tell a file of a topic; returns its number there."""
+        encoding, text = self._definitions[topic.type]
+        qos = _qos_text(topic.qos)
+        if isinstance(file, SqliteWriter):
+            file.add_definition(topic.type, encoding, text, topic.type_hash)
+            return file.add_topic(topic.name, topic.type, qos, topic.type_hash)
+        schema = file.add_schema(topic.type, encoding, text.encode())
+        metadata = {"offered_qos_profiles": qos, "topic_type_hash": topic.type_hash}
+        return file.add_channel(schema, topic.name, metadata)
+
+    def _split_if_due(self, file: McapWriter | SqliteWriter, log_time_ns: int) -> None:
+        if self._file_start_ns is None:
+            self._file_start_ns = log_time_ns
+        lasts = log_time_ns - self._file_start_ns
+        if (self._max_file_bytes and file.size >= self._max_file_bytes) or (
+            self._max_file_ns and lasts > self._max_file_ns
+        ):
+            self.split()
+
+    def _finish_file(self, file: McapWriter | SqliteWriter) -> str:
+        """Close a file and take it into the metadata; returns its path."""
+        file.flush()
+        counts = file.channel_counts if isinstance(file, McapWriter) else file.topic_counts
+        for name, topic in self._topics.items():
+            topic.message_count += counts.get(self._ids[name], 0)
+        name = os.path.basename(file.path)
+        start = file.start_ns if file.message_count else 0
+        duration = file.end_ns - start
+        self.metadata.files.append(FileInfo(name, start, duration, file.message_count))
+        self.metadata.paths.append(name)
+        self._embed(file, self._whole_metadata())
+        file.close()
+        if self.metadata.compression_mode == "FILE":
+            write_zstd_file(file.path, file.path + ".zstd")
+            os.remove(file.path)
+            self.metadata.paths[-1] += ".zstd"
+        return os.path.join(self.path, self.metadata.paths[-1])
+
+    def _embed(self, file: McapWriter | SqliteWriter, metadata: BagMetadata) -> None:
+        text = dump_metadata(metadata)
+        if isinstance(file, SqliteWriter):
+            file.write_metadata(NEWEST_VERSION, text)
+        else:
+            file.write_metadata("rosbag2", {"serialized_metadata": text})
+
+    def _whole_metadata(self) -> BagMetadata:
+        """The metadata with the totals of the files that are finished."""
+        filled = [file for file in self.metadata.files if file.message_count]
+        start = min((file.start_ns for file in filled), default=0)
+        end = max((file.start_ns + file.duration_ns for file in filled), default=0)
+        self.metadata.start_ns, self.metadata.duration_ns = start, end - start
+        self.metadata.message_count = sum(file.message_count for file in filled)
+        self.metadata.topics = list(self._topics.values())
+        return self.metadata
+
+
+def _known_definition(type_name: str) -> tuple[str, str]:
+    try:
+        return ENCODING, definition_text(type_name)
+    except InterfaceError:
+        return "unknown", ""  # what rosbag2 writes for a definition that it does not find
+
+
+def _known_hash(type_name: str) -> str:
+    try:
+        return type_hash(type_name)
+    except InterfaceError:
+        return ""
+
+
+def _qos_text(profiles: Sequence[QoS]) -> str:
+    if not profiles:
+        return ""
+    return yaml.safe_dump([qos_to_yaml(qos) for qos in profiles], sort_keys=False)

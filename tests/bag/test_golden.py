@@ -1,0 +1,130 @@
+"""Bags that a real rosbag2 recorded give the messages, metadata and lookups that it gives."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import shutil
+import zlib
+from pathlib import Path
+
+import pytest
+from tests.bag.conftest import ANSWERED, GOLDEN
+
+from turtlewire.bag import load_transforms, open_bag
+from turtlewire.errors import TransformException
+
+REAL = sorted(path.name for path in (GOLDEN / "real").iterdir() if path.is_dir())
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_messages(name):
+    with gzip.open(GOLDEN / f"{name}.messages.json.gz", "rt") as file:
+        expected = json.load(file)
+    with open_bag(GOLDEN / name) as bag:
+        found = [[m.topic, m.log_time_ns, len(m.data), zlib.crc32(m.data)] for m in bag]
+        assert bag.problems == []
+        assert len(bag) == len(expected)
+    assert found == expected
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_metadata(name):
+    expected = json.loads((GOLDEN / f"{name}.reads.json").read_text())["metadata"]
+    with open_bag(GOLDEN / name) as bag:
+        found = bag.metadata
+    for key in ("version", "message_count", "compression_format", "custom_data", "ros_distro"):
+        assert getattr(found, key) == expected[key], key
+    assert found.compression_mode == expected["compression_mode"].upper()
+    assert found.storage == expected["storage_identifier"]
+    assert found.paths == expected["relative_file_paths"]
+    assert (found.start_ns, found.duration_ns) == (expected["starting_time"], expected["duration"])
+    assert [file.path for file in found.files] == [file[0] for file in expected["files"]]
+    topics = [
+        [t.name, t.type, t.serialization_format, t.type_hash, len(t.qos), t.message_count]
+        for t in found.topics
+    ]
+    assert topics == expected["topics"]
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_every_message_can_be_decoded(name):
+    with open_bag(GOLDEN / name) as bag:
+        types = {type(message.decode())._TYPE_NAME for message in bag}
+        assert types == {topic.type for topic in bag.topics.values() if topic.message_count}
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_lookups(name):
+    buffer, report = load_transforms(GOLDEN / name)
+    assert report.problems == []
+    wrong = []
+    with gzip.open(GOLDEN / f"{name}.answers.jsonl.gz", "rt") as file:
+        questions = [json.loads(line) for line in file]
+    for question in questions:
+        answer = ask(buffer, question)
+        if not same(question, answer):
+            wrong.append((question, answer))
+    assert len(questions) == 500
+    assert wrong == []
+
+
+def ask(buffer, q):
+    try:
+        if "fixed" in q:
+            found = buffer.lookup_transform_full(
+                q["target"], q["target_ns"], q["source"], q["ns"], q["fixed"]
+            )
+        else:
+            found = buffer.lookup_transform(q["target"], q["source"], q["ns"])
+    except TransformException as error:
+        classes = [cls.__name__ for cls in type(error).__mro__]
+        return {"error": classes, "text": str(error)}
+    return {
+        "stamp": found.stamp_ns,
+        "frame": found.frame_id,
+        "child": found.child_frame_id,
+        "pose": [*found.translation, *found.rotation],
+    }
+
+
+def same(question, answer):
+    if "error" in question or "error" in answer:
+        return question.get("text") == answer.get("text") and question.get("error") in answer.get(
+            "error", ()
+        )
+    keys = ("stamp", "frame", "child")
+    expected = [*question["t"], *question["q"]]
+    return all(question[key] == answer[key] for key in keys) and answer["pose"] == pytest.approx(
+        expected, rel=1e-12, abs=1e-12
+    )
+
+
+@pytest.mark.parametrize("name", REAL)
+def test_every_way_in_which_rosbag2_writes_a_bag(name):
+    with open_bag(GOLDEN / "real" / name) as bag:
+        times = [message.log_time_ns for message in bag]
+        assert len(times) == len(bag) > 200
+        assert times == sorted(times)
+        assert (times[0], times[-1]) == (bag.start_ns, bag.end_ns)
+    buffer, report = load_transforms(GOLDEN / "real" / name)
+    assert len(buffer.frame_strings()) == 5
+    assert report.problems == []
+    assert report.jumps == []
+
+
+@pytest.mark.parametrize("name", [*ANSWERED, *(f"real/{name}" for name in REAL)])
+def test_without_metadata_the_files_tell_the_same(name, tmp_path):
+    copy = tmp_path / Path(name).name
+    shutil.copytree(GOLDEN / name, copy)
+    with open_bag(copy) as bag:
+        told = bag.metadata
+        expected = [(m.topic, m.log_time_ns, m.data) for m in bag]
+    (copy / "metadata.yaml").unlink()
+    with open_bag(copy) as bag:
+        found = bag.metadata
+        assert [(m.topic, m.log_time_ns, m.data) for m in bag] == expected
+    for key in ("storage", "paths", "start_ns", "duration_ns", "message_count", "ros_distro"):
+        assert getattr(found, key) == getattr(told, key), key
+    counts = [{t.name: t.message_count for t in m.topics if t.message_count} for m in (found, told)]
+    assert counts[0] == counts[1]

@@ -1,0 +1,133 @@
+"""Choosing messages by topic, type and time; bags that are not there or are something else."""
+
+from __future__ import annotations
+
+import pytest
+from tests.bag.conftest import SECOND, START, contents, write_bag
+
+from turtlewire.bag import open_bag
+from turtlewire.errors import BagError
+
+
+def test_topics_types_and_times(bag_path):
+    with open_bag(bag_path) as bag:
+        everything = list(bag.messages())
+        assert len(everything) == len(bag) == 111
+        one = [m for m in everything if m.topic == "/chatter"]
+        assert list(bag.messages("/chatter")) == list(bag.messages(["/chatter"])) == one
+        assert [m.decode().data for m in one] == [f"number {i}" for i in range(9, 100, 10)]
+        both = [m for m in everything if m.topic in {"/tf", "/tf_static"}]
+        assert list(bag.messages(types="tf2_msgs/msg/TFMessage")) == both
+        start, end = START + SECOND // 4, START + SECOND // 2
+        window = [m for m in everything if start <= m.log_time_ns <= end]
+        assert 20 < len(window) < 40
+        assert list(bag.messages(start_ns=start, end_ns=end)) == window
+
+
+def test_topic_names_are_whole_names(bag_path):
+    # In the library `mcap` '/tf' also matched '/tf_static' when given as a text (mcap #1230).
+    with open_bag(bag_path) as bag:
+        assert {m.topic for m in bag.messages("/tf")} == {"/tf"}
+        assert "/tf" in bag
+        assert "/t" not in bag
+
+
+def test_a_topic_that_is_not_there_is_named_with_the_nearest(bag_path):
+    with open_bag(bag_path) as bag, pytest.raises(BagError, match="no topic '/chater'") as error:
+        list(bag.messages("/chater"))
+    assert error.value.hint == "Did you mean /chatter?"
+
+
+def test_times_of_a_message(bag_path):
+    with open_bag(bag_path) as bag:
+        static = next(bag.messages("/tf_static"))
+        assert static.log_time_ns == START
+        assert static.publish_time_ns == START - SECOND
+        assert next(bag.messages("/chatter")).publish_time_ns == START + 91_000_001
+
+
+def test_a_single_file_is_a_bag(bag_path):
+    with open_bag(bag_path) as bag, open_bag(bag_path / "made_0.mcap") as file:
+        assert contents(file) == contents(bag)
+        assert file.topics == bag.topics
+
+
+def test_messages_are_in_order_of_time_across_overlapping_chunks_and_files(tmp_path):
+    from turtlewire.bag import BagWriter
+
+    times = [(7 * i) % 101 for i in range(101)]
+    with BagWriter(tmp_path / "mixed", chunk_bytes=200, max_file_bytes=2000) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        for number in times:
+            writer.write("/a", number.to_bytes(4, "little"), 1000 + number)
+    with open_bag(tmp_path / "mixed") as bag:
+        assert len(bag.metadata.paths) > 2
+        assert [m.log_time_ns for m in bag] == [1000 + i for i in range(101)]
+        assert [m.log_time_ns for m in bag.messages(start_ns=1050, end_ns=1060)] == list(
+            range(1050, 1061)
+        )
+
+
+def test_what_is_no_bag(tmp_path):
+    with pytest.raises(FileNotFoundError, match="there is no bag at"):
+        open_bag(tmp_path / "nothing")
+    with pytest.raises(BagError, match=r"holds no \.mcap or \.db3 file"):
+        open_bag(tmp_path)
+    (tmp_path / "text.mcap").write_text("hello, world, I am no bag")
+    with pytest.raises(BagError, match="neither an MCAP nor a sqlite3 file"):
+        open_bag(tmp_path / "text.mcap")
+    (tmp_path / "empty.db3").touch()
+    with pytest.raises(BagError, match="neither an MCAP nor a sqlite3 file"):
+        open_bag(tmp_path / "empty.db3")
+
+
+def test_metadata_that_cannot_be_understood(tmp_path):
+    folder = write_bag(tmp_path / "made")
+    for text, complaint in [
+        ("a: [1,", "not readable as YAML"),
+        ("[" * 100_000, "not readable as YAML"),
+        ("rosbag2_bagfile_information: 3", "is missing"),
+        ("rosbag2_bagfile_information: {version: 9}", "'starting_time' is missing"),
+    ]:
+        (folder / "metadata.yaml").write_text(text)
+        with pytest.raises(BagError, match=complaint):
+            open_bag(folder)
+
+
+def test_decompressed_copies_are_deleted(tmp_path, monkeypatch):
+    import tempfile
+
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(scratch))
+    folder = write_bag(tmp_path / "made", compression_mode="FILE")
+    with open_bag(folder) as bag:
+        assert len(list(bag)) == 111
+        assert len(list(scratch.iterdir())) == 1
+    assert list(scratch.iterdir()) == []
+
+
+def test_types_that_only_the_bag_defines(tmp_path):
+    from turtlewire import msg
+    from turtlewire.bag import BagWriter
+
+    text = (
+        "uint8 A=1\nThing[] things\nother_only/Inner inner\n"
+        + "=" * 80
+        + "\nMSG: bag_only/Thing\nstring name\n"
+        + "=" * 80
+        + "\nMSG: other_only/Inner\nfloat64 x\nbuiltin_interfaces/Time stamp\n"
+    )
+    cdr = bytes.fromhex(
+        "00010000 01000000 03000000 6869 00 00 00000000 000000000000f83f 0200000003000000"
+    )
+    with BagWriter(tmp_path / "own") as writer:
+        writer.add_topic("/own", "bag_only/msg/Own", definition=("ros2msg", text))
+        writer.write("/own", cdr, 1)
+    with open_bag(tmp_path / "own") as bag:
+        bag.learn_types()
+        (message,) = bag
+        own = message.decode()
+    assert own.things[0].name == "hi"
+    assert (own.inner.x, own.inner.stamp.sec, own.inner.stamp.nanosec) == (1.5, 2, 3)
+    assert msg.serialize(own) == cdr

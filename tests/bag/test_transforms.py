@@ -1,0 +1,100 @@
+"""The transforms of a bag in a buffer: windows, names, reports and faults."""
+
+from __future__ import annotations
+
+import pytest
+from tests.bag.conftest import SECOND, START, transform, write_bag
+
+from turtlewire.bag import BagWriter, load_transforms
+from turtlewire.errors import BagError, ExtrapolationException
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"compression": "zstd", "chunk_bytes": 500}, {"storage": "sqlite3"}]
+)
+def test_one_call_fills_a_buffer(tmp_path, options):
+    buffer, report = load_transforms(write_bag(tmp_path / "made", **options))
+    middle = buffer.lookup_transform("odom", "camera", START + 505_000_000)
+    assert middle.translation == pytest.approx((0.505, 0, 0))
+    assert report.messages == 101
+    assert {(link.child_frame, link.static) for link in report.links} == {
+        ("camera", True),
+        ("base_link", False),
+    }
+    assert (report.gaps, report.jumps, report.conflicts, report.problems) == ([], [], [], [])
+
+
+def test_history_is_not_limited(tmp_path):
+    buffer, _ = load_transforms(write_bag(tmp_path / "made", count=3000))
+    assert buffer.lookup_transform("odom", "base_link", START).stamp_ns == START
+    assert buffer.cache_time_ns is None
+    short, _ = load_transforms(tmp_path / "made", cache_time_ns=SECOND)
+    with pytest.raises(ExtrapolationException):
+        short.lookup_transform("odom", "base_link", START)
+
+
+def test_a_window_has_the_static_transforms_from_before_it(tmp_path):
+    path = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
+    start = START + SECOND // 2
+    buffer, report = load_transforms(path, start_ns=start, end_ns=start + SECOND // 4)
+    assert report.messages == 1 + 25
+    buffer.lookup_transform("odom", "camera", start + 100_000_000)
+
+
+def test_other_topic_names(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/robot1/tf", "tf2_msgs/msg/TFMessage")
+        writer.write("/robot1/tf", transform(1), 1)
+    with pytest.raises(BagError, match="none of the topics /tf, /tf_static") as error:
+        load_transforms(tmp_path / "made")
+    assert "in it: /robot1/tf." in error.value.hint
+    buffer, _ = load_transforms(tmp_path / "made", topics="/robot1/tf")
+    assert buffer.frame_strings() == ["base_link", "odom"]
+
+
+def test_gaps_jumps_two_parents_and_nonsense_are_reported(tmp_path):
+    with BagWriter(tmp_path / "made", chunk_bytes=300) as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        times = [*range(100), *range(400, 500), *range(50, 80)]
+        for log_time, i in enumerate(times):
+            writer.write("/tf", transform(i), log_time)
+            if i % 2:
+                writer.write("/tf", transform(i, "map", "two_parents"), log_time)
+            else:
+                writer.write("/tf", transform(i, "odom", "two_parents"), log_time)
+        writer.write("/tf", b"nonsense", 10_000)
+    _, report = load_transforms(tmp_path / "made")
+    gaps = [gap for gap in report.gaps if gap.child_frame == "base_link"]
+    assert [(g.start_ns, g.end_ns) for g in gaps] == [(START + 990_000_000, START + 4 * SECOND)]
+    assert report.jumps == [200]
+    assert [conflict.kind for conflict in report.conflicts] == ["two parents"]
+    assert report.malformed is not None
+    assert report.malformed.messages == 1
+
+
+def test_progress_is_told(tmp_path):
+    shares = []
+    load_transforms(write_bag(tmp_path / "made", chunk_bytes=500), progress=shares.append)
+    assert shares == sorted(shares)
+    assert len(shares) > 10
+    assert shares[-1] == 1.0
+
+
+def test_chunks_without_transforms_are_not_decompressed(tmp_path, monkeypatch):
+    from turtlewire.bag import mcap_reader
+
+    with BagWriter(tmp_path / "made", chunk_bytes=10_000) as writer:
+        writer.add_topic("/image", "std_msgs/msg/String")
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for i in range(100):
+            writer.write("/image", bytes(20_000), i)
+        writer.write("/tf", transform(0), 100)
+    read = []
+    records = mcap_reader.McapFile.records
+    monkeypatch.setattr(
+        mcap_reader.McapFile,
+        "records",
+        lambda self, chunk: read.append(chunk) or records(self, chunk),
+    )
+    load_transforms(tmp_path / "made")
+    assert len(read) == 1

@@ -1,0 +1,165 @@
+"""Bags written here are read back as they were written, by us and by other libraries."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
+from rosbags.highlevel import AnyReader
+from tests.bag.conftest import START, contents, transform, write_bag
+
+from turtlewire import msg
+from turtlewire.bag import BagWriter, open_bag
+from turtlewire.errors import BagError
+from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
+
+WAYS = {
+    "mcap": {},
+    "mcap zstd": {"compression": "zstd"},
+    "mcap lz4": {"compression": "lz4"},
+    "mcap small chunks": {"compression": "zstd", "chunk_bytes": 1000},
+    "mcap split": {"max_file_bytes": 4000, "chunk_bytes": 1000},
+    "mcap split by time": {"max_file_ns": 300_000_000},
+    "mcap file": {"compression_mode": "FILE", "max_file_bytes": 4000, "chunk_bytes": 1000},
+    "sqlite3": {"storage": "sqlite3"},
+    "sqlite3 split": {"storage": "sqlite3", "max_file_bytes": 4000},
+    "sqlite3 file": {"storage": "sqlite3", "compression_mode": "FILE"},
+    "sqlite3 message": {"storage": "sqlite3", "compression_mode": "MESSAGE"},
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_what_is_written_is_read(tmp_path, way):
+    with open_bag(write_bag(tmp_path / "plain")) as plain:
+        expected = contents(plain)
+        topics = plain.topics
+    with open_bag(write_bag(tmp_path / "made", **WAYS[way])) as bag:
+        assert contents(bag) == expected
+        assert bag.topics == topics
+        assert bag.problems == []
+        assert (len(bag.metadata.paths) > 1) == ("split" in way or way == "mcap file")
+        assert sum(file.message_count for file in bag.metadata.files) == len(expected)
+
+
+@pytest.mark.parametrize("way", [way for way in WAYS if "file" not in way])
+def test_rosbags_reads_it(tmp_path, way):
+    folder = write_bag(tmp_path / "made", custom_data={"robot": "a: 1"}, **WAYS[way])
+    with open_bag(folder) as bag:
+        expected = [(m.topic, m.log_time_ns, m.data) for m in bag]
+    with AnyReader([folder]) as reader:
+        found = [(c.topic, stamp, bytes(data)) for c, stamp, data in reader.messages()]
+        counts = {c.topic: c.msgcount for c in reader.connections}
+        assert {c.msgtype for c in reader.connections if c.topic == "/chatter"} == {
+            "std_msgs/msg/String"
+        }
+        assert (reader.start_time, reader.duration) == (START, 991_000_002)
+    assert found == expected
+    assert counts == {"/tf": 100, "/tf_static": 1, "/chatter": 10}
+
+
+@pytest.mark.parametrize("way", ["mcap", "mcap zstd", "mcap lz4", "mcap small chunks"])
+def test_mcap_reads_it(tmp_path, way):
+    folder = write_bag(tmp_path / "made", **WAYS[way])
+    with open_bag(folder) as bag:
+        expected = [(m.topic, m.log_time_ns, m.publish_time_ns, m.data) for m in bag]
+        definitions = bag.definitions()
+    with (folder / "made_0.mcap").open("rb") as file:
+        reader = make_reader(file, validate_crcs=True)
+        found = [
+            (channel.topic, message.log_time, message.publish_time, message.data)
+            for _, channel, message in reader.iter_messages()
+        ]
+        summary = reader.get_summary()
+        assert reader.get_header().profile == "ros2"
+    assert found == expected
+    assert summary.statistics.message_count == 111
+    assert {s.name: (s.encoding, s.data.decode()) for s in summary.schemas.values()} == definitions
+
+
+def test_other_libraries_decode_with_the_definitions_in_it(tmp_path):
+    folder = write_bag(tmp_path / "made", count=3)
+    with (folder / "made_0.mcap").open("rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        decoded = [found[3] for found in reader.iter_decoded_messages(topics=["/tf"])]
+    assert [m.transforms[0].transform.translation.x for m in decoded] == [0.0, 0.01, 0.02]
+    assert decoded[0].transforms[0].header.frame_id == "odom"
+
+
+@settings(max_examples=50)
+@given(
+    st.builds(
+        QoS,
+        history=st.sampled_from(History),
+        depth=st.integers(0, 2**31),
+        reliability=st.sampled_from([r for r in Reliability if r < 4]),
+        durability=st.sampled_from([d for d in Durability if d < 4]),
+        deadline_ns=st.integers(0, 2**40) | st.just(INFINITE_NS),
+        lifespan_ns=st.integers(0, 2**40) | st.just(INFINITE_NS),
+        liveliness=st.sampled_from([x for x in Liveliness if x < 5]),
+        liveliness_lease_ns=st.integers(0, 2**40) | st.just(INFINITE_NS),
+        avoid_ros_namespace_conventions=st.booleans(),
+    )
+)
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_qos_comes_back(tmp_path_factory, storage, qos):
+    folder = tmp_path_factory.mktemp("qos") / "bag"
+    with BagWriter(folder, storage=storage) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String", qos=[qos, QoS()])
+    with open_bag(folder) as bag:
+        assert bag.topics["/a"].qos == [qos, QoS()]
+    (folder / "metadata.yaml").unlink()
+    with open_bag(folder) as bag:
+        assert bag.topics["/a"].qos == [qos, QoS()]
+
+
+def test_mistakes(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        writer.add_topic("/a", "std_msgs/msg/String")
+        with pytest.raises(BagError, match="has the type std_msgs/msg/String already"):
+            writer.add_topic("/a", "std_msgs/msg/Bool")
+        with pytest.raises(BagError, match="'/b' was not added") as error:
+            writer.write("/b", b"", 1)
+        assert error.value.hint == "Call add_topic() first."
+    writer.close()
+    with pytest.raises(BagError, match="is closed"):
+        writer.write("/a", b"", 1)
+    with pytest.raises(FileExistsError):
+        BagWriter(tmp_path / "made")
+    with pytest.raises(BagError, match="unknown storage 'mcp'"):
+        BagWriter(tmp_path / "other", storage="mcp")
+    with pytest.raises(BagError, match="unknown compression 'gzip'"):
+        BagWriter(tmp_path / "other", compression="gzip")
+    with pytest.raises(BagError, match="compress chunks, not messages"):
+        BagWriter(tmp_path / "another", compression_mode="MESSAGE")
+    assert not (tmp_path / "another").exists()
+
+
+def test_an_empty_bag(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+    with open_bag(tmp_path / "made") as bag:
+        assert list(bag) == []
+        assert (bag.start_ns, bag.end_ns) == (0, 0)
+        assert list(bag.topics) == ["/a"]
+
+
+def test_a_type_that_is_not_known_can_be_written(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/a", "no_such/msg/Thing")
+        writer.write("/a", b"\0\1\0\0", 5)
+    with open_bag(tmp_path / "made") as bag:
+        assert bag.definitions() == {"no_such/msg/Thing": ("unknown", "")}
+        assert [m.data for m in bag] == [b"\0\1\0\0"]
+
+
+def test_messages_and_bytes_are_the_same(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        writer.write("/tf", transform(3), 1)
+        writer.write("/tf", msg.serialize(transform(3)), 2)
+    with open_bag(tmp_path / "made") as bag:
+        first, second = (message.data for message in bag)
+        assert first == second
