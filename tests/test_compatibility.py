@@ -218,8 +218,8 @@ an error in a launch file does not say where
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find
   turtlewire_ros/test_colcon_interfaces.py test_a_broken_manifest_is_named_with_its_line
-SIGTERM of `ros2 run` leaves the executable behind
-  ros2cli/test_run_command.py test_whoever_ends_it_ends_the_executable
+SIGTERM and a single SIGINT of `ros2 run` leave the executable running
+  ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
 `ros2 bag`, `component`, `control`, `security`
   ros2cli/test_suggestions.py test_commands_that_are_not_here
 `static_transform_publisher` listens to `/parameter_events`, as nodes of C++ do
@@ -229,7 +229,10 @@ children's `print()` waits in a buffer
 a launched program has a pipe as its input
   launch_ros/test_examples.py test_a_launched_teleop_reads_the_terminal
 SIGTERM of launch may leave orphans
-  launch/test_interrupts.py test_sigterm_stops_the_children_too test_not_even_sigkill_leaves_children
+  launch/test_interrupts.py test_sigterm_stops_the_children_too
+what launched processes start outlives a launch that ends or is killed, and so do processes that ignore signals
+  launch/test_interrupts.py test_not_even_sigkill_leaves_children
+  chaos/test_processes.py test_ros2_run_leaves_nothing test_ros2_launch_leaves_nothing
 a start that fails, and errors in a launch file, print a traceback
   launch/test_launch_files.py test_malformed_files
   launch/test_launch_service.py test_debug_shows_tracebacks_and_events

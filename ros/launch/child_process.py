@@ -5,12 +5,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-import signal
 import subprocess
-import sys
 from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
+    import signal
     from collections.abc import Callable, Mapping
 
 __all__ = ["ChildProcess"]
@@ -20,11 +19,7 @@ _DRAIN_S = 0.5
 
 
 class ChildProcess:
-    """Runs one command. Made by :meth:`start`, for the loop's thread only.
-
-    On Linux the kernel sends the child SIGTERM when this process dies in whatever way, so that none
-    stays behind.
-    """
+    """Runs one command. Made by :meth:`start`, for the loop's thread only."""
 
     def __init__(self, transport: asyncio.SubprocessTransport, protocol: _Protocol) -> None:
         self._transport = transport
@@ -72,7 +67,6 @@ class ChildProcess:
             name: terminals[fd][1] if terminals else subprocess.PIPE
             for fd, name in ((1, "stdout"), (2, "stderr"))
         }
-        options["preexec_fn"] = _end_with_parent()
         try:
             if shell:
                 transport, _ = await loop.subprocess_shell(
@@ -188,20 +182,3 @@ async def _read_terminal(
     loop: asyncio.AbstractEventLoop, controller: int, stream: _TerminalStream
 ) -> None:
     await loop.connect_read_pipe(lambda: stream, os.fdopen(controller, "rb", buffering=0))
-
-
-def _end_with_parent() -> Callable[[], None] | None:
-    """What the child runs before its program: ask the kernel for a SIGTERM at the parent's death."""
-    if sys.platform != "linux":
-        return None
-    import ctypes
-
-    prctl = ctypes.CDLL(None).prctl
-    parent = os.getpid()
-
-    def in_child() -> None:
-        prctl(1, int(signal.SIGTERM), 0, 0, 0)  # PR_SET_PDEATHSIG
-        if os.getppid() != parent:  # it died before the request
-            os.kill(os.getpid(), signal.SIGTERM)
-
-    return in_child

@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
+from turtlewire_ros.process_family import ProcessFamily
 
 if TYPE_CHECKING:
     import asyncio
@@ -58,6 +59,7 @@ class LaunchContext:
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}
         self._locals_stack: list[dict[str, Any]] = []
+        self._process_family: ProcessFamily | None = None
         self._logger = logging.get_logger("launch.launch_context")
 
     @property
@@ -118,6 +120,18 @@ class LaunchContext:
     def add_completion_future(self, completion_future: asyncio.Future[Any]) -> None:
         """Keep the launch running until the future is done."""
         self._on_completion_future(completion_future)
+
+    def marked_environment(self, environment: Mapping[str, str]) -> dict[str, str]:
+        """The environment for a child process, which ends with the launch by that."""
+        if self._process_family is None:
+            self._process_family = ProcessFamily().__enter__()
+        return self._process_family.marked(environment)
+
+    def end_processes(self) -> None:
+        """Stop what launched processes have left behind; returns when it has ended."""
+        if self._process_family is not None:
+            self._process_family.__exit__()
+            self._process_family = None
 
     # launch configurations, environment, locals
 

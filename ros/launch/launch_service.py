@@ -104,6 +104,7 @@ class LaunchService:
             return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
         finally:
             loop.run_until_complete(loop.shutdown_asyncgens())
+            loop.run_until_complete(loop.shutdown_default_executor())
             loop.close()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
@@ -118,6 +119,7 @@ class LaunchService:
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)
+                await asyncio.to_thread(self._context.end_processes)
             return self._return_code
         finally:
             self._context._asyncio_loop = None
@@ -206,7 +208,7 @@ class LaunchService:
 
     @contextlib.contextmanager
     def _signals_handled(self) -> Iterator[None]:
-        r"""Handle Ctrl-C, Ctrl-\\ and SIGTERM meanwhile; only the main thread can."""
+        r"""Handle Ctrl-C, Ctrl-\\, SIGTERM and SIGHUP meanwhile; only the main thread can."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return
@@ -215,12 +217,15 @@ class LaunchService:
             "SIGINT": self._on_sigint,
             "SIGTERM": self._on_sigterm,
             "SIGQUIT": self._on_sigquit,
-        }  # Windows has no SIGQUIT
+            "SIGHUP": self._on_sighup,
+        }
         numbers = {
             getattr(signal, name): handler
             for name, handler in handlers.items()
-            if hasattr(signal, name)
+            if hasattr(signal, name)  # Windows has only the first two
         }
+        if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
+            del numbers[signal.SIGHUP]  # nohup
 
         def hand_to_loop(number: int, _frame: object) -> None:
             if number == signal.SIGINT:
@@ -250,6 +255,11 @@ class LaunchService:
 
     def _on_sigquit(self) -> None:
         self._terminate("SIGQUIT")
+
+    def _on_sighup(self) -> None:
+        self._logger.error("the terminal was closed (SIGHUP), terminating...")
+        self._return_code = 1
+        self._shut_down("SIGHUP", due_to_sigint=False)
 
     def _terminate(self, name: str) -> None:
         self._logger.error("user interrupted with ctrl-\\ (%s), terminating...", name)

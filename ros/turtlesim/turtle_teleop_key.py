@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import os
 import select
 import signal
 import sys
 import threading
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -101,10 +102,13 @@ class TeleopTurtle(CppNode):
 
 
 class _Keyboard:
-    """The terminal, giving each byte as it is typed while in its ``with`` block, and put back after it.
+    """The terminal, in a mode that gives each byte as it is typed within a ``with`` block.
 
-    Raises (on construction):
-        OSError: There is none.
+    It is put back into its own mode at the end of the block, and while Ctrl-Z stops the process.
+    For the main thread, except for :meth:`stop`.
+
+    Raises:
+        OSError: There is no terminal.
     """
 
     def __init__(self) -> None:
@@ -118,12 +122,14 @@ class _Keyboard:
         self._wake_read, self._wake_write = os.pipe()
 
     def __enter__(self) -> Self:
-        import termios
-
-        raw = termios.tcgetattr(self._fd)
-        raw[3] &= ~(termios.ICANON | termios.ECHO)
-        raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
-        termios.tcsetattr(self._fd, termios.TCSANOW, raw)
+        self._take()
+        self._handlers = {
+            number: signal.signal(number, handler)
+            for number, handler in (
+                (signal.SIGTSTP, self._suspend),
+                (signal.SIGCONT, lambda *_: self._take()),
+            )
+        }
         return self
 
     def __exit__(
@@ -132,10 +138,32 @@ class _Keyboard:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
+        for number, handler in self._handlers.items():
+            signal.signal(number, handler)
+        self._give_back()
+
+    def _take(self) -> None:
         import termios
 
-        with contextlib.suppress(termios.error):  # the terminal is gone: nothing to put back
-            termios.tcsetattr(self._fd, termios.TCSANOW, self._cooked)
+        raw = copy.deepcopy(self._cooked)
+        raw[3] &= ~(termios.ICANON | termios.ECHO)
+        raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
+        self._set(raw)
+
+    def _give_back(self) -> None:
+        self._set(self._cooked)
+
+    def _set(self, mode: list[Any]) -> None:
+        import termios
+
+        # The terminal may be gone. In the background the attempt stops the process (SIGTTOU); the
+        # next SIGCONT interrupts it, and its handler tries again.
+        with contextlib.suppress(termios.error):
+            termios.tcsetattr(self._fd, termios.TCSANOW, mode)
+
+    def _suspend(self, *_: object) -> None:
+        self._give_back()
+        os.kill(os.getpid(), signal.SIGSTOP)
 
     def read(self) -> bytes:
         """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""

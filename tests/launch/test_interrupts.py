@@ -85,6 +85,29 @@ def test_a_second_ctrl_c_is_ignored(ros2_launch):
     assert launch.survivors() == []
 
 
+def test_a_hang_up_stops_the_children_too(ros2_launch):
+    launch = ros2_launch(TWO_CHILDREN)
+    launch.wait_for(r"\[child-\d\] ready", count=2)
+    os.kill(launch.process.pid, signal.SIGHUP)
+    assert launch.wait() == 1
+    assert "[ERROR] [launch]: the terminal was closed (SIGHUP), terminating..." in launch.text
+    assert launch.text.count("bye") == 2
+    assert launch.survivors() == []
+
+
+def test_nohup_is_respected(ros2_launch):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        launch = ros2_launch(TWO_CHILDREN)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    launch.wait_for(r"\[child-\d\] ready", count=2)
+    os.kill(launch.process.pid, signal.SIGHUP)
+    os.kill(launch.process.pid, signal.SIGINT)
+    assert launch.wait() == 0
+    assert "SIGHUP" not in launch.text
+
+
 @pytest.mark.parametrize("signum", [signal.SIGTERM, signal.SIGQUIT])
 def test_sigterm_stops_the_children_too(ros2_launch, signum):
     launch = ros2_launch(TWO_CHILDREN)
@@ -135,11 +158,12 @@ def test_ctrl_c_before_a_timer_has_started_anything(ros2_launch):
 
 def test_insisting_ends_a_launch_file_that_hangs(ros2_launch):
     launch = ros2_launch(
-        "import signal\nwhile True:\n    print('hanging', flush=True)\n    signal.pause()\n",
+        "import time\nwhile True:\n    print('hanging', flush=True)\n    time.sleep(0.05)\n",
         terminal=True,
     )
-    for count in (1, 2, 3):
-        launch.wait_for("hanging", count=count)
+    for _ in range(3):
+        # After two more lines the process has seen the signal before; two at once count as one.
+        launch.wait_for("hanging", count=launch.text.count("hanging") + 2)
         launch.type("\x03")
     assert launch.wait() == 2
     assert "Traceback" not in launch.text

@@ -43,8 +43,8 @@ def test_a_signal_is_named(package, capfd):
     assert capfd.readouterr().out == "[ros2run]: Terminated\n"
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_whoever_ends_it_ends_the_executable(run, package, number):
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGINT])
+def test_a_signal_to_ros2_run_ends_the_executable(run, package, number):
     package("stay", "#!/bin/sh\necho ready\nexec sleep 1000\n")
     program = run(
         sys.executable,

@@ -315,6 +315,21 @@ def test_teleop_with_a_pipe_as_its_input_takes_the_terminal_and_puts_it_back(run
     assert before == after
 
 
+def test_teleop_reads_keys_again_after_ctrl_z_and_fg(run):
+    teleop = f"{sys.executable} -m turtlesim.turtle_teleop_key"
+    modes = "echo modes $(stty -g </dev/tty)"
+    shell = run("bash", "-c", f"set -m; {modes}; {teleop}; {modes}; fg; {modes}", terminal=True)
+    shell.wait_for(r"'Q' to quit\.")
+    shell.type("\x1a")
+    shell.wait_for("modes", count=2)
+    shell.wait_for(r"turtle_teleop_key$", count=2)  # the shell's lines on its stop and on `fg`
+    shell.type("q")
+    assert shell.wait() == 0
+    assert (
+        len(set(re.findall(r"(?m)modes (\S+)$", shell.text))) == 1
+    )  # its own while it was stopped
+
+
 def test_teleop_in_the_background_leaves_the_terminal_alone(run):
     teleop = run(
         "bash", "-c", f"set -m; {TELEOP_WITH_A_PIPE} & wait $!; echo status $?", terminal=True

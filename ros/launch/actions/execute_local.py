@@ -261,7 +261,7 @@ class ExecuteLocal(Action):
             self.command(),
             cwd=description.final_cwd,
             # Without it, what a Python node prints would only be seen when it has ended.
-            env={"PYTHONUNBUFFERED": "1", **description.final_env},
+            env=context.marked_environment({"PYTHONUNBUFFERED": "1", **description.final_env}),
             shell=self._shell,
             inherit_stdin=emulate_tty and not context.noninteractive and _stdin_is_terminal(),
             emulate_tty=emulate_tty,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 import os
 import signal
@@ -28,6 +29,8 @@ _NAMED_FORMATS = {
     "default": _SCREEN_FORMAT,
     "default_with_timestamp": "{created:.7f} [{levelname}] [{name}]: {message}",
 }
+# A pipe without reader, and a terminal that was closed.
+_READER_GONE = (errno.EPIPE, errno.EIO)
 _COLORS = {
     logging.DEBUG: "\033[32m",
     logging.WARNING: "\033[33m",
@@ -74,7 +77,7 @@ class _Formatter(logging.Formatter):
 
 
 class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes no argument in Python 3.10
-    """Writes to stdout. When nobody reads there any more, the process ends as it would by SIGTERM: a launch stops what it runs."""
+    """Writes to stdout. A closed stdout ends the launch like SIGTERM, and so its processes."""
 
     def __init__(self) -> None:
         super().__init__(sys.stdout)
@@ -84,7 +87,8 @@ class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes 
             )  # processes write what the terminal's encoding may not have
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
-        if isinstance(sys.exc_info()[1], BrokenPipeError):
+        error = sys.exc_info()[1]
+        if isinstance(error, OSError) and error.errno in _READER_GONE:
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
             signal.raise_signal(signal.SIGTERM)
         else:

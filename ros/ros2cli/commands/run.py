@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import os
 import shlex
 import signal
-import subprocess
-import threading
 from typing import TYPE_CHECKING
 
+from ros2cli.child import run
 from ros2cli.completion import arguments_of_executable, executables, packages
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Iterable
 
 __all__ = ["add_arguments", "main"]
 
@@ -59,49 +57,12 @@ def main(args: argparse.Namespace) -> int | str:
 
 
 def _run(command: list[str]) -> int:
-    with _signals_passed_on() as pass_on, subprocess.Popen(command) as process:  # noqa: S603  what the user asked for
-        pass_on(process)
-        while process.returncode is None:
-            with contextlib.suppress(
-                KeyboardInterrupt
-            ):  # the terminal has sent it to the executable as well, which decides
-                process.wait()
-    status = process.returncode
+    status = run(command)
     if status < 0:
         print(f"[ros2run]: {signal.strsignal(-status)}")
     elif status > 0:
         print(f"[ros2run]: Process exited with failure {status}")
     return status
-
-
-@contextlib.contextmanager
-def _signals_passed_on() -> Iterator[Callable[[subprocess.Popen[bytes]], None]]:
-    """Whoever ends this process means the executable, which would stay behind otherwise; yields what names it."""
-    started: list[subprocess.Popen[bytes]] = []
-    early: list[int] = []
-
-    def handle(number: int, _frame: object) -> None:
-        if started:
-            started[0].send_signal(number)
-        else:
-            early.append(number)
-
-    def pass_on(process: subprocess.Popen[bytes]) -> None:
-        started.append(process)
-        for number in early:
-            process.send_signal(number)
-
-    numbers = (
-        (signal.SIGTERM, signal.SIGHUP)
-        if threading.current_thread() is threading.main_thread()
-        else ()
-    )
-    before = {number: signal.signal(number, handle) for number in numbers}
-    try:
-        yield pass_on
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def _suggestion(name: str, known: Iterable[str]) -> str:

@@ -1,0 +1,97 @@
+"""Runs a program in the foreground, for ``ros2 run``: signals reach it, and nothing outlives it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import threading
+from typing import TYPE_CHECKING
+
+from turtlewire_ros.process_family import ProcessFamily
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["run"]
+
+#: Windows has no SIGHUP.
+_PASSED_ON = {
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+}
+
+
+def run(command: list[str]) -> int:
+    """Run a program to its end, and stop what it leaves behind.
+
+    A signal to this process is passed on, except for Ctrl-C: the terminal sends that to the program
+    as well.
+
+    Returns:
+        The exit status, negative for a signal.
+
+    Raises:
+        OSError: The program cannot be started.
+    """
+    with ProcessFamily() as family:
+        environment = family.marked(os.environ)
+        if threading.current_thread() is not threading.main_thread():
+            return _run(command, environment)  # only the main thread gets signals
+        if hasattr(signal, "sigwaitinfo"):
+            return _run_and_pass_on_signals(command, environment)
+        with _passed_on_by_handlers() as children:
+            return _run(command, environment, children)
+
+
+def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCHLD, *_PASSED_ON})
+    try:
+        process = subprocess.Popen(  # noqa: S603  what the user asked for
+            command,
+            env=environment,
+            # `ros2 run` has one thread.
+            preexec_fn=lambda: signal.pthread_sigmask(signal.SIG_SETMASK, before),  # noqa: PLW1509
+        )
+        while (status := process.poll()) is None:
+            arrived = signal.sigwaitinfo({signal.SIGCHLD, *_PASSED_ON})
+            typed = arrived.si_signo == signal.SIGINT and arrived.si_pid == 0
+            if arrived.si_signo != signal.SIGCHLD and not typed:
+                process.send_signal(arrived.si_signo)
+        return status
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _run(
+    command: list[str],
+    environment: dict[str, str],
+    children: list[subprocess.Popen[bytes]] | None = None,
+) -> int:
+    with subprocess.Popen(command, env=environment) as process:  # noqa: S603  what the user asked for
+        if children is not None:
+            children.append(process)
+        while process.returncode is None:
+            with contextlib.suppress(KeyboardInterrupt):  # the program decides what Ctrl-C means
+                process.wait()
+    return process.returncode
+
+
+@contextlib.contextmanager
+def _passed_on_by_handlers() -> Iterator[list[subprocess.Popen[bytes]]]:
+    """Pass SIGTERM and SIGHUP on to the processes that are put into the list.
+
+    Not SIGINT: here nothing tells Ctrl-C, which the program has got as well, from a single signal.
+    """
+    children: list[subprocess.Popen[bytes]] = []
+
+    def handle(number: int, _frame: object) -> None:
+        for process in children:
+            process.send_signal(number)
+
+    before = {number: signal.signal(number, handle) for number in _PASSED_ON - {signal.SIGINT}}
+    try:
+        yield children
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

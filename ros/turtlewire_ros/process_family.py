@@ -1,0 +1,58 @@
+"""Ends every process that a command started, directly or not, when the command ends.
+
+A process that is killed by SIGKILL cannot stop what it started, and the child of a child is lost
+when the latter ends. On Linux a :class:`ProcessFamily` therefore marks the environment of its
+children, which all their descendants inherit, and starts a guardian
+(:mod:`turtlewire_ros.process_guardian`) that outlives the command. Other systems do not show the
+environment of other processes: there a command stops only its own children, when it ends in order.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+from turtlewire_ros import process_guardian
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from typing_extensions import Self
+
+__all__ = ["ProcessFamily"]
+
+
+class ProcessFamily:
+    """The descendants of one command. Not thread-safe.
+
+    A context manager: start children in its block, each with an environment from :meth:`marked`.
+    At the end of the block, what is left of them gets SIGTERM, and SIGKILL five seconds later.
+    """
+
+    def __init__(self) -> None:
+        self._name = f"{os.getpid()}-{os.urandom(8).hex()}"
+        self._guardian: subprocess.Popen[bytes] | None = None
+
+    def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
+        """The environment for a child: ``environment`` and the mark of this family."""
+        outer = os.environ.get(process_guardian.FAMILIES)
+        names = self._name if outer is None else f"{outer}:{self._name}"
+        return {**environment, process_guardian.FAMILIES: names}
+
+    def __enter__(self) -> Self:
+        if sys.platform == "linux":
+            self._guardian = subprocess.Popen(  # noqa: S603  our own file
+                [sys.executable, "-I", "-S", process_guardian.__file__, self._name],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                # Ctrl-C, a hang-up and signals to the process group are not meant for it.
+                start_new_session=True,
+            )
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._guardian is not None:
+            self._guardian.communicate()
