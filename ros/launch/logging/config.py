@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import logging
 import os
@@ -95,6 +96,28 @@ class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes 
             super().handleError(record)
 
 
+class _FileHandler(logging.FileHandler):
+    """Writes to a log file. Says once that it cannot be written, for example on a full disk."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(path, encoding="utf-8", delay=True)
+        self._failed = False
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            super().handleError(record)
+        elif not self._failed:
+            self._failed = True
+            path = self.baseFilename
+            sys.stderr.write(f"[WARNING] [launch]: cannot write {path}: {error.strerror}\n")
+
+    def close(self) -> None:
+        """Close the file, even when what is buffered cannot be written."""
+        with contextlib.suppress(OSError):
+            super().close()
+
+
 class LaunchConfig:
     """Level, folder and formats of the logging of launches in this process."""
 
@@ -165,9 +188,7 @@ class LaunchConfig:
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
         """The handler that writes to a log file of this launch; files are made at their first line."""
         if file_name not in self._log_handlers:
-            handler = logging.FileHandler(
-                self.get_log_file_path(file_name), encoding="utf-8", delay=True
-            )
+            handler = _FileHandler(self.get_log_file_path(file_name))
             handler.setFormatter(_Formatter(_NAMED_FORMATS.get(self._log_format, self._log_format)))
             self._log_handlers[file_name] = handler
         return self._log_handlers[file_name]

@@ -89,8 +89,9 @@ class _File:
     def write(self, line: str) -> None:
         if self._fd is None and not self._failed:
             self._open()
-        if self._fd is not None:
-            _write_line(self._fd, line)
+        if self._fd is not None and not _write_line(self._fd, line) and not self._failed:
+            self._failed = True
+            _write_line(_STDERR_FD, "Lines are missing in the log file: the disk may be full.")
 
     def _open(self) -> None:
         name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"
@@ -232,10 +233,12 @@ def _flag(variable: str) -> bool | None:
     return {"0": False, "1": True}.get(value)
 
 
-def _write_line(fd: int, line: str) -> None:
+def _write_line(fd: int, line: str) -> bool:
+    """Write a line; False if it could not be written."""
     data = f"{line}\n".encode(errors="backslashreplace")
     try:
         while data:
             data = data[os.write(fd, data) :]
     except OSError:
-        return
+        return False
+    return True
