@@ -1,4 +1,6 @@
-"""What `scripts/smoke` runs with each Python on the installed wheels: the imports, a lookup, the commands, the follow demo's start.
+"""What `scripts/smoke` runs with each Python on the installed wheels.
+
+The imports, a lookup, the commands, the start of the follow demo, exits beside daemon threads.
 
 Usage: python smoke.py BIN, where BIN is the folder with the commands of the same venv.
 """
@@ -65,7 +67,19 @@ def check_commands(bin_dir: Path) -> None:
     assert not any("Traceback" in line for line in lines), "".join(lines)
 
 
+def check_exits() -> None:
+    """The interpreter ends quietly while daemon threads are in the native core."""
+    program = Path(__file__).parent / "chaos" / "exits.py"
+    for kind in ("wait", "batch", "intake", "change_listener", "spin", "spin_and_shutdown"):
+        for _ in range(5):
+            done = subprocess.run(
+                [sys.executable, program, kind], stderr=subprocess.PIPE, text=True, check=False
+            )
+            assert (done.returncode, done.stderr) == (0, ""), (kind, done)
+
+
 if __name__ == "__main__":
     check_lookup()
     check_commands(Path(sys.argv[1]))
-    print(f"Python {platform.python_version()}: imports, lookup, commands and demo are fine")
+    check_exits()
+    print(f"Python {platform.python_version()}: imports, lookup, commands, demo and exits are fine")

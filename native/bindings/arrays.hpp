@@ -11,6 +11,7 @@
 #include <string>
 
 #include "../core/samples.hpp"
+#include "gil.hpp"
 
 namespace turtlewire::python {
 
@@ -18,8 +19,11 @@ namespace nb = nanobind;
 
 using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-// int64 stamps from an array or sequence of integers; floats are refused, as they cannot hold a
-// present stamp.
+// numpy.ascontiguousarray(object, dtype)
+nb::object contiguous_array(nb::handle object, const char* dtype);
+
+// int64 stamps from an array or sequence of integers. Floats raise a TypeError, as they cannot hold
+// a present stamp; integers beyond 64 bits raise an OverflowError.
 Stamps stamps_of(nb::handle object);
 
 // A new array that owns its memory.

@@ -64,7 +64,7 @@ class StatusOutput {
 static_assert(sizeof(Status) == sizeof(std::uint8_t));
 
 void check_signals() {
-  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+  if (taking_gil(PyErr_CheckSignals) != 0) throw nb::python_error();
 }
 
 // Raises what a single lookup at the first stamp without an answer raises.
@@ -116,7 +116,7 @@ void write_matrices(const Lanes& lanes, std::size_t n, double* out) {
 template <typename Each>
 std::optional<std::size_t> for_blocks(BatchLookup& lookup, const Stamps& stamps,
                                       StatusOutput& status, Each each) {
-  const nb::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   Lanes poses;
   const std::size_t size = stamps.shape(0);
   for (std::size_t begin = 0; begin < size; begin += kLanes) {
@@ -162,7 +162,7 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
   Failure failure;
   Status status;
   {
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     status = turtlewire::lookup_all(self.shared, target, t, found, failure);
   }
   if (status != Status::ok) {
@@ -185,7 +185,7 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
 // The time, if it is one and no array: an int or one of NumPy's integers.
 std::optional<Stamp> single_stamp(nb::handle object) {
   if (!PyIndex_Check(object.ptr()) || PySequence_Check(object.ptr())) return std::nullopt;
-  const Stamp value = PyLong_AsLongLong(object.ptr());
+  const Stamp value = taking_gil([object] { return PyLong_AsLongLong(object.ptr()); });
   if (value == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
   return value;
 }
@@ -280,7 +280,7 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
   if (const auto one = single_stamp(when)) {
     if (!status_object.is_none()) throw nb::value_error("status is for a stamp for each point");
     const Pose own = target_from_fixed(self, own_target, way.source, *one);
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     move_all(last * own, input.begin(), begin, n);
     return result;
   }
@@ -314,8 +314,7 @@ nb::object transform_points(BufferObject& self, std::string_view target, std::st
   if (nb::try_cast(points, single, false))
     return move_points<float>(self, way, single, stamps, out, status);
   Points<double> doubles;
-  const nb::object array =
-      nb::module_::import_("numpy").attr("ascontiguousarray")(points, "dtype"_a = "float64");
+  const nb::object array = contiguous_array(points, "float64");
   if (!nb::try_cast(array, doubles, false))
     throw nb::value_error("points must have the shape (N, 3)");
   return move_points<double>(self, way, doubles, stamps, out, status);
@@ -342,7 +341,7 @@ nb::object lookup_velocity(BufferObject& self, std::string_view tracking, std::s
   StatusOutput status(status_object, stamps.size());
   std::optional<Request> fault;
   {
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     static_assert(sizeof(Velocity) == 6 * sizeof(double));
     fault = lookup_velocities(self.shared, request, stamps, reinterpret_cast<Velocity*>(begin),
                               status.begin());

@@ -174,10 +174,12 @@ void BufferObject::refuse_message(std::string_view fault, std::string_view autho
 void BufferObject::call_listeners() {
   if (listeners.size() == 0) return;
   for (const nb::handle listener : nb::tuple(listeners)) {
-    PyObject* result = PyObject_CallNoArgs(listener.ptr());
-    // The data is in: the caller who brought it is not the one to tell of a listener's fault.
-    if (result == nullptr) PyErr_WriteUnraisable(listener.ptr());
-    Py_XDECREF(result);
+    taking_gil([listener] {
+      PyObject* result = PyObject_CallNoArgs(listener.ptr());
+      // The data is stored: an error of a listener is not the error of the caller that brought it.
+      if (result == nullptr) PyErr_WriteUnraisable(listener.ptr());
+      Py_XDECREF(result);
+    });
   }
 }
 

@@ -136,18 +136,20 @@ PyObject* can_transform_full_reason(PyObject* self, PyObject* const* arguments, 
 
 // ---------------------------------------------------------------- data in
 
+// Works on a tuple: an element's __float__ may change the list that it is in.
 bool numbers_of(PyObject* sequence, double* values, Py_ssize_t count, const char* what) {
-  PyObject* items =
-      PySequence_Fast(sequence, "translation and rotation must be sequences of numbers");
-  if (items == nullptr) return false;
-  bool fits = PySequence_Fast_GET_SIZE(items) == count;
-  if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
-  for (Py_ssize_t i = 0; fits && i < count; ++i) {
-    values[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items, i));
-    fits = values[i] != -1.0 || PyErr_Occurred() == nullptr;
-  }
-  Py_DECREF(items);
-  return fits;
+  return taking_gil([=] {
+    PyObject* items = PySequence_Tuple(sequence);
+    if (items == nullptr) return false;
+    bool fits = PyTuple_GET_SIZE(items) == count;
+    if (!fits) PyErr_Format(PyExc_ValueError, "%s must have %zd numbers", what, count);
+    for (Py_ssize_t i = 0; fits && i < count; ++i) {
+      values[i] = PyFloat_AsDouble(PyTuple_GET_ITEM(items, i));
+      fits = values[i] != -1.0 || PyErr_Occurred() == nullptr;
+    }
+    Py_DECREF(items);
+    return fits;
+  });
 }
 
 bool flag_of(PyObject* object, bool& flag) {
@@ -258,8 +260,17 @@ nb::object add_change_listener(nb::handle self, nb::callable listener) {
     buffer->listeners.append(listener);
     buffer->listeners_changed();
   }
-  return nb::module_::import_("functools")
-      .attr("partial")(self.attr("_remove_change_listener"), listener);
+  const nb::object remove = self.attr("_remove_change_listener");
+  const auto bound = nb::steal(taking_gil([&]() -> PyObject* {
+    PyObject* functools = PyImport_ImportModule("functools");
+    if (functools == nullptr) return nullptr;
+    PyObject* result =
+        PyObject_CallMethod(functools, "partial", "(OO)", remove.ptr(), listener.ptr());
+    Py_DECREF(functools);
+    return result;
+  }));
+  if (!bound.is_valid()) throw nb::python_error();
+  return bound;
 }
 
 void remove_change_listener(BufferObject& self, nb::handle listener) {
@@ -272,6 +283,18 @@ void remove_change_listener(BufferObject& self, nb::handle listener) {
       return;
     }
   }
+}
+
+PyObject* buffer_svg(PyObject* self) {
+  PyObject* svg = taking_gil([self]() -> PyObject* {
+    PyObject* notebook = PyImport_ImportModule("turtlewire.tf.notebook");
+    if (notebook == nullptr) return nullptr;
+    PyObject* result = PyObject_CallMethod(notebook, "buffer_svg", "(O)", self);
+    Py_DECREF(notebook);
+    return result;
+  });
+  if (svg == nullptr) throw nb::python_error();
+  return svg;
 }
 
 int traverse(PyObject* self, visitproc visit, void* arg) {
@@ -429,10 +452,7 @@ void add_buffer_type(nb::module_& module) {
           },
           "now"_a = 0.0, "tf2's Graphviz text of the tree; `now` in seconds adds ages.")
       .def(
-          "_repr_svg_",
-          [](nb::handle self) {
-            return nb::module_::import_("turtlewire.tf.notebook").attr("buffer_svg")(self);
-          },
+          "_repr_svg_", [](nb::handle self) { return nb::steal(buffer_svg(self.ptr())); },
           "The tree of frames as SVG, for notebooks.")
       .def("add_change_listener", &add_change_listener, "listener"_a,
            "Has `listener()` called after data came in, without any lock: on the thread that "

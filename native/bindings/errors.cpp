@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "gil.hpp"
+
 namespace turtlewire::python {
 namespace nb = nanobind;
 namespace {
@@ -85,7 +87,9 @@ PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
 
 PyObject* raise_class(Class which, const std::string& text, PyObject* details) {
   PyObject* message = text_of(text);
-  PyObject* error = message != nullptr ? PyObject_CallOneArg(classes[which], message) : nullptr;
+  PyObject* error = message == nullptr
+                        ? nullptr
+                        : taking_gil([=] { return PyObject_CallOneArg(classes[which], message); });
   if (error != nullptr &&
       (details == nullptr || PyObject_SetAttr(error, details_name, details) == 0)) {
     PyErr_SetObject(classes[which], error);

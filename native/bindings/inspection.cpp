@@ -258,13 +258,12 @@ std::size_t set_transforms(BufferObject& self, std::string_view parent, std::str
                            std::string_view authority) {
   const Stamps stamps = stamps_of(stamps_object);
   PoseRows rows;
-  const nb::object array =
-      nb::module_::import_("numpy").attr("ascontiguousarray")(poses_object, "dtype"_a = "float64");
+  const nb::object array = contiguous_array(poses_object, "float64");
   if (!nb::try_cast(array, rows, false)) throw nb::value_error("poses must have the shape (N, 7)");
   check_shape(rows, {stamps.shape(0), 7}, "poses");
   std::size_t accepted = 0;
   {
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::scoped_lock lock(self.shared.mutex);
     const SourceId sender = self.shared.buffer.sender(authority);
     for (std::size_t i = 0; i < stamps.shape(0); ++i) {

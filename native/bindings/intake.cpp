@@ -89,7 +89,7 @@ class IntakeObject {
 nb::list take(IntakeObject& self) {
   std::deque<Intake::Kept> taken;
   {
-    const nb::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     taken = self.core.take();
   }
   nb::list list;

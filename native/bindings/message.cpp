@@ -13,20 +13,37 @@ using namespace nb::literals;
 
 // An attribute, or null without an error if there is none.
 PyObject* optional_attribute(PyObject* object, PyObject* name) {
-  PyObject* value = nullptr;
+  return taking_gil([=] {
+    PyObject* value = nullptr;
 #if PY_VERSION_HEX >= 0x030D0000
-  PyObject_GetOptionalAttr(object, name, &value);
+    PyObject_GetOptionalAttr(object, name, &value);
 #else
-  _PyObject_LookupAttr(object, name, &value);
+    _PyObject_LookupAttr(object, name, &value);
 #endif
-  return value;
+    return value;
+  });
 }
 
-bool take_integer(PyObject* value, long long& integer) {
+bool take_integer(PyObject* value, Stamp& integer) {
   if (value == nullptr) return false;
-  integer = PyLong_AsLongLong(value);
+  integer = taking_gil([value] { return PyLong_AsLongLong(value); });
   Py_DECREF(value);
   return integer != -1 || PyErr_Occurred() == nullptr;
+}
+
+// False with an OverflowError if the time does not fit into 64 bits.
+bool join_seconds(Stamp sec, Stamp nanosec, Stamp& t, const char* what) {
+  constexpr Stamp second = 1'000'000'000;
+  constexpr Stamp limit = kForever / second;
+  const bool fits =
+      sec <= limit && sec >= -limit &&
+      (nanosec > 0 ? sec * second <= kForever - nanosec : sec * second >= -kForever - 1 - nanosec);
+  if (fits) {
+    t = sec * second + nanosec;
+  } else {
+    PyErr_Format(PyExc_OverflowError, "%s does not fit into 64 bits of nanoseconds", what);
+  }
+  return fits;
 }
 
 // tf2_py's converters: a message with sec and nanosec, else an rclpy Time or Duration with
@@ -35,13 +52,12 @@ bool time_of(PyObject* object, Stamp& t, const char* what) {
   static PyObject* const sec_name = PyUnicode_InternFromString("sec");
   static PyObject* const nanosec_name = PyUnicode_InternFromString("nanosec");
   static PyObject* const nanoseconds_name = PyUnicode_InternFromString("nanoseconds");
-  long long seconds = 0, nanoseconds = 0;
+  Stamp seconds = 0, nanoseconds = 0;
   PyObject* sec = optional_attribute(object, sec_name);
   PyObject* nanosec = sec != nullptr ? optional_attribute(object, nanosec_name) : nullptr;
   if (nanosec != nullptr) {
     const bool fits = take_integer(sec, seconds) & take_integer(nanosec, nanoseconds);
-    t = seconds * 1'000'000'000 + nanoseconds;
-    return fits;
+    return fits && join_seconds(seconds, nanoseconds, t, what);
   }
   Py_XDECREF(sec);
   if (PyErr_Occurred() != nullptr) return false;

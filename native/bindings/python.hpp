@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "../core/samples.hpp"
+#include "gil.hpp"
 
 namespace turtlewire::python {
 
@@ -110,7 +111,7 @@ inline bool text_of(PyObject* object, std::string_view& text, const char* what) 
 // Nanoseconds from an int (or what has __index__); a null object leaves the default.
 inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   if (object == nullptr) return true;
-  value = PyLong_AsLongLong(object);
+  value = taking_gil([object] { return PyLong_AsLongLong(object); });
   if (value != -1 || PyErr_Occurred() == nullptr) return true;
   if (PyErr_ExceptionMatches(PyExc_TypeError)) {
     PyErr_Format(PyExc_TypeError, "%s must be an int of nanoseconds, not %.200s", what,

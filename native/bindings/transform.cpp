@@ -110,18 +110,20 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
 // NumPy is imported there, only when an array or a picture is asked for.
 PyObject* call_helper(const char* home, const char* helper, PyObject* self, PyObject* arguments,
                       PyObject* keywords) {
-  PyObject* module = PyImport_ImportModule(home);
-  if (module == nullptr) return nullptr;
-  PyObject* function = PyObject_GetAttrString(module, helper);
-  Py_DECREF(module);
-  if (function == nullptr) return nullptr;
-  PyObject* first = PyTuple_Pack(1, self);
-  PyObject* all = first == nullptr ? nullptr : PySequence_Concat(first, arguments);
-  PyObject* result = all == nullptr ? nullptr : PyObject_Call(function, all, keywords);
-  Py_XDECREF(all);
-  Py_XDECREF(first);
-  Py_DECREF(function);
-  return result;
+  return taking_gil([=]() -> PyObject* {
+    PyObject* module = PyImport_ImportModule(home);
+    if (module == nullptr) return nullptr;
+    PyObject* function = PyObject_GetAttrString(module, helper);
+    Py_DECREF(module);
+    if (function == nullptr) return nullptr;
+    PyObject* first = PyTuple_Pack(1, self);
+    PyObject* all = first == nullptr ? nullptr : PySequence_Concat(first, arguments);
+    PyObject* result = all == nullptr ? nullptr : PyObject_Call(function, all, keywords);
+    Py_XDECREF(all);
+    Py_XDECREF(first);
+    Py_DECREF(function);
+    return result;
+  });
 }
 
 PyObject* as_array(PyObject* self, PyObject* arguments, PyObject* keywords) {

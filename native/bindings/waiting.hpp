@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "../core/shared_buffer.hpp"
+#include "gil.hpp"
 
 namespace turtlewire::python {
 
@@ -67,7 +68,7 @@ Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interr
   for (;;) {
     bool over = false, signalled = false;
     {
-      const nb::gil_scoped_release unlocked;
+      const Unlocked unlocked;
       while (!over && !signalled) {
         over = attempt();
         const std::int64_t left =
@@ -80,7 +81,7 @@ Waited wait_until(SharedBuffer& shared, const std::atomic<std::uint64_t>& interr
     }
     if (over) return Waited::done;
     seen = interrupts;
-    if (PyErr_CheckSignals() != 0) return Waited::python_error;
+    if (taking_gil(PyErr_CheckSignals) != 0) return Waited::python_error;
   }
 }
 

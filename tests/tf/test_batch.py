@@ -113,6 +113,8 @@ def test_raises_for_the_first(chain: turtlewire.Buffer) -> None:
         ({"stamps": [1], "status": np.empty(2, dtype=np.uint8)}, ValueError),
         ({"stamps": [1], "status": np.empty(1, dtype=int)}, TypeError),
         ({"stamps": [math.nan]}, TypeError),
+        ({"stamps": np.array([1, 2**63], dtype=np.uint64)}, OverflowError),
+        ({"stamps": [2**64 - 1]}, OverflowError),
     ],
 )
 def test_wrong_arrays(chain: turtlewire.Buffer, arguments: Any, error: type[Exception]) -> None:

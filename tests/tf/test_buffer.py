@@ -181,6 +181,19 @@ class TestErrors:
             buffer.set_transform(**{**sample, **changed})  # type: ignore[arg-type]
         assert buffer.frame_strings() == []
 
+    def test_list_that_changes_while_it_is_read(self, buffer: turtlewire.Buffer) -> None:
+        class Vanishing:
+            def __float__(self) -> float:
+                numbers.clear()
+                return 1.0
+
+        numbers: list[Any] = [Vanishing(), *(object() for _ in range(2))]
+        with pytest.raises(TypeError):
+            buffer.set_transform("a", "b", 1, numbers, NO_TURN)  # type: ignore[arg-type]
+        numbers[:] = [Vanishing(), 2.0, 3.0]
+        assert buffer.set_transform("a", "b", 1, numbers, NO_TURN) == ""  # type: ignore[arg-type]
+        assert buffer.lookup_transform("a", "b").translation == (1.0, 2.0, 3.0)
+
     def test_what_cannot_be_called_is_no_listener(self, buffer: turtlewire.Buffer) -> None:
         with pytest.raises(TypeError):
             buffer.add_change_listener(3)  # type: ignore[arg-type]
@@ -616,10 +629,10 @@ class TestChoiceOfCore:
         assert (run.stdout, run.stderr) == ("python turtlewire\n", "")
 
     def test_wrong_request(self) -> None:
-        assert (
-            "can be 'native' or 'python'"
-            in self.run("import turtlewire; turtlewire.Buffer", TURTLEWIRE_CORE="fast").stderr
-        )
+        run = self.run("import turtlewire.tf.buffer as b; print(b.CORE)", TURTLEWIRE_CORE="foo")
+        assert run.stdout == "native\n"
+        assert run.stderr.count("\n") == 1
+        assert "TURTLEWIRE_CORE is 'foo'; it can be 'native' or 'python'" in run.stderr
 
     MISSING = "import sys; sys.modules['turtlewire._native'] = None\n"
 

@@ -109,6 +109,12 @@ def test_times_are_duck_typed(buffer: tf2_py.BufferCore, time: Any) -> None:
     assert buffer.can_transform_core("map", "base", time)[0] == 1
 
 
+@pytest.mark.parametrize("seconds", [2**40, -(2**40), 2**63 - 1])
+def test_times_beyond_64_bits(buffer: tf2_py.BufferCore, seconds: int) -> None:
+    with pytest.raises(OverflowError):
+        buffer.lookup_transform_core("map", "base", SimpleNamespace(sec=seconds, nanosec=0))
+
+
 @pytest.mark.parametrize("time", [2, 2.0, None, "2"])
 def test_numbers_are_no_times(buffer: tf2_py.BufferCore, time: Any) -> None:
     with pytest.raises(TypeError, match=r"^time must have sec and nanosec, or nanoseconds\.$"):

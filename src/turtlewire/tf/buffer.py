@@ -3,8 +3,10 @@
 The environment decides when this module is first imported:
 
 - ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
-core; - without it the compiled core is taken if it is there; if not, one line on stderr says how to
-get it; - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
+  core; any other value is ignored, and one line on stderr says so;
+- without it the compiled core is taken if it is there; if not, one line on stderr says how to
+  get it;
+- ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import TYPE_CHECKING
 
 __all__ = ["CORE", "Buffer", "Transform"]
 
+_UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 _ADVICE = (
     "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same answers). "
     "For the fast one install a C++ compiler and Python's headers (Debian: apt install g++ python3-dev) and install turtlewire again."
@@ -24,7 +27,7 @@ _ADVICE = (
 def _choose() -> str:
     wanted = os.environ.get("TURTLEWIRE_CORE", "")
     if wanted not in {"", "native", "python"}:
-        raise ImportError(f"TURTLEWIRE_CORE is {wanted!r}; it can be 'native' or 'python'")
+        print(_UNKNOWN.format(wanted), file=sys.stderr)  # noqa: T201
     if wanted == "python":
         return "python"
     try:

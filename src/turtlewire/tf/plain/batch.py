@@ -6,7 +6,7 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
+from turtlewire.tf.plain.checks import LIMIT, check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.poses import (
     IDENTITY,
     Pose,
@@ -262,7 +262,10 @@ def _stamps(stamps: ArrayLike) -> list[int]:
         raise ValueError("stamps must be one-dimensional")
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError("stamps must be integers (nanoseconds)")
-    return [int(stamp) for stamp in array]
+    times = [int(stamp) for stamp in array]
+    if max(times, default=0) >= LIMIT:
+        raise OverflowError("stamps do not fit into 64 bits (int64 nanoseconds)")
+    return times
 
 
 def _check_status(status: NDArray[np.uint8] | None, count: int) -> None:

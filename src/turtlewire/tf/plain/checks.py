@@ -5,7 +5,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
-_LIMIT = 2**63
+LIMIT = 2**63
+"""The first stamp that does not fit into 64 bits."""
 
 
 def check_frames(**frames: object) -> None:
@@ -29,7 +30,7 @@ def _nanoseconds(argument: str, time: Any) -> int:
         raise TypeError(
             f"{argument} must be an int of nanoseconds, not {type(time).__name__}"
         ) from None
-    if not -_LIMIT <= value < _LIMIT:
+    if not -LIMIT <= value < LIMIT:
         raise OverflowError(f"{argument} does not fit into 64 bits")
     return value
 

@@ -1,0 +1,112 @@
+"""Programs that end while daemon threads use the native core; run as ``python exits.py KIND``.
+
+They import nothing of the tests: `scripts/smoke` runs them on installed wheels too.
+"""
+
+from __future__ import annotations
+
+import itertools
+import struct
+import sys
+import threading
+import time
+
+NO_MOVE = (0.0, 0.0, 0.0)
+NO_TURN = (0.0, 0.0, 0.0, 1.0)
+
+
+def in_daemons(action, threads=2):
+    """Repeat an action in daemon threads; returns when each thread has done it once."""
+    ready = threading.Barrier(threads + 1)
+
+    def run():
+        action()
+        ready.wait()
+        while True:
+            action()
+
+    for _ in range(threads):
+        threading.Thread(target=run, daemon=True).start()
+    ready.wait()
+
+
+def wait():
+    """Lookups with a timeout."""
+    import turtlewire
+
+    buffer = turtlewire.Buffer()
+    in_daemons(lambda: buffer.can_transform("a", "b", 1, 1_000_000))
+
+
+def batch():
+    """Batches, whose stamps NumPy converts first."""
+    import turtlewire
+
+    buffer = turtlewire.Buffer()
+    for stamp in range(1, 100):
+        buffer.set_transform("a", "b", stamp, NO_MOVE, NO_TURN)
+    stamps = list(range(1, 99)) * 20
+    in_daemons(lambda: buffer.lookup_batch("a", "b", stamps))
+
+
+def intake():
+    """What the wire's reader thread does for a listener."""
+    from turtlewire._native import Intake
+
+    in_daemons(Intake(False, 0).take)
+
+
+def change_listener():
+    """Data whose arrival runs Python code."""
+    import turtlewire
+
+    buffer = turtlewire.Buffer()
+    stamps = itertools.count(1)
+    buffer.add_change_listener(lambda: sum(range(2000)))
+    buffer.add_change_listener(lambda: buffer.can_transform("x", "y", 0, 100_000))
+
+    def send():
+        head = struct.pack("<IiI", 1, 0, next(stamps))
+        frames = struct.pack("<I4sI4sI", 2, b"a", 2, b"b", 0)
+        buffer.ingest(b"\0\1\0\0" + head + frames + struct.pack("<7d", *NO_MOVE, *NO_TURN))
+
+    in_daemons(send)
+
+
+def spin():
+    """The usual script: a daemon thread spins, and a timer looks up with a timeout."""
+    import rclpy
+    import rclpy.time
+    import tf2_ros
+    from rclpy.duration import Duration
+
+    rclpy.init()
+    node = rclpy.create_node("exits")
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer, node)
+    asked = threading.Event()
+
+    def look_up():
+        asked.set()
+        buffer.can_transform("a", "b", rclpy.time.Time(), timeout=Duration(seconds=0.001))
+
+    node.create_timer(0.0005, look_up)
+    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+    asked.wait()
+
+
+def spin_and_shutdown():
+    """The same, shut down before it ends."""
+    import rclpy
+
+    spin()
+    rclpy.shutdown()
+
+
+KINDS = {
+    kind.__name__: kind for kind in (wait, batch, intake, change_listener, spin, spin_and_shutdown)
+}
+
+if __name__ == "__main__":
+    KINDS[sys.argv[1]]()
+    time.sleep(0.01)  # the threads are in the midst of it

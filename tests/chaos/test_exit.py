@@ -1,0 +1,48 @@
+"""The interpreter ends quietly, whatever daemon threads do in native code at that moment."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+PROGRAM = Path(__file__).with_name("exits.py")
+KINDS = (
+    ["wait", "batch", "intake", "change_listener", "spin", "spin_and_shutdown"]
+    if importlib.util.find_spec("turtlewire._native")
+    else ["wait", "batch", "change_listener", "spin", "spin_and_shutdown"]
+)
+
+
+def ends_of(kind: str, count: int) -> set[tuple[int, str]]:
+    """The different exit statuses, with stderr, of as many runs."""
+
+    def run(_: int) -> tuple[int, str]:
+        done = subprocess.run(
+            [sys.executable, PROGRAM, kind],
+            env={**os.environ, "PYTHONFAULTHANDLER": "1"},
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+        return done.returncode, done.stderr
+
+    with ThreadPoolExecutor(2) as pool:
+        return set(pool.map(run, range(count)))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_exit(kind: str) -> None:
+    assert ends_of(kind, 5) == {(0, "")}
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("kind", KINDS)
+def test_200_exits(kind: str) -> None:
+    assert ends_of(kind, 200) == {(0, "")}
