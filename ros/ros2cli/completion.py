@@ -27,9 +27,6 @@ __all__ = [
 ]
 
 
-# Transforms are published at 10 Hz and more, static ones are kept for late joiners; nobody waits
-# longer for a TAB.
-_LISTEN_S = 0.5
 _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
 
@@ -89,15 +86,9 @@ def node_names(**_: Any) -> list[str]:
 
 def frame_names(**_: Any) -> list[str]:
     """Names of the frames that are published now."""
-    from turtlewire.cli.tf_traffic import listen_to_transforms
-    from turtlewire.wire import open_context
+    from turtlewire.cli.tf_traffic import frame_names
 
-    context = open_context()
-    try:
-        parents = listen_to_transforms(context, _LISTEN_S).parents
-    finally:
-        context.close()
-    return sorted(parents.keys() | {parent for of_child in parents.values() for parent in of_child})
+    return frame_names()
 
 
 def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -15,7 +16,7 @@ from turtlewire import msg
 from turtlewire.cli import doctor
 from turtlewire.cli.main import main
 from turtlewire.cli.network import domains_of, multicast_works, udp_ports
-from turtlewire.cli.tf_traffic import TfTraffic, listen_to_transforms
+from turtlewire.cli.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS, Reliability
@@ -193,27 +194,72 @@ def test_mixed_and_stale_times(context, broadcasters):
 def test_listening_takes_both_topics_and_drops_nonsense(context):
     node = context.create_node("one")
     latched = QoS(durability=Durability.TRANSIENT_LOCAL)
-    static, dynamic = (
-        node.create_publisher("/tf_static", TF, latched),
-        node.create_publisher("/tf", TF, QoS()),
-    )
+    static = node.create_publisher("/tf_static", TF, latched)
+    dynamic, nonsense = (node.create_publisher("/tf", TF, QoS()) for _ in range(2))
     static.publish(msg.serialize(transform("world", "fixed")))
 
     def send():
         context.graph.wait_for(lambda: dynamic.subscription_count() > 0)
-        for cdr in (
-            b"\x00\x01\x00\x00\xff\xff\xff\xff",
-            msg.serialize(transform("world", "moving")),
-        ):
-            dynamic.publish(cdr)
+        nonsense.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
+        dynamic.publish(msg.serialize(transform("world", "moving")))
 
     sender = threading.Thread(target=send)
     sender.start()
-    traffic = listen_to_transforms(context, 2.0)
+    listener = TfListener(context)
+    listener.wait(60.0, {static.gid, dynamic.gid, nonsense.gid})
     sender.join()
+    traffic = listener.close()
     assert traffic.parents == {"fixed": {"world"}, "moving": {"world"}}
     assert set(traffic.newest_ns) == {"moving"}
     assert abs(traffic.ended_ns - time.time_ns()) < 60 * 10**9
+
+
+class Waits(TfListener):
+    """Notes for how long, and for whom, it was told to wait."""
+
+    def wait(self, seconds, publishers=None):
+        self.asked = (seconds, publishers)
+
+
+@pytest.mark.parametrize(
+    ("topics", "waits_for_all"),
+    [
+        ({"/tf_static": Durability.TRANSIENT_LOCAL}, True),
+        ({"/tf_static": Durability.VOLATILE}, False),
+        ({"/tf_static": Durability.TRANSIENT_LOCAL, "/tf": Durability.VOLATILE}, False),
+        ({}, True),
+    ],
+)
+def test_only_static_publishers_are_known_to_have_said_all(context, topics, waits_for_all):
+    node = context.create_node("one")
+    gids = {
+        node.create_publisher(topic, TF, QoS(durability=durability)).gid
+        for topic, durability in topics.items()
+    }
+    listener = Waits(context)
+    listener.gather(context.graph, 2.0)
+    assert listener.asked == ((2.0, gids) if waits_for_all else (2.0, None))
+
+
+def test_beside_static_transforms_alone_listening_ends_when_they_came(context, monkeypatch):
+    """The time limit is longer than the test's: only the event can end the wait."""
+    monkeypatch.setattr(doctor, "_LISTEN_S", 1000.0)
+    monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    for name in ("one", "two"):
+        publisher = context.create_node(name).create_publisher("/tf_static", TF, latched)
+        publisher.publish(msg.serialize(transform("world", "shared")))
+    assert "The frame 'shared' is published by /one and /two." in texts(doctor.examine())
+
+
+def test_completion_offers_frames_without_control_characters(context, monkeypatch):
+    monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    publisher = context.create_node("one").create_publisher("/tf_static", TF, latched)
+    both = transform("world", "robot")
+    both.transforms += transform("world", "rm\x1b[2J").transforms
+    publisher.publish(msg.serialize(both))
+    assert frame_names() == ["robot", "world"]
 
 
 def test_a_real_ros_mixed_into_the_path(tmp_path):
@@ -243,6 +289,23 @@ def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
     findings.clear()
     assert main(["doctor"]) == 0
     assert capsys.readouterr().out.endswith("Nothing is wrong as far as can be seen.\n")
+
+
+def test_findings_as_json(monkeypatch, capsys):
+    findings = [doctor.Finding(False, "small", "do a"), doctor.Finding(True, "big", "do b")]
+    monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
+    assert main(["doctor", "--json"]) == 1
+    assert json.loads(capsys.readouterr().out) == {
+        "findings": [
+            {"is_problem": True, "text": "big", "remedy": "do b"},
+            {"is_problem": False, "text": "small", "remedy": "do a"},
+        ]
+    }
+
+
+def test_names_from_the_wire_do_not_steer_the_terminal():
+    text = doctor.report([doctor.Finding(True, "node /a\x1b[2J", "rename /a\x1b[2J")])
+    assert text == "PROBLEM: node /a\\x1b[2J\n    rename /a\\x1b[2J"
 
 
 def test_a_domain_that_cannot_be_joined_is_a_finding(monkeypatch):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import sys
 import threading
@@ -16,7 +17,8 @@ import turtlewire
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 from turtlewire import msg, wire
-from turtlewire.cli.frames import forget_former_time, take_picture
+from turtlewire.cli.frame_picture import take_picture
+from turtlewire.cli.frames import Window, forget_former_time
 from turtlewire.cli.main import main
 from turtlewire.tf.listener import QOS, STATIC_QOS
 from turtlewire.wire.base import TypeId
@@ -54,25 +56,21 @@ def buffer():
 
 def test_a_tree_as_text(buffer):
     assert take_picture(buffer, NOW_NS).as_text() == [
+        "frame                 age       rate  publisher",
         "world",
         "└─ robot          0.100 s    10.0 Hz  /someone",
-        "   ├─ lost        5.000 s             /gone  (stale)",
-        "   │  └─ below    0.000 s             /someone",
-        "   └─ camera       static             /fixed",
+        "   ├─ camera       static             /fixed",
+        "   └─ lost        5.000 s             /gone  (stale)",
+        "      └─ below    0.000 s             /someone",
     ]
 
 
 def test_stale_is_red_and_static_is_blue(buffer):
     lines = take_picture(buffer, NOW_NS).as_text(coloured=True)
-    assert [line[:5] for line in lines if line.startswith("\033")] == [RED, BLUE]
+    assert [line[:5] for line in lines if line.startswith("\033[3")] == [BLUE, RED]
     assert all(line.endswith("\033[0m") for line in lines if line.startswith("\033"))
-    assert [len(line) for line in take_picture(buffer, NOW_NS).as_text(columns=10)] == [
-        5,
-        10,
-        10,
-        10,
-        10,
-    ]
+    cut = take_picture(buffer, NOW_NS).as_text(columns=10)
+    assert [len(line) for line in cut] == [10, 5, 10, 10, 10, 10]
 
 
 def test_a_slow_link_is_stale_after_three_of_its_periods():
@@ -89,8 +87,8 @@ def test_simulated_time_is_counted_from_the_newest_stamp():
     picture = take_picture(buffer, NOW_NS)
     assert picture.now_ns == 20 * SECOND
     assert [(row.frame, row.age_s, row.stale) for row in picture.rows[1:]] == [
-        ("robot", 0.0, False),
         ("lost", 3.0, True),
+        ("robot", 0.0, False),
     ]
 
 
@@ -115,9 +113,74 @@ def test_names_do_not_steer_the_terminal():
     buffer = turtlewire.Buffer()
     put(buffer, "a\nb", "turtle\x1b[2J", 0.0, sender="/x\x07")
     text = "\n".join(take_picture(buffer, NOW_NS).as_text())
-    assert text.count("\n") == 1
+    assert text.count("\n") == 2
     assert "turtle\\x1b[2J" in text
     assert text.replace("\n", "").isprintable()
+
+
+def test_frames_keep_their_place_whichever_was_heard_first():
+    names = ["camera", "turtle1", "turtle2", "turtle10", "turtle10b"]
+    for order in (names, names[::-1]):
+        buffer = turtlewire.Buffer()
+        for name in order:
+            put(buffer, f"root_{name}", name, 0.0)
+            put(buffer, "world", f"root_{name}", 0.0)
+        frames = [row.frame for row in take_picture(buffer, NOW_NS).rows]
+        assert [frame for frame in frames if frame in names] == names
+
+
+def test_a_subtree(buffer):
+    picture = take_picture(buffer, NOW_NS, "lost")
+    assert picture.as_text()[1:] == [
+        "lost        5.000 s             /gone  (stale)",
+        "└─ below    0.000 s             /someone",
+    ]
+    put(buffer, "a", "b", 0.0)
+    put(buffer, "b", "a", 0.0)
+    assert take_picture(buffer, NOW_NS, "lost").loops == []
+    (frames, loops) = take_picture(buffer, NOW_NS, "b")[1:3]
+    assert ([row.frame for row in frames], loops) == (["b", "a"], [["b", "a"]])
+
+
+def test_a_frame_that_is_not_there_suggests_others(buffer):
+    picture = take_picture(buffer, NOW_NS, "robt")
+    assert picture.as_text() == ["No frame 'robt' yet. Did you mean: robot"]
+    assert json.loads(picture.as_json())["frames"] == []
+    assert take_picture(buffer, NOW_NS, "\x1b[2J").as_text() == [r"No frame '\x1b[2J' yet."]
+
+
+@pytest.fixture
+def window(monkeypatch, capsys):
+    """A window of 5 frames on a tree of 12; the numbers of those shown after a key."""
+    monkeypatch.setenv("LINES", "8")
+    monkeypatch.setenv("COLUMNS", "80")
+    buffer = turtlewire.Buffer()
+    for number in range(1, 12):
+        put(buffer, "0", str(number), 0.0)
+    shown = Window()
+    shown.show(take_picture(buffer, NOW_NS))
+
+    def press(key):
+        capsys.readouterr()
+        shown.press(key)
+        header, *lines, status = capsys.readouterr().out.splitlines()
+        assert header.startswith("\033[H\033[2Jframe ")
+        numbers = [int(line.lstrip("├└─ ").split()[0]) for line in lines]
+        assert status == f"{numbers[0] + 1}-{numbers[-1] + 1} of 12: arrow keys scroll, q quits"
+        return numbers
+
+    return press
+
+
+def test_keys_scroll_a_tree_that_is_too_long(window):
+    assert window("up") == [0, 1, 2, 3, 4]
+    assert window("down") == [1, 2, 3, 4, 5]
+    assert window("page down") == [5, 6, 7, 8, 9]
+    assert window("page down") == [7, 8, 9, 10, 11]
+    assert window("down") == [7, 8, 9, 10, 11]
+    assert window("page up") == [3, 4, 5, 6, 7]
+    assert window("end") == [7, 8, 9, 10, 11]
+    assert window("home") == [0, 1, 2, 3, 4]
 
 
 def test_loops_are_named_and_deep_trees_are_drawn():
@@ -137,9 +200,9 @@ def test_a_tree_as_json(buffer):
     assert [frame["frame"] for frame in data["frames"]] == [
         "world",
         "robot",
+        "camera",
         "lost",
         "below",
-        "camera",
     ]
     robot = {
         "frame": "robot",
@@ -151,7 +214,7 @@ def test_a_tree_as_json(buffer):
         "stale": False,
     }
     assert data["frames"][1] == robot
-    assert (data["frames"][0]["parent"], data["frames"][4]["age"]) == (None, None)
+    assert (data["frames"][0]["parent"], data["frames"][2]["age"]) == (None, None)
 
 
 def test_nothing_was_heard(capsys, monkeypatch):
@@ -239,8 +302,72 @@ def test_a_terminal_is_redrawn_until_ctrl_c(run, no_color):
 
 
 @pytest.mark.usefixtures("talker")
-def test_a_reader_that_leaves_is_no_error(run):
+def test_a_reader_that_leaves_ends_it_as_it_ends_other_tools(run):
     program = run("bash", "-c", f"set -o pipefail; '{COMMAND[0]}' frames --period 0.2 | head -n 1")
-    assert program.wait() == 0, program.text
+    assert program.wait() == 141, program.text
     assert "Traceback" not in program.text
     assert "BrokenPipe" not in program.text
+
+
+@pytest.mark.usefixtures("talker")
+def test_forced_ascii_is_borne(run):
+    program = run(*COMMAND, "--once", "--period", "2", environment={"PYTHONIOENCODING": "ascii"})
+    assert program.wait() == 0, program.text
+    lines = program.text.splitlines()
+    assert lines[1] == "world"
+    assert lines[2].startswith("|- map ")
+    assert lines[3].startswith("`- robot ")
+
+
+@pytest.mark.usefixtures("talker")
+def test_q_ends_it_and_the_terminal_is_as_before(run):
+    """The echo of typed words is off meanwhile, on again afterwards."""
+    program = run(
+        "bash",
+        "-c",
+        f"'{COMMAND[0]}' frames --period 0.3; echo status $?; stty -a",
+        terminal=True,
+    )
+    program.wait_for(r"─ map +static", count=2)
+    program.type("q")
+    program.wait_for(r"^status 0$")
+    program.wait()
+    assert re.search(r"(?<!-)\bicanon\b", program.text)
+    assert re.search(r"(?<!-)\becho\b", program.text)
+
+
+@pytest.mark.usefixtures("talker")
+def test_a_terminal_scrolls(run):
+    program = run(
+        "bash",
+        "-c",
+        f"stty rows 5 cols 80; exec '{COMMAND[0]}' frames --period 0.3",
+        terminal=True,
+    )
+    program.wait_for(r"^1-2 of 3: arrow keys scroll, q quits")
+    program.type("\x1b[B")
+    program.wait_for(r"^2-3 of 3: arrow keys scroll, q quits")
+    program.type("q")
+    assert program.wait() == 0
+
+
+@pytest.mark.usefixtures("talker")
+def test_it_goes_on_after_ctrl_z_and_fg(run):
+    """The shell sets the terminal up for itself meanwhile; `fg` takes single keys again."""
+    program = run(
+        "bash", "--norc", "-i", terminal=True, environment={"PS1": "ready\\n", "TERM": "dumb"}
+    )
+    program.wait_for(r"^ready$")
+    program.type(f"'{COMMAND[0]}' frames --period 0.3\n")
+    program.wait_for(r"─ map +static", count=2)
+    program.type("\x1a")
+    program.wait_for(r"^ready$", count=2)
+    program.type("stty icanon echo\n")
+    program.wait_for(r"^ready$", count=3)
+    drawn = len(re.findall(r"─ map +static", program.text))
+    program.type("fg\n")
+    program.wait_for(r"─ map +static", count=drawn + 2)
+    program.type("q")  # no line feed: it is read as a key
+    program.wait_for(r"^ready$", count=4)
+    program.type("exit\n")
+    program.wait()

@@ -20,7 +20,7 @@ PAGES = {
     "static_transform_publisher.md": 3,
     "tf2_echo.md": 5,
     "tf2_monitor.md": 5,
-    "turtlewire_frames.md": 3,
+    "turtlewire_frames.md": 5,
     "buffer_server.md": 3,
     "message_filter.md": 2,
 }

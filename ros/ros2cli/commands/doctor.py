@@ -34,9 +34,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--listen",
         type=float,
-        default=2.0,
         metavar="S",
-        help="Listen to the transforms for S seconds",
+        help="Listen to the transforms for S seconds (default: 2; less if all are static)",
     )
 
 

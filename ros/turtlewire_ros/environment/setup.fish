@@ -5,5 +5,5 @@ if test "$VIRTUAL_ENV" != $root; and test -f $root/bin/activate.fish
 end
 source $root/local_setup.fish
 if status is-interactive; and command -sq register-python-argcomplete
-    register-python-argcomplete --shell fish ros2 | source # completion by TAB
+    register-python-argcomplete --shell fish ros2 turtlewire | source # completion by TAB
 end

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections import Counter
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.cli.network import domains_of, multicast_works, udp_ports
-from turtlewire.cli.tf_traffic import TfTraffic, listen_to_transforms
+from turtlewire.cli.tf_traffic import TfListener, TfTraffic, tf_publishers
 from turtlewire.errors import WireError
+from turtlewire.printable import printable
 from turtlewire.wire.environment import Range, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Finding",
+    "as_json",
     "examine",
     "graph_findings",
     "network_findings",
@@ -29,6 +32,7 @@ __all__ = [
     "tf_findings",
 ]
 
+_LISTEN_S = 2.0
 _STALE_NS = 2_000_000_000
 _ANSWER_NS = 500_000_000  # other hosts get as long as ROS 2's own tools give them
 _WALL_TIME_FROM_NS = 1_000_000_000 * 1_000_000_000  # the year 2001; simulated time begins at zero
@@ -48,8 +52,13 @@ class Finding(NamedTuple):
     remedy: str
 
 
-def examine(listen_s: float) -> list[Finding]:
-    """Look at the setup, at the graph, and for ``listen_s`` seconds at the transforms."""
+def examine(listen_s: float | None = None) -> list[Finding]:
+    """Look at the setup, at the graph and at the transforms.
+
+    Args:
+        listen_s: How long to listen to the transforms; None listens for two seconds, and only until
+            each publisher was heard when all of them are static.
+    """
     from turtlewire.wire import open_context
 
     found = setup_findings(os.environ, sys.path) + network_findings()
@@ -59,12 +68,15 @@ def examine(listen_s: float) -> list[Finding]:
         return [*found, Finding(True, str(error), error.hint)]
     try:
         context.create_node("_turtlewire_doctor")
+        listener = TfListener(context)
         if discovery().static_peers or not _only_this_host():
             context.graph.wait_for(lambda: False, _ANSWER_NS)
         context.graph.wait_for(context.graph.is_complete, 2_000_000_000)
-        traffic = listen_to_transforms(
-            context, listen_s if _transforms_are_published(context.graph) else 0.0
-        )
+        if listen_s is None:
+            listener.gather(context.graph, _LISTEN_S)
+        elif tf_publishers(context.graph):
+            listener.wait(listen_s)
+        traffic = listener.close()
         return [*found, *graph_findings(context.graph), *tf_findings(context.graph, traffic)]
     finally:
         context.close()
@@ -76,9 +88,16 @@ def report(findings: list[Finding]) -> str:
         return "Nothing is wrong as far as can be seen."
     lines = []
     for finding in sorted(findings, key=lambda finding: not finding.is_problem):
-        lines.append(f"{'PROBLEM' if finding.is_problem else 'note'}: {finding.text}")
-        lines.append(f"    {finding.remedy}")
+        kind = "PROBLEM" if finding.is_problem else "note"
+        lines.append(f"{kind}: {printable(finding.text)}")
+        lines.append(f"    {printable(finding.remedy)}")
     return "\n".join(lines)
+
+
+def as_json(findings: list[Finding]) -> str:
+    """The findings as a JSON object in one line, problems first."""
+    ordered = sorted(findings, key=lambda finding: not finding.is_problem)
+    return json.dumps({"findings": [finding._asdict() for finding in ordered]})
 
 
 def setup_findings(
@@ -229,7 +248,7 @@ def _owner(endpoint: EndpointInfo) -> str:
 def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     """What is wrong with the transforms."""
     owners = {end.gid: _owner(end) for end in graph.endpoints()}
-    if not _transforms_are_published(graph):
+    if not tf_publishers(graph):
         return [
             Finding(
                 False,
@@ -274,12 +293,6 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
             )
         )
     return found + _time_findings(traffic)
-
-
-def _transforms_are_published(graph: Graph) -> bool:
-    return any(
-        end.kind == "publisher" and end.topic in ("/tf", "/tf_static") for end in graph.endpoints()
-    )
 
 
 def _time_findings(traffic: TfTraffic) -> list[Finding]:

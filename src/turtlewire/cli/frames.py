@@ -1,186 +1,125 @@
-"""`turtlewire frames`: the tree of frames as it is now, with the age, the rate and the publisher of each link."""
+"""`turtlewire frames`: the tree of frames with the age, the rate and the publisher of each link."""
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import sys
-import threading
 import time
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from turtlewire.printable import printable
+from turtlewire.cli.frame_picture import take_picture
+from turtlewire.cli.keyboard import open_keyboard
 from turtlewire.tf import inspection
 from turtlewire.tf.buffer import Buffer
-from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.listener import TransformListener
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from turtlewire.cli.frame_picture import Picture
+    from turtlewire.cli.keyboard import Keyboard
 
-    from turtlewire.tf.frame_tree import FrameTree
+__all__ = ["Window", "forget_former_time", "show_frames"]
 
-__all__ = ["Picture", "forget_former_time", "show_frames", "take_picture"]
-
-#: Stamps below are of a simulation, and no system time [ns].
-_WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
-#: A link is stale when its newest sample is older than this [s], and than so many periods of its
-#: rate.
-_STALE_S = 1.0
-_STALE_PERIODS = 3.0
-_RED, _BLUE, _PLAIN = "\033[31m", "\033[34m", "\033[0m"
 _CLEAR_SCREEN = "\033[H\033[2J"
-_NOTHING = "No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={domain})."
+_QUIT = "q"
+_ASCII = str.maketrans("├└─│", "|`-|")
 
 
-class Row(NamedTuple):
-    """A frame with its link to the parent; a root has neither age nor publishers.
+def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) -> int:
+    """Listen, and print the tree after every period until interrupted.
 
-    Attributes:
-        frame: Its id.
-        parent: Id of the parent; empty for a root.
-        branch: The lines of the tree before the name.
-        static: Whether the link is static.
-        age_s: How old the newest sample is; None without a parent and for a static link.
-        rate_hz: Mean rate of the samples kept.
-        publishers: Full names of the nodes that sent it.
-        stale: Whether the newest sample is too old.
-    """
-
-    frame: str
-    parent: str
-    branch: str
-    static: bool = False
-    age_s: float | None = None
-    rate_hz: float = 0.0
-    publishers: tuple[str, ...] = ()
-    stale: bool = False
-
-
-class Picture(NamedTuple):
-    """A buffer at one moment.
-
-    Attributes:
-        now_ns: What ages are counted to: system time, or the newest stamp of all when stamps are of
-            a simulation.
-        rows: All frames, each below its parent.
-        loops: Frames that are their own ancestors, from child to parent.
-    """
-
-    now_ns: int
-    rows: list[Row]
-    loops: list[list[str]]
-
-    def as_json(self) -> str:
-        """In one line; roots have null as parent."""
-        frames = [
-            {
-                "frame": row.frame,
-                "parent": row.parent or None,
-                "static": row.static,
-                "age": row.age_s,
-                "rate": row.rate_hz,
-                "publishers": row.publishers,
-                "stale": row.stale,
-            }
-            for row in self.rows
-        ]
-        return json.dumps({"now_ns": self.now_ns, "frames": frames, "loops": self.loops})
-
-    def as_text(self, *, coloured: bool = False, columns: int | None = None) -> list[str]:
-        """A line for each frame; ``columns`` cuts them."""
-        if not self.rows:
-            return [_NOTHING.format(domain=os.environ.get("ROS_DOMAIN_ID") or 0)]
-        names = [row.branch + printable(row.frame) for row in self.rows]
-        width = max(map(len, names))
-        lines = []
-        for row, name in zip(self.rows, names, strict=True):
-            line = f"{name:{width}}{_figures(row)}".rstrip()[:columns]
-            colour = _RED if row.stale else _BLUE if row.static else ""
-            lines.append(f"{colour}{line}{_PLAIN}" if coloured and colour else line)
-        return lines + [
-            ("Loop: " + " -> ".join(map(printable, (*loop, loop[0]))))[:columns]
-            for loop in self.loops
-        ]
-
-
-def _figures(row: Row) -> str:
-    if not row.publishers:
-        return ""
-    state = "static" if row.age_s is None else f"{row.age_s:.3f} s"
-    rate = f"{row.rate_hz:.1f} Hz" if row.rate_hz else ""
-    return f"  {state:>9}  {rate:>9}  {', '.join(map(printable, row.publishers))}{'  (stale)' if row.stale else ''}"
-
-
-def take_picture(buffer: Buffer, wall_ns: int) -> Picture:
-    """The tree of a buffer as it is at a system time."""
-    tree = read_frame_tree(buffer)
-    links = {link.child_frame: link for link in inspection.links(buffer) if link.samples}
-    newest_ns = max((link.newest_ns for link in links.values() if not link.static), default=wall_ns)
-    now_ns = wall_ns if newest_ns >= _WALL_TIME_FROM_NS else newest_ns
-    return Picture(
-        now_ns, [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree)], tree.loops
-    )
-
-
-def _walk(tree: FrameTree) -> Iterator[tuple[str, str]]:
-    """Every frame after its parent, with the lines before its name; without recursion, for a tree may be deep."""
-    waiting = [(root, "", "") for root in reversed(tree.roots)]
-    while waiting:
-        frame, branch, below = waiting.pop()
-        yield frame, branch
-        children = tree.children[frame]
-        for child in reversed(children):
-            last = child == children[-1]
-            waiting.append(
-                (child, below + ("└─ " if last else "├─ "), below + ("   " if last else "│  "))
-            )
-
-
-def _row(frame: str, branch: str, links: dict[str, inspection.LinkInfo], now_ns: int) -> Row:
-    link = links.get(frame)
-    if link is None:
-        return Row(frame, "", branch)
-    publishers = tuple(sorted({sender.name for sender in link.senders}))
-    if link.static:
-        return Row(frame, link.parent_frame, branch, static=True, publishers=publishers)
-    age_s, rate_hz = link.age_ns(now_ns) / 1e9, link.rate_hz
-    stale = age_s > max(_STALE_S, _STALE_PERIODS / rate_hz if rate_hz else 0.0)
-    return Row(frame, link.parent_frame, branch, False, age_s, rate_hz, publishers, stale)
-
-
-def show_frames(*, once: bool, as_json: bool, period_s: float) -> int:
-    """Listen, and print the tree after every period until interrupted; in a terminal each in place of the former one.
+    In a terminal, each tree replaces the one before, and keys scroll a tree that is too long.
 
     Args:
+        top: Show only this frame and those below it; None shows all.
         once: Print it once.
-        as_json: Each as a JSON object in one line.
-        period_s: Time between two, and before the first.
+        as_json: Print each tree as a JSON object in one line.
+        period_s: Time between two trees, and before the first.
 
     Returns:
-        The exit status: 1 when there were no transforms to print once.
+        The exit status: 1 if there were no frames to print once.
     """
     live = sys.stdout.isatty() and not as_json and not once
     buffer, before = Buffer(), dict[str, tuple[int, int]]()
-    with TransformListener(buffer):
+    window = Window()
+    with TransformListener(buffer), open_keyboard(wanted=live) as keyboard:
         while True:
-            threading.Event().wait(period_s)  # nothing sets it: Ctrl-C ends the wait
+            if _browse(keyboard, window, period_s) == _QUIT:
+                return 0
             before = forget_former_time(buffer, before)
-            picture = take_picture(buffer, time.time_ns())
-            _print(picture.as_json() if as_json else _screen(picture, live=live))
+            picture = take_picture(buffer, time.time_ns(), top)
+            if live:
+                window.show(picture)
+            else:
+                _print(picture.as_json() if as_json else "\n".join(_lines(picture)))
             if once:
                 return 0 if picture.rows else 1
+
+
+def _browse(keyboard: Keyboard, window: Window, seconds: float) -> str:
+    """Scroll as the keys say until the time is over or the user quits; the last key."""
+    end = time.monotonic() + seconds
+    key = ""
+    while key != _QUIT and (rest := end - time.monotonic()) > 0.0:
+        key = keyboard.read(rest)
+        if key:
+            window.press(key)
+    return key
+
+
+class Window:
+    """The part of a picture that the terminal has room for."""
+
+    def __init__(self) -> None:
+        self._picture: Picture | None = None
+        self._first = 0
+
+    def show(self, picture: Picture) -> None:
+        """Draw a new picture at the same place."""
+        self._picture = picture
+        self._draw()
+
+    def press(self, key: str) -> None:
+        """Scroll by a key's name; most keys do nothing."""
+        if self._picture is None:
+            return
+        page = max(1, self._room() - 1)
+        steps = {"up": -1, "down": 1, "page up": -page, "page down": page, "continue": 0}
+        if key in {"home", "end"}:
+            self._first = 0 if key == "home" else len(self._picture.rows)
+        elif key in steps:
+            self._first += steps[key]
+        else:
+            return
+        self._draw()
+
+    def _room(self) -> int:
+        """Lines of the terminal between the header and the last line."""
+        return max(1, shutil.get_terminal_size().lines - 3)
+
+    def _draw(self) -> None:
+        assert self._picture is not None
+        header, *lines = _lines(self._picture, shutil.get_terminal_size().columns)
+        room = self._room()
+        self._first = max(0, min(self._first, len(lines) - room))
+        shown = lines[self._first : self._first + room]
+        text = [header, *shown]
+        if len(lines) > room:
+            last = self._first + len(shown)
+            text.append(f"{self._first + 1}-{last} of {len(lines)}: arrow keys scroll, q quits")
+        _print(_CLEAR_SCREEN + "\n".join(text))
 
 
 def forget_former_time(
     buffer: Buffer, before: dict[str, tuple[int, int]]
 ) -> dict[str, tuple[int, int]]:
-    """Clear the buffer when a link brings nothing but what is too old for it, as after a simulation or a bag began anew.
+    """Clear the buffer if a link brings only samples that are too old for it.
+
+    That happens when a simulation or a bag starts again.
 
     Args:
         buffer: The buffer.
-        before: What the call before returned; empty for the first.
+        before: The result of the call before; empty for the first.
 
     Returns:
         For each link, how many samples were too old for it, and its newest stamp.
@@ -198,18 +137,16 @@ def forget_former_time(
     return now
 
 
-def _screen(picture: Picture, *, live: bool) -> str:
+def _lines(picture: Picture, columns: int | None = None) -> list[str]:
     coloured = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
-    if not live:
-        return "\n".join(picture.as_text(coloured=coloured))
-    columns, rows = shutil.get_terminal_size()
-    lines = picture.as_text(coloured=coloured, columns=columns)
-    if len(lines) >= rows:
-        lines = [*lines[: rows - 2], f"... and {len(lines) - rows + 2} lines more"]
-    return _CLEAR_SCREEN + "\n".join(lines)
+    return picture.as_text(coloured=coloured, columns=columns)
 
 
 def _print(text: str) -> None:
-    """To a terminal or file of any encoding."""
+    """Print to a terminal or file of any encoding."""
     encoding = sys.stdout.encoding or "utf-8"
-    print(text.encode(encoding, "replace").decode(encoding), flush=True)
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        text = text.translate(_ASCII).encode(encoding, "backslashreplace").decode(encoding)
+    print(text, flush=True)

@@ -1,13 +1,21 @@
+# PYTHON_ARGCOMPLETE_OK
 """The ``turtlewire`` command."""
 
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import sys
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.cli.parser import Parser, seconds
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = ["main"]
+
+_EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a closed pipe
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -17,66 +25,109 @@ def main(argv: list[str] | None = None) -> int:
         argv: The words after ``turtlewire``; None takes those of this process.
 
     Returns:
-        The exit status: of ``doctor``, 1 when it found a problem; of ``frames``, 1 when there were
-        none to print once, and 2 when the network cannot be joined; 130 after Ctrl-C.
+        The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no
+        transform to print once, and 2 if the network cannot be joined; 130 after Ctrl-C, and 141
+        if the reader of the output has closed it.
     """
-    args = _parser().parse_args(sys.argv[1:] if argv is None else argv)
+    parser = _parser()
+    if "_ARGCOMPLETE" in os.environ:
+        _complete(parser)
+    args = parser.parse_args(sys.argv[1:] if argv is None else argv)
+    if args.run is None:
+        parser.print_help()
+        return 0
     try:
-        return _doctor(args) if args.command == "doctor" else _frames(args)
+        status: int = args.run(args)
     except KeyboardInterrupt:
         return 130
-    except BrokenPipeError:  # the reader of our output, `head` for example, has seen enough; Python must not write the rest at its end
+    except BrokenPipeError:
+        # Python would write the rest of its buffer at exit, and fail again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+        return _EXIT_READER_GONE
+    return status
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="turtlewire", description="Transforms on the wire of ROS 2, without ROS."
+def _parser() -> Parser:
+    parser = Parser(
+        prog="turtlewire",
+        description="Look at transforms and at the network of ROS 2, without ROS.",
+        allow_abbrev=False,
     )
-    commands = parser.add_subparsers(dest="command", required=True)
-    doctor = commands.add_parser(
-        "doctor", help="Look for what is wrong with the setup and with the TF traffic"
+    parser.add_argument("--version", action=_Version, help="Print the version and exit")
+    parser.set_defaults(run=None)
+    commands = parser.add_subparsers(
+        title="Commands", metavar="Call `turtlewire <command> -h` for more detailed usage."
     )
-    doctor.add_argument(
+    _add_doctor(commands)
+    _add_frames(commands)
+    return parser
+
+
+def _add_doctor(commands: Any) -> None:
+    summary = "Find what is wrong with the setup, the graph and the transforms"
+    parser = commands.add_parser("doctor", help=summary, description=summary, allow_abbrev=False)
+    parser.add_argument(
         "--listen",
-        type=float,
-        default=2.0,
+        type=seconds,
         metavar="S",
-        help="Listen to the transforms for S seconds",
+        help="Listen to the transforms for S seconds (default: 2; less if all are static)",
     )
-    frames = commands.add_parser(
-        "frames", help="Show the tree of frames: age, rate and publisher of each"
+    parser.add_argument("--json", action="store_true", help="Print one JSON object")
+    parser.set_defaults(run=_doctor, parser=parser)
+
+
+def _add_frames(commands: Any) -> None:
+    summary = "Show the tree of frames: age, rate and publisher of each"
+    parser = commands.add_parser("frames", help=summary, description=summary, allow_abbrev=False)
+    frame = parser.add_argument(
+        "frame", nargs="?", metavar="FRAME", help="Show this frame and those below it only"
     )
-    frames.add_argument("--once", action="store_true", help="Print it once, after the first period")
-    frames.add_argument(
-        "--json", action="store_true", help="Each tree as a JSON object in one line"
-    )
-    frames.add_argument(
+    frame.completer = _frame_names
+    parser.add_argument("--once", action="store_true", help="Print it once, after the first period")
+    parser.add_argument("--json", action="store_true", help="Print each tree as a line of JSON")
+    parser.add_argument(
         "--period",
-        type=_seconds,
+        type=seconds,
         default=1.0,
         metavar="S",
         help="Time between two trees (default: %(default)s)",
     )
-    return parser
+    parser.set_defaults(run=_frames, parser=parser)
 
 
-def _seconds(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value <= 3600.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not between 0 and 3600 seconds")
-    return value
+class _Version(argparse.Action):
+    """Reads the version only when it is asked for: importlib.metadata takes 20 ms."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, **options: Any) -> None:
+        super().__init__(option_strings, dest, nargs=0, **options)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from importlib.metadata import version
+
+        print("turtlewire", version("turtlewire"))
+        parser.exit()
+
+
+def _complete(parser: Parser) -> None:
+    """Answer the shell, which asks for the words that may follow; does not return."""
+    import argcomplete
+    from argcomplete.completers import SuppressCompleter
+
+    no_files = SuppressCompleter()
+    argcomplete.autocomplete(parser, exclude=["-h", "--help"], default_completer=no_files)
+
+
+def _frame_names(**_: Any) -> list[str]:
+    from turtlewire.cli.tf_traffic import frame_names
+
+    return frame_names()
 
 
 def _doctor(args: argparse.Namespace) -> int:
-    from turtlewire.cli.doctor import examine, report
+    from turtlewire.cli.doctor import as_json, examine, report
 
     findings = examine(args.listen)
-    print(report(findings))
+    print(as_json(findings) if args.json else report(findings))
     return 1 if any(finding.is_problem for finding in findings) else 0
 
 
@@ -85,7 +136,7 @@ def _frames(args: argparse.Namespace) -> int:
     from turtlewire.errors import WireError
 
     try:
-        return show_frames(once=args.once, as_json=args.json, period_s=args.period)
+        return show_frames(args.frame, once=args.once, as_json=args.json, period_s=args.period)
     except WireError as error:
         print(f"turtlewire frames: {error} {error.hint}".rstrip(), file=sys.stderr)
         return 2

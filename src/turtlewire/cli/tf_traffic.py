@@ -13,11 +13,14 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
-    from turtlewire.wire.base import Context, MessageInfo
+    from turtlewire.wire.base import Context, EndpointInfo, Graph, MessageInfo
 
-__all__ = ["TfTraffic", "listen_to_transforms"]
+__all__ = ["TfListener", "TfTraffic", "frame_names", "tf_publishers"]
 
 _TYPE = "tf2_msgs/msg/TFMessage"
+#: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
+#: late joiners, and a user does not wait longer for a TAB.
+_COMPLETION_NS = 150_000_000
 _JITTER_NS = 1_000_000
 _LEAP_M = 0.5
 _FASTEST_M_S = 100.0
@@ -70,28 +73,98 @@ class TfTraffic:
             self.leaps_m[child] = max(leap, self.leaps_m.get(child, 0.0))
 
 
-def listen_to_transforms(context: Context, seconds: float) -> TfTraffic:
-    """Subscribe to /tf and /tf_static for so many seconds."""
-    heard: list[tuple[bytes, bytes, bool]] = []
-    node = context.create_node("_turtlewire_doctor_listener")
-    kind = TypeId(_TYPE, msg.type_hash(_TYPE))
-    for topic, durability in (
-        ("/tf", Durability.VOLATILE),
-        ("/tf_static", Durability.TRANSIENT_LOCAL),
-    ):
+class TfListener:
+    """Keeps what is published on /tf and /tf_static from now on.
 
-        def keep(cdr: bytes, info: MessageInfo, static: bool = topic == "/tf_static") -> None:
-            heard.append((cdr, info.publisher_gid, static))
+    Args:
+        context: Its domain is listened to, with a node that :meth:`close` removes.
+    """
 
-        node.create_subscription(topic, kind, QoS(depth=100, durability=durability), keep)
-    threading.Event().wait(seconds)
-    node.close()
-    traffic = TfTraffic()
-    traffic.ended_ns = time.time_ns()
-    for cdr, publisher, static in heard:
-        try:
-            message = msg.deserialize(msg.get_message(_TYPE), cdr)
-        except CdrError:
-            continue  # a foreign publisher on the topic; the check of types names it
-        traffic.note(message, publisher, static=static)
-    return traffic
+    def __init__(self, context: Context) -> None:
+        self._messages: list[tuple[bytes, bytes, bool]] = []
+        self._publishers: set[bytes] = set()
+        self._news = threading.Condition()
+        self._node = context.create_node("_turtlewire_doctor_listener")
+        self._subscribe("/tf", Durability.VOLATILE, static=False)
+        self._subscribe("/tf_static", Durability.TRANSIENT_LOCAL, static=True)
+
+    def _subscribe(self, topic: str, durability: Durability, *, static: bool) -> None:
+        def keep(cdr: bytes, info: MessageInfo) -> None:
+            with self._news:
+                self._messages.append((cdr, info.publisher_gid, static))
+                self._publishers.add(info.publisher_gid)
+                self._news.notify_all()
+
+        kind = TypeId(_TYPE, msg.type_hash(_TYPE))
+        self._node.create_subscription(topic, kind, QoS(depth=100, durability=durability), keep)
+
+    def wait(self, seconds: float, publishers: set[bytes] | None = None) -> None:
+        """Listen for so many seconds, or until each of the publishers (gids) was heard."""
+
+        def heard_all() -> bool:
+            return publishers is not None and publishers <= self._publishers
+
+        with self._news:
+            self._news.wait_for(heard_all, seconds)
+
+    def gather(self, graph: Graph, seconds: float) -> None:
+        """Listen for so many seconds, but no longer than needed.
+
+        A static publisher sends all of its transforms at once to a new subscription: if there are
+        no others, the wait ends when each was heard.
+        """
+        publishers = tf_publishers(graph)
+        if all(_sends_at_once(publisher) for publisher in publishers):
+            self.wait(seconds, {publisher.gid for publisher in publishers})
+        else:
+            self.wait(seconds)
+
+    def close(self) -> TfTraffic:
+        """Stop listening; what was heard."""
+        self._node.close()
+        traffic = TfTraffic()
+        traffic.ended_ns = time.time_ns()
+        for cdr, publisher, static in self._messages:
+            try:
+                message = msg.deserialize(msg.get_message(_TYPE), cdr)
+            except CdrError:
+                continue  # a foreign publisher on the topic; the check of types names it
+            traffic.note(message, publisher, static=static)
+        return traffic
+
+
+def tf_publishers(graph: Graph) -> list[EndpointInfo]:
+    """The publishers of /tf and /tf_static."""
+    return [
+        end
+        for end in graph.endpoints()
+        if end.kind == "publisher" and end.topic in {"/tf", "/tf_static"}
+    ]
+
+
+def _sends_at_once(publisher: EndpointInfo) -> bool:
+    """Whether a new subscription gets all transforms of the publisher."""
+    return (
+        publisher.topic == "/tf_static"
+        and publisher.type_name == _TYPE
+        and publisher.qos.durability == Durability.TRANSIENT_LOCAL
+    )
+
+
+def frame_names() -> list[str]:
+    """Names of the frames that are published now, for completion.
+
+    A name with control characters is left out: the shell would act on them.
+    """
+    from turtlewire.wire import open_context
+
+    context = open_context()
+    try:
+        listener = TfListener(context)
+        context.graph.wait_for(context.graph.is_complete, _COMPLETION_NS)
+        listener.gather(context.graph, _COMPLETION_NS / 1e9)
+        parents = listener.close().parents
+    finally:
+        context.close()
+    names = parents.keys() | {parent for of_child in parents.values() for parent in of_child}
+    return sorted(name for name in names if name.isprintable())

@@ -1,0 +1,183 @@
+"""The tree of frames of a buffer at one moment, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.cli.parser import did_you_mean
+from turtlewire.printable import printable
+from turtlewire.tf import inspection
+from turtlewire.tf.frame_tree import read_frame_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.frame_tree import FrameTree
+
+__all__ = ["Picture", "Row", "take_picture"]
+
+#: Stamps below are of a simulation, and no system time [ns].
+_WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
+#: A link is stale when its newest sample is older than this [s], and than so many periods of its
+#: rate.
+_STALE_S = 1.0
+_STALE_PERIODS = 3.0
+_BOLD, _RED, _BLUE, _PLAIN = "\033[1m", "\033[31m", "\033[34m", "\033[0m"
+_NUMBER = re.compile(r"(\d+)")
+_NOTHING = "No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={domain})."
+
+
+class Row(NamedTuple):
+    """A frame with its link to the parent; a root has neither age nor publishers.
+
+    Attributes:
+        frame: Its id.
+        parent: Id of the parent; empty for a root.
+        branch: The lines of the tree before the name.
+        static: Whether the link is static.
+        age_s: How old the newest sample is; None without a parent and for a static link.
+        rate_hz: Mean rate of the samples kept.
+        publishers: Full names of the nodes that sent it.
+        stale: Whether the newest sample is too old.
+    """
+
+    frame: str
+    parent: str
+    branch: str
+    static: bool = False
+    age_s: float | None = None
+    rate_hz: float = 0.0
+    publishers: tuple[str, ...] = ()
+    stale: bool = False
+
+
+class Picture(NamedTuple):
+    """A buffer at one moment.
+
+    Attributes:
+        now_ns: The time that ages refer to: system time, or the newest stamp if stamps are those of
+            a simulation.
+        rows: The frames, each below its parent; siblings in the order of their names, so that a
+            frame keeps its place.
+        loops: Frames that are their own ancestors, from child to parent.
+        missing: Instead of rows, why there are none.
+    """
+
+    now_ns: int
+    rows: list[Row]
+    loops: list[list[str]]
+    missing: str = ""
+
+    def as_json(self) -> str:
+        """In one line; roots have null as parent."""
+        frames = [
+            {
+                "frame": row.frame,
+                "parent": row.parent or None,
+                "static": row.static,
+                "age": row.age_s,
+                "rate": row.rate_hz,
+                "publishers": row.publishers,
+                "stale": row.stale,
+            }
+            for row in self.rows
+        ]
+        return json.dumps({"now_ns": self.now_ns, "frames": frames, "loops": self.loops})
+
+    def as_text(self, *, coloured: bool = False, columns: int | None = None) -> list[str]:
+        """A header and a line for each frame, cut at ``columns``."""
+        if not self.rows:
+            return [self.missing[:columns]]
+        names = [row.branch + printable(row.frame) for row in self.rows]
+        width = max(len("frame"), *map(len, names))
+        header = f"{'frame':{width}}  {'age':>9}  {'rate':>9}  publisher"
+        lines = [_painted(header[:columns], _BOLD if coloured else "")]
+        for row, name in zip(self.rows, names, strict=True):
+            line = f"{name:{width}}{_figures(row)}".rstrip()[:columns]
+            colour = _RED if row.stale else _BLUE if row.static else ""
+            lines.append(_painted(line, colour if coloured else ""))
+        loops = (printable(" -> ".join((*loop, loop[0]))) for loop in self.loops)
+        return lines + [f"Loop: {loop}"[:columns] for loop in loops]
+
+
+def _painted(line: str, colour: str) -> str:
+    return f"{colour}{line}{_PLAIN}" if colour else line
+
+
+def _figures(row: Row) -> str:
+    if not row.publishers:
+        return ""
+    state = "static" if row.age_s is None else f"{row.age_s:.3f} s"
+    rate = f"{row.rate_hz:.1f} Hz" if row.rate_hz else ""
+    publishers = ", ".join(map(printable, row.publishers))
+    return f"  {state:>9}  {rate:>9}  {publishers}{'  (stale)' if row.stale else ''}"
+
+
+def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Picture:
+    """The tree of a buffer at a system time.
+
+    Args:
+        buffer: What to look at.
+        wall_ns: System time.
+        top: Take only this frame and those below it; None takes all.
+    """
+    tree = read_frame_tree(buffer)
+    links = {link.child_frame: link for link in inspection.links(buffer) if link.samples}
+    newest_ns = max((link.newest_ns for link in links.values() if not link.static), default=wall_ns)
+    now_ns = wall_ns if newest_ns >= _WALL_TIME_FROM_NS else newest_ns
+    if not tree.children:
+        domain = os.environ.get("ROS_DOMAIN_ID") or 0
+        return Picture(now_ns, [], [], _NOTHING.format(domain=domain))
+    if top is not None and top not in tree.children:
+        near = did_you_mean(top, tree.children).replace("\n", " ")
+        return Picture(now_ns, [], [], printable(f"No frame {top!r} yet.{near}"))
+    rows = [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree, top)]
+    shown = {row.frame for row in rows}
+    return Picture(now_ns, rows, [loop for loop in tree.loops if not shown.isdisjoint(loop)])
+
+
+def _walk(tree: FrameTree, top: str | None) -> Iterator[tuple[str, str]]:
+    """Every frame after its parent, with the lines before its name.
+
+    Without recursion, for a tree may be deep.
+    """
+    roots = _by_name(tree.roots) if top is None else [top]
+    waiting = [(root, "", "") for root in reversed(roots)]
+    while waiting:
+        frame, branch, below = waiting.pop()
+        yield frame, branch
+        children = _by_name(tree.children[frame])
+        for child in reversed(children):
+            last = child == children[-1]
+            waiting.append(
+                (child, below + ("└─ " if last else "├─ "), below + ("   " if last else "│  "))
+            )
+
+
+def _by_name(frames: Iterable[str]) -> list[str]:
+    """In the order of names, ``turtle2`` before ``turtle10``."""
+    return sorted(frames, key=lambda frame: (_natural(frame), frame))
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    """A key by which numbers in names are ordered as numbers."""
+    return [
+        (int(part), "") if part.isascii() and part.isdigit() else (-1, part)
+        for part in _NUMBER.split(name)
+    ]
+
+
+def _row(frame: str, branch: str, links: dict[str, inspection.LinkInfo], now_ns: int) -> Row:
+    link = links.get(frame)
+    if link is None:
+        return Row(frame, "", branch)
+    publishers = tuple(sorted({sender.name for sender in link.senders}))
+    if link.static:
+        return Row(frame, link.parent_frame, branch, static=True, publishers=publishers)
+    age_s, rate_hz = link.age_ns(now_ns) / 1e9, link.rate_hz
+    stale = age_s > max(_STALE_S, _STALE_PERIODS / rate_hz if rate_hz else 0.0)
+    return Row(frame, link.parent_frame, branch, False, age_s, rate_hz, publishers, stale)

@@ -1,0 +1,60 @@
+"""Command lines that suggest the nearest name for a wrong word."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from typing import NoReturn
+
+__all__ = ["Parser", "did_you_mean", "seconds"]
+
+_INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
+_UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
+_OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that adds the nearest known words to its error."""
+
+    def parse_args(  # type: ignore[override]  # a namespace class of the caller's own is not needed
+        self, args: Sequence[str] | None = None, namespace: None = None
+    ) -> argparse.Namespace:
+        """As argparse, but errors about unknown options name the command that they were given to."""
+        parsed, unknown = self.parse_known_args(args, namespace)
+        if unknown:
+            getattr(parsed, "parser", self).error(f"unrecognized arguments: {' '.join(unknown)}")
+        return parsed
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage, the message and a suggestion; exit with status 2."""
+        choice = _INVALID_CHOICE.search(message)
+        unknown = _UNRECOGNIZED.match(message)
+        if choice:
+            message += did_you_mean(choice[1], re.findall(r"[\w-]+", message[choice.end() :]))
+        elif unknown:
+            message += did_you_mean(unknown[1], _OPTION.findall(self.format_usage()))
+        super().error(message)
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A line with the nearest known names, to follow a message; empty if none is near."""
+    import difflib
+
+    near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3)
+    return f"\nDid you mean: {', '.join(near)}" if near else ""
+
+
+def seconds(text: str) -> float:
+    """A duration on the command line, above 0 and up to an hour."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value <= 3600.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not between 0 and 3600 seconds")
+    return value

@@ -1,0 +1,86 @@
+"""The `turtlewire` command line: help, version, wrong words and completion."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+from turtlewire import msg, wire
+from turtlewire.cli.main import main
+from turtlewire.tf.listener import STATIC_QOS
+from turtlewire.wire.base import TypeId
+
+COMMAND = Path(sys.executable).parent / "turtlewire"
+TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "text"),
+    [
+        ("doctr", 2, "Did you mean: doctor"),
+        ("frames --onc", 2, "Did you mean: --once"),
+        ("frames --vresion", 2, "turtlewire frames: error: unrecognized arguments: --vresion"),
+        ("--vresion", 2, "Did you mean: --version"),
+        ("doctor --listen soon", 2, "'soon' is not between 0 and 3600 seconds"),
+        ("doctor now", 2, "unrecognized arguments: now"),
+        ("frames a b", 2, "unrecognized arguments: b"),
+        ("", 0, "usage: turtlewire [-h] [--version]"),
+        ("--version", 0, f"turtlewire {version('turtlewire')}\n"),
+    ],
+)
+def test_command_lines(words, status, text, capsys):
+    try:
+        found = main(words.split())
+    except SystemExit as end:
+        found = end.code
+    said = capsys.readouterr()
+    assert found == status
+    assert text in (said.err if status else said.out)
+    assert not (said.out if status else said.err)
+
+
+def offered(line, answers):
+    """The words that the shell gets for TAB at the end of a line."""
+    environment = {
+        "_ARGCOMPLETE": "1",
+        "_ARGCOMPLETE_IFS": "\n",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(answers),
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "COMP_TYPE": "9",
+    }
+    subprocess.run([COMMAND], env={**os.environ, **environment}, check=True, timeout=60)
+    return [word.strip() for word in answers.read_text().split("\n") if word.strip()]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("turtlewire ", ["--version", "doctor", "frames"]),
+        ("turtlewire d", ["doctor"]),
+        ("turtlewire doctor --", ["--json", "--listen"]),
+        ("turtlewire doctor ", ["--json", "--listen"]),  # no names of files
+        ("turtlewire frames --p", ["--period"]),
+    ],
+)
+def test_completion_of_words(line, words, tmp_path):
+    assert sorted(offered(line, tmp_path / "answers")) == words
+
+
+def test_completion_of_frames(tmp_path):
+    context = wire.open_context()
+    message = msg.get_message("tf2_msgs/msg/TFMessage")()
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id="robot")
+    transform.header.frame_id = "world"
+    message.transforms.append(transform)
+    publisher = context.create_node("one").create_publisher("/tf_static", TF, STATIC_QOS)
+    publisher.publish(msg.serialize(message))
+    try:
+        assert offered("turtlewire frames ro", tmp_path / "answers") == ["robot"]
+    finally:
+        context.close()
