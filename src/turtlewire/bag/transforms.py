@@ -26,36 +26,18 @@ if TYPE_CHECKING:
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.metadata import TopicInfo
     from turtlewire.tf.inspection import Conflict, LinkInfo, Malformed, Refused
+    from turtlewire.trajectory import Gap
 
-__all__ = ["Gap", "TransformReport", "load_transforms"]
+__all__ = ["TransformReport", "load_transforms"]
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _FOREVER = (1 << 64) - 1
-#: A pause this many times as long as the median between two samples of a link counts as a gap.
-_GAP_FACTOR = 10
-#: Pauses shorter than this are no gaps, however regular the other samples are.
-_SHORTEST_GAP_NS = 500_000_000
 #: Stamps that fall back by more than this are a jump of time, not messages out of order.
 _JUMP_NS = 1_000_000_000
 #: Seconds and nanoseconds of the first transform, behind the CDR header and the sequence's length.
 _FIRST_STAMP, _FIRST_STAMP_OFFSET = struct.Struct("<iI"), 8
 _AUTHORITY = "bag"
 _REDRAW_SECONDS = 0.1
-
-
-@dataclass(frozen=True)
-class Gap:
-    """A pause in the samples of a link.
-
-    Attributes:
-        child_frame: The link's child.
-        start_ns: Stamp of the last sample before it.
-        end_ns: Stamp of the first sample after it.
-    """
-
-    child_frame: str
-    start_ns: int
-    end_ns: int
 
 
 @dataclass
@@ -65,7 +47,7 @@ class TransformReport:
     Attributes:
         messages: Messages of ``/tf`` and ``/tf_static`` that were read.
         links: Each link with its rate, times and senders.
-        gaps: Pauses in the samples of links.
+        gaps: Pauses in the samples of links, by child frame.
         jumps: Log times at which the stamps of ``/tf`` jump back by more than a second: a bag that
             was recorded while another was played in a loop, for example.
         conflicts: Frames with two parents.
@@ -76,7 +58,7 @@ class TransformReport:
 
     messages: int = 0
     links: list[LinkInfo] = field(default_factory=list)
-    gaps: list[Gap] = field(default_factory=list)
+    gaps: dict[str, list[Gap]] = field(default_factory=dict)
     jumps: list[int] = field(default_factory=list)
     conflicts: list[Conflict] = field(default_factory=list)
     refused: dict[str, Refused] = field(default_factory=dict)
@@ -247,25 +229,19 @@ class _Reader:
 
 def _describe(buffer: Buffer, report: TransformReport) -> None:
     """Add to the report what the filled buffer tells."""
+    import numpy as np
+
+    from turtlewire.trajectory import find_gaps
+
     report.links = links(buffer)
     report.conflicts = conflicts(buffer)
     report.refused = refusals(buffer)
     report.malformed = malformed(buffer)
     for link in report.links:
         if not link.static and link.samples > 2:
-            report.gaps += _gaps(buffer, link.child_frame)
-
-
-def _gaps(buffer: Buffer, child_frame: str) -> list[Gap]:
-    import numpy as np
-
-    stamps = np.concatenate([run[1] for run in buffer.samples(child_frame)])
-    pauses = np.diff(stamps)
-    shortest = max(_SHORTEST_GAP_NS, _GAP_FACTOR * float(np.median(pauses)))
-    return [
-        Gap(child_frame, int(stamps[i]), int(stamps[i + 1]))
-        for i in np.flatnonzero(pauses > shortest)
-    ]
+            stamps = np.concatenate([run[1] for run in buffer.samples(link.child_frame)])
+            if found := find_gaps(stamps):
+                report.gaps[link.child_frame] = found
 
 
 def _line_of_progress(name: str) -> Callable[[float], None]:

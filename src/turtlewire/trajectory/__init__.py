@@ -1,0 +1,71 @@
+"""Trajectories: out of transforms, from and to files, compared with each other.
+
+::
+
+    from turtlewire.bag import load_transforms
+    from turtlewire.trajectory import compare, read_tum, sample_trajectory, write_tum
+
+    buffer, report = load_transforms("my_bag")
+    estimate = sample_trajectory(buffer, "map", "base_link")
+    write_tum(estimate, "estimate.tum")
+    print(compare(read_tum("ground_truth.tum"), estimate, "se3").table())
+
+===============  ==============================================================
+module           what it holds
+===============  ==============================================================
+`trajectory`     `Trajectory`: stamps, poses and gaps
+`sampling`       `sample_trajectory`: the poses of a frame out of a buffer
+`files`          TUM, KITTI, EuRoC and CSV
+`comparison`     `compare`: association, alignment and errors in one call
+`alignment`      nearest stamps; Umeyama's and others' alignment
+`metrics`        APE, RPE and their statistics
+`quaternions`    quaternion algebra over arrays
+===============  ==============================================================
+"""
+
+from __future__ import annotations
+
+from turtlewire.trajectory.alignment import ALIGNMENTS, Alignment, align, associate
+from turtlewire.trajectory.comparison import Comparison, compare
+from turtlewire.trajectory.files import (
+    read_csv,
+    read_euroc,
+    read_kitti,
+    read_trajectory,
+    read_tum,
+    write_csv,
+    write_euroc,
+    write_kitti,
+    write_tum,
+)
+from turtlewire.trajectory.metrics import RELATIONS, Errors, Statistics, ape, rpe
+from turtlewire.trajectory.sampling import find_gaps, sample_trajectory
+from turtlewire.trajectory.trajectory import Gap, Trajectory, as_stamps
+
+__all__ = [
+    "ALIGNMENTS",
+    "RELATIONS",
+    "Alignment",
+    "Comparison",
+    "Errors",
+    "Gap",
+    "Statistics",
+    "Trajectory",
+    "align",
+    "ape",
+    "as_stamps",
+    "associate",
+    "compare",
+    "find_gaps",
+    "read_csv",
+    "read_euroc",
+    "read_kitti",
+    "read_trajectory",
+    "read_tum",
+    "rpe",
+    "sample_trajectory",
+    "write_csv",
+    "write_euroc",
+    "write_kitti",
+    "write_tum",
+]

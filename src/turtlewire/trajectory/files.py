@@ -1,0 +1,211 @@
+"""Trajectories in files: TUM, KITTI, EuRoC and CSV.
+
+Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
+a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
+read back as the same doubles.
+"""
+
+from __future__ import annotations
+
+import os
+from decimal import Decimal, InvalidOperation
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from turtlewire.trajectory import quaternions
+from turtlewire.trajectory.trajectory import Trajectory, as_stamps
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+__all__ = [
+    "read_csv",
+    "read_euroc",
+    "read_kitti",
+    "read_trajectory",
+    "read_tum",
+    "write_csv",
+    "write_euroc",
+    "write_kitti",
+    "write_tum",
+]
+
+_SECOND = 1_000_000_000
+
+
+def read_tum(path: str | os.PathLike[str]) -> Trajectory:
+    """Read ``timestamp tx ty tz qx qy qz qw``, seconds, separated by blanks.
+
+    Raises:
+        ValueError: A line is not like that; the text names it.
+    """
+    stamps, rows = _read_table(path, None, 8, "8 numbers: timestamp tx ty tz qx qy qz qw")
+    return Trajectory(_in_order(stamps, path), rows)
+
+
+def write_tum(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
+    """Write a TUM file; see `read_tum`."""
+    times = map(_seconds, trajectory.stamps_ns.tolist())
+    _write_lines(path, zip(times, trajectory.poses.tolist(), strict=True), " ")
+
+
+def read_csv(path: str | os.PathLike[str]) -> Trajectory:
+    """Read ``t_ns,x,y,z,qx,qy,qz,qw`` with integer nanoseconds; a heading begins with ``#`` or t.
+
+    Raises:
+        ValueError: A line is not like that; the text names it.
+    """
+    stamps, rows = _read_table(path, ",", 8, "8 numbers: t_ns,x,y,z,qx,qy,qz,qw", unit=1)
+    return Trajectory(_in_order(stamps, path), rows)
+
+
+def write_csv(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
+    """Write a CSV file with a heading; see `read_csv`."""
+    times = map(str, trajectory.stamps_ns.tolist())
+    heading = "t_ns,x,y,z,qx,qy,qz,qw\n"
+    _write_lines(path, zip(times, trajectory.poses.tolist(), strict=True), ",", heading)
+
+
+def read_euroc(path: str | os.PathLike[str]) -> Trajectory:
+    """Read EuRoC's ground truth: ``t_ns,x,y,z,qw,qx,qy,qz`` and further columns, which are ignored.
+
+    Raises:
+        ValueError: A line is not like that; the text names it.
+    """
+    wanted = "at least 8 numbers: t_ns,x,y,z,qw,qx,qy,qz"
+    stamps, rows = _read_table(path, ",", 8, wanted, unit=1, exact=False)
+    return Trajectory(_in_order(stamps, path), rows[:, [0, 1, 2, 4, 5, 6, 3]])
+
+
+def write_euroc(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
+    """Write EuRoC's ground truth with a heading; see `read_euroc`."""
+    times = map(str, trajectory.stamps_ns.tolist())
+    poses = trajectory.poses[:, [0, 1, 2, 6, 3, 4, 5]].tolist()
+    heading = "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
+    _write_lines(path, zip(times, poses, strict=True), ",", heading)
+
+
+def read_kitti(
+    path: str | os.PathLike[str], times: str | os.PathLike[str] | None = None
+) -> Trajectory:
+    """Read KITTI's poses: the upper three rows of a matrix, row by row, 12 numbers a line.
+
+    Args:
+        path: The poses. KITTI's camera looks along z; nothing is turned here.
+        times: A file with one time in seconds a line. Without it the stamps are 0, 1, 2 … s.
+
+    Raises:
+        ValueError: A line is not like that, or the files differ in length.
+    """
+    _, rows = _read_table(path, None, 12, "12 numbers: the rows of a 3x4 matrix", timed=False)
+    matrices = rows.reshape(-1, 3, 4)
+    poses = np.hstack((matrices[:, :, 3], quaternions.from_matrices(matrices[:, :, :3])))
+    if times is None:
+        return Trajectory(np.arange(len(poses), dtype=np.int64) * _SECOND, poses)
+    stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")
+    if len(stamps) != len(poses):
+        raise ValueError(f"{path} has {len(poses)} poses, {times} has {len(stamps)} times")
+    return Trajectory(_in_order(stamps, times), poses)
+
+
+def write_kitti(
+    trajectory: Trajectory,
+    path: str | os.PathLike[str],
+    times: str | os.PathLike[str] | None = None,
+) -> None:
+    """Write KITTI's poses and, into a second file if one is given, the times in seconds."""
+    rows = trajectory.as_matrices()[:, :3].reshape(-1, 12).tolist()
+    _write_lines(path, ((None, row) for row in rows), " ")
+    if times is not None:
+        stamps = trajectory.stamps_ns.tolist()
+        _write_lines(times, ((_seconds(stamp), ()) for stamp in stamps), " ")
+
+
+def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
+    """Read a file of any of these formats: which one it is tell its separator and columns.
+
+    Raises:
+        ValueError: It is none of them.
+    """
+    with open(path, encoding="utf-8-sig") as file:
+        lines = [line for line in (line.strip() for line in file) if line]
+    data = next((line for line in lines if not _is_comment(line)), "")
+    columns = len(data.split("," if "," in data else None))
+    if "," not in data:
+        if columns == 12:
+            return read_kitti(path)
+        return read_tum(path)
+    euroc = columns > 8 or any(line.startswith("#") and "q_w" in line for line in lines[:1])
+    return read_euroc(path) if euroc else read_csv(path)
+
+
+def _read_table(
+    path: str | os.PathLike[str],
+    separator: str | None,
+    columns: int,
+    wanted: str,
+    *,
+    unit: int = _SECOND,
+    exact: bool = True,
+    timed: bool = True,
+) -> tuple[list[int], NDArray[np.float64]]:
+    """Stamps (if ``timed``) and the other columns of a text file."""
+    stamps: list[int] = []
+    rows: list[list[float]] = []
+    with open(path, encoding="utf-8-sig") as file:
+        for number, line in enumerate(file, start=1):
+            if _is_comment(line):
+                continue
+            items = line.split(separator)
+            try:
+                if len(items) < columns or (exact and len(items) > columns):
+                    raise ValueError(f"found {len(items)}")  # noqa: TRY301 - told like the others
+                if timed:
+                    stamps.append(_nanoseconds(items[0].strip(), unit))
+                rows.append([float(item) for item in items[timed:columns]])
+            except ValueError as error:
+                raise ValueError(
+                    f"{os.fspath(path)}, line {number}: expected {wanted}; {error}"
+                ) from None
+    return stamps, np.array(rows, dtype=np.float64).reshape(len(rows), columns - timed)
+
+
+def _is_comment(line: str) -> bool:
+    text = line.strip()
+    return not text or text.startswith("#") or text[:1].isalpha()
+
+
+def _seconds(stamp_ns: int) -> str:
+    sign = "-" if stamp_ns < 0 else ""
+    return f"{sign}{abs(stamp_ns) // _SECOND}.{abs(stamp_ns) % _SECOND:09d}"
+
+
+def _nanoseconds(text: str, unit: int) -> int:
+    """A time in nanoseconds, ``unit`` of which make 1; without going through float."""
+    try:
+        return int(Decimal(text) * unit)
+    except (InvalidOperation, ValueError, OverflowError):
+        raise ValueError(f"'{text}' is not a time") from None
+
+
+def _in_order(stamps: list[int], path: str | os.PathLike[str]) -> NDArray[np.int64]:
+    try:
+        return as_stamps(np.array(stamps, dtype=np.int64))
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"{os.fspath(path)}: {error}") from None
+
+
+def _write_lines(
+    path: str | os.PathLike[str],
+    rows: Iterable[tuple[str | None, Sequence[float]]],
+    separator: str,
+    heading: str = "",
+) -> None:
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(heading)
+        for time, numbers in rows:
+            items = ([] if time is None else [time]) + [repr(number) for number in numbers]
+            file.write(separator.join(items) + "\n")

@@ -1,0 +1,271 @@
+"""Errors of an estimated trajectory against a reference: APE, RPE and their statistics.
+
+Source: Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012; names and
+definitions of the variants are those of the program evo, so that figures can be compared.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from turtlewire.trajectory import quaternions
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from turtlewire.trajectory.trajectory import Trajectory
+
+__all__ = ["RELATIONS", "Errors", "Statistics", "ape", "rpe"]
+
+#: What is measured, and its unit.
+RELATIONS = {
+    "trans_part": "m",
+    "rot_part": "",
+    "full": "",
+    "angle_rad": "rad",
+    "angle_deg": "deg",
+    "point_distance": "m",
+    "point_distance_error_ratio": "%",
+}
+
+
+class Statistics(NamedTuple):
+    """Statistics of errors, in evo's order."""
+
+    max: float
+    mean: float
+    median: float
+    min: float
+    rmse: float
+    sse: float
+    std: float
+
+
+class Errors(NamedTuple):
+    """Errors of poses or of pairs of poses.
+
+    Attributes:
+        name: ``APE`` or ``RPE``.
+        relation: A key of `RELATIONS`.
+        values: (N,) the errors.
+        rows: (N,) the row of the associated trajectories that each belongs to; of a pair the later.
+    """
+
+    name: str
+    relation: str
+    values: NDArray[np.float64]
+    rows: NDArray[np.intp]
+
+    @property
+    def unit(self) -> str:
+        """``m``, ``rad``, ``deg``, ``%`` or nothing."""
+        return RELATIONS[self.relation]
+
+    @property
+    def statistics(self) -> Statistics:
+        """The statistics; the standard deviation is the population's."""
+        e = self.values
+        sse = float(np.dot(e, e))
+        return Statistics(
+            max=float(e.max()),
+            mean=float(e.mean()),
+            median=float(np.median(e)),
+            min=float(e.min()),
+            rmse=float(np.sqrt(sse / len(e))),
+            sse=sse,
+            std=float(e.std()),
+        )
+
+    def table(self) -> str:
+        """The statistics as evo prints them: name and value a line, separated by a tab."""
+        return "".join(f"{k:>10}\t{v:.6f}\n" for k, v in self.statistics._asdict().items())
+
+
+def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part") -> Errors:
+    """Absolute pose error: ``inverse(reference) * estimate`` of each pose.
+
+    Args:
+        reference: The reference.
+        estimate: The estimate; row i belongs to row i of the reference. See `associate` and
+            `align`.
+        relation: A key of `RELATIONS` except ``point_distance_error_ratio``.
+
+    Raises:
+        ValueError: The trajectories differ in length, or the relation is another.
+    """
+    _check(reference, estimate, relation, tuple(RELATIONS)[:-1])
+    distance = np.linalg.norm(estimate.positions - reference.positions, axis=1)
+    turn = quaternions.multiply(quaternions.conjugate(reference.rotations), estimate.rotations)
+    kind = "trans_part" if relation == "point_distance" else relation
+    return Errors("APE", relation, _value(kind, distance, turn), np.arange(len(reference)))
+
+
+def rpe(
+    reference: Trajectory,
+    estimate: Trajectory,
+    relation: str = "trans_part",
+    *,
+    delta: float = 1,
+    unit: str = "f",
+    all_pairs: bool = False,
+    tolerance: float = 0.1,
+    pairs_from_reference: bool = False,
+) -> Errors:
+    """Relative pose error: how the motion between two poses differs.
+
+    Args:
+        reference: The reference.
+        estimate: The estimate; row i belongs to row i of the reference.
+        relation: A key of `RELATIONS`.
+        delta: How far the poses of a pair are apart.
+        unit: Of ``delta``: ``f`` frames, ``m`` metres of path, ``d`` degrees, ``r`` radians.
+        all_pairs: Whether a pair begins at each pose, not only where the last one ended. For
+            angles these are all pairs of poses whose rotations differ by ``delta``.
+        tolerance: Of the distance in such pairs, as a share of ``delta``.
+        pairs_from_reference: Whether path and angles are taken along the reference, not the
+            estimate.
+
+    Raises:
+        ValueError: The trajectories differ in length, a name is unknown, or there is no pair.
+    """
+    _check(reference, estimate, relation, tuple(RELATIONS))
+    source = reference if pairs_from_reference else estimate
+    i, j = pairs(source, delta, unit, all_pairs=all_pairs, tolerance=tolerance)
+    if not len(i):
+        raise ValueError(f"no two poses are {delta} {unit} apart")
+    if relation.startswith("point_distance"):
+        return _rpe_of_distances(reference, estimate, relation, i, j)
+    move_p, turn_p = _motions(estimate, i, j)
+    move_q, turn_q = _motions(reference, i, j)
+    distance = np.linalg.norm(move_p - move_q, axis=1)
+    turn = quaternions.multiply(quaternions.conjugate(turn_q), turn_p)
+    return Errors("RPE", relation, _value(relation, distance, turn), j)
+
+
+def _rpe_of_distances(
+    reference: Trajectory,
+    estimate: Trajectory,
+    relation: str,
+    i: NDArray[np.intp],
+    j: NDArray[np.intp],
+) -> Errors:
+    q = np.linalg.norm(reference.positions[i] - reference.positions[j], axis=1)
+    p = np.linalg.norm(estimate.positions[i] - estimate.positions[j], axis=1)
+    errors = np.abs(q - p)
+    if relation == "point_distance_error_ratio":
+        moved = q > 0
+        errors, j = errors[moved] / q[moved] * 100, j[moved]
+    return Errors("RPE", relation, errors, j)
+
+
+def _motions(
+    trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Translation and rotation of pose j as pose i sees it."""
+    back = quaternions.conjugate(trajectory.rotations[i])
+    move = quaternions.rotate(back, trajectory.positions[j] - trajectory.positions[i])
+    return move, quaternions.multiply(back, trajectory.rotations[j])
+
+
+def _value(
+    relation: str, distance: NDArray[np.float64], turn: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The error of each difference, given the length of its translation and its rotation."""
+    if relation == "trans_part":
+        return distance
+    if relation.startswith("angle"):
+        angles = quaternions.angle(turn)
+        return np.degrees(angles) if relation == "angle_deg" else angles
+    # The Frobenius norm of R - I is 2 sqrt(2) |sin(angle / 2)|, and that sine is the length of xyz.
+    sine = np.linalg.norm(turn[:, :3], axis=1)
+    squares = 8 * sine**2 if relation == "rot_part" else 8 * sine**2 + distance**2
+    norms: NDArray[np.float64] = np.sqrt(squares)
+    return norms
+
+
+def _check(
+    reference: Trajectory, estimate: Trajectory, relation: str, known: tuple[str, ...]
+) -> None:
+    if relation not in known:
+        raise ValueError(f"unknown relation '{relation}'; known are {', '.join(known)}")
+    if len(reference) != len(estimate):
+        raise ValueError(
+            f"the trajectories have {len(reference)} and {len(estimate)} poses; associate them first"
+        )
+
+
+def pairs(
+    trajectory: Trajectory, delta: float, unit: str, *, all_pairs: bool, tolerance: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows of the pairs of poses that are ``delta`` apart; see `rpe`."""
+    if delta <= 0:
+        raise ValueError(f"delta is {delta}; it must be positive")
+    if unit == "f":
+        return _frame_pairs(len(trajectory), int(delta), all_pairs=all_pairs)
+    if unit == "m":
+        along = trajectory.distances
+    elif unit in ("d", "r"):
+        delta = np.radians(delta) if unit == "d" else delta
+        if all_pairs:
+            return _angle_pairs(trajectory.rotations, delta, delta * tolerance)
+        turns = quaternions.multiply(
+            quaternions.conjugate(trajectory.rotations[:-1]), trajectory.rotations[1:]
+        )
+        along = np.concatenate(([0.0], np.cumsum(quaternions.angle(turns))))
+    else:
+        raise ValueError(f"unknown unit '{unit}'; known are f, m, d and r")
+    if all_pairs:
+        return _all_pairs(along, delta, delta * tolerance)
+    return _consecutive_pairs(along, delta)
+
+
+def _frame_pairs(
+    count: int, delta: int, *, all_pairs: bool
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    starts = np.arange(0, count - delta, 1 if all_pairs else delta, dtype=np.intp)
+    return starts, starts + delta
+
+
+def _consecutive_pairs(
+    along: NDArray[np.float64], delta: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs that follow each other: each ends where ``delta`` is reached since the last."""
+    row = 0
+    rows = [row]
+    while (row := int(np.searchsorted(along, along[row] + delta))) < len(along):
+        rows.append(row)
+    ends = np.array(rows, dtype=np.intp)
+    return ends[:-1], ends[1:]
+
+
+def _angle_pairs(
+    rotations: NDArray[np.float64], delta: float, tolerance: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """All pairs whose rotations differ by about ``delta``; takes time with the square of (N)."""
+    ends = [
+        row
+        + 1
+        + np.flatnonzero(np.abs(_turned(rotations[row], rotations[row + 1 :]) - delta) <= tolerance)
+        for row in range(len(rotations))
+    ]
+    starts = np.repeat(np.arange(len(rotations)), [len(found) for found in ends])
+    return starts, np.concatenate([*ends, np.zeros(0, dtype=np.intp)])
+
+
+def _turned(first: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
+    return quaternions.angle(quaternions.multiply(quaternions.conjugate(first), others))
+
+
+def _all_pairs(
+    along: NDArray[np.float64], delta: float, tolerance: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """For each row the later one whose distance is nearest to ``delta``, if it is near enough."""
+    starts = np.arange(len(along) - 1, dtype=np.intp)
+    goal = along[:-1] + delta
+    after = np.clip(np.searchsorted(along, goal), starts + 1, len(along) - 1)
+    before = np.maximum(after - 1, starts + 1)
+    ends = np.where(np.abs(along[before] - goal) <= np.abs(along[after] - goal), before, after)
+    near = np.abs(along[ends] - goal) <= tolerance
+    return starts[near], ends[near]

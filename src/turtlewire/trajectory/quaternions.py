@@ -1,0 +1,96 @@
+"""Quaternion algebra over arrays: ``(N, 4)``, order x, y, z, w, unit length."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["angle", "conjugate", "euler", "from_matrices", "matrices", "multiply", "rotate"]
+
+
+def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The rotations ``a`` after ``b``; shapes (N, 4) or (4,), broadcast."""
+    ax, ay, az, aw = np.moveaxis(a, -1, 0)
+    bx, by, bz, bw = np.moveaxis(b, -1, 0)
+    return np.stack(
+        (
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ),
+        axis=-1,
+    )
+
+
+def conjugate(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The inverse rotations."""
+    inverse: NDArray[np.float64] = q * np.array((-1.0, -1.0, -1.0, 1.0))
+    return inverse
+
+
+def rotate(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The vectors ``v`` (N, 3) turned by ``q`` (N, 4)."""
+    axis, w = q[..., :3], q[..., 3:]
+    t = 2.0 * np.cross(axis, v)
+    turned: NDArray[np.float64] = v + w * t + np.cross(axis, t)
+    return turned
+
+
+def angle(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The angle of each rotation in radians, from 0 to pi."""
+    sine = np.linalg.norm(q[..., :3], axis=-1)
+    half: NDArray[np.float64] = np.arctan2(sine, np.abs(q[..., 3]))
+    return 2.0 * half
+
+
+def matrices(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation matrices (N, 3, 3), acting on column vectors from the left."""
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def from_matrices(m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Unit quaternions (N, 4) of rotation matrices (N, 3, 3), with w not negative.
+
+    Each component is computed where it is the largest, which loses no precision (Shepperd 1978).
+    """
+    m00, m11, m22 = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
+    squares = np.stack(
+        (1 + m00 - m11 - m22, 1 - m00 + m11 - m22, 1 - m00 - m11 + m22, 1 + m00 + m11 + m22),
+        axis=-1,
+    )
+    largest = np.argmax(squares, axis=-1)
+    a, b, c = m[..., 2, 1], m[..., 0, 2], m[..., 1, 0]
+    d, e, f = m[..., 1, 2], m[..., 2, 0], m[..., 0, 1]
+    columns = np.stack(
+        (
+            np.stack((squares[..., 0], c + f, b + e, a - d), axis=-1),
+            np.stack((c + f, squares[..., 1], a + d, b - e), axis=-1),
+            np.stack((b + e, a + d, squares[..., 2], c - f), axis=-1),
+            np.stack((a - d, b - e, c - f, squares[..., 3]), axis=-1),
+        ),
+        axis=-2,
+    )
+    chosen = np.take_along_axis(columns, largest[..., None, None], axis=-2)[..., 0, :]
+    q = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
+    signed: NDArray[np.float64] = np.where(q[..., 3:] < 0, -q, q)
+    return signed
+
+
+def euler(q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Roll, pitch and yaw (N, 3) in radians: turns about the fixed axes x, then y, then z."""
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
+    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return np.stack((roll, pitch, yaw), axis=-1)

@@ -1,0 +1,126 @@
+"""The trajectory of a frame out of a transform buffer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from turtlewire.tf.inspection import links
+from turtlewire.trajectory.trajectory import Gap, Trajectory, as_stamps
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["find_gaps", "sample_trajectory"]
+
+#: A pause this many times as long as the median between two samples counts as a gap.
+_GAP_FACTOR = 10
+#: Pauses shorter than this are no gaps, however regular the other samples are.
+_SHORTEST_GAP_NS = 500_000_000
+
+
+def sample_trajectory(
+    buffer: Buffer,
+    target_frame: str,
+    source_frame: str,
+    *,
+    stamps: ArrayLike | None = None,
+    rate_hz: float | None = None,
+    max_gap_ns: int | None = None,
+) -> Trajectory:
+    """The poses of a frame in another over time.
+
+    Args:
+        buffer: Where the transforms are.
+        target_frame: The frame in which the poses are given.
+        source_frame: The frame that moves.
+        stamps: The times wanted, integer nanoseconds or ``datetime64``; those without an answer are
+            left out, and so is 0, which means "the latest" in tf2.
+        rate_hz: Poses at this rate through the time that all links cover. Without ``stamps`` and
+            ``rate_hz``: at each time at which a link on the way has a sample.
+        max_gap_ns: Pauses between samples that are longer are gaps: no pose lies within one. None
+            takes ten times the median pause of the link, and at least half a second.
+
+    Returns:
+        The trajectory, with its gaps.
+
+    Raises:
+        TransformException: The frames are unknown or not connected.
+        ValueError: Nothing moves on the way and no stamps were given.
+    """
+    moving = _moving_links(buffer, target_frame, source_frame)
+    histories = [_stamps_of(buffer, child) for child in moving]
+    gaps = sorted({gap for stamps_ns in histories for gap in find_gaps(stamps_ns, max_gap_ns)})
+    if stamps is not None:
+        wanted = as_stamps(stamps)
+    else:
+        if not histories:
+            raise ValueError(
+                f"nothing moves between '{target_frame}' and '{source_frame}': give stamps"
+            )
+        wanted = _times(histories, rate_hz)
+    wanted = wanted[wanted != 0]  # tf2 takes the time 0 for "the latest"
+    for gap in gaps:
+        wanted = wanted[(wanted <= gap.start_ns) | (wanted >= gap.end_ns)]
+    status = np.zeros(len(wanted), dtype=np.uint8)
+    poses = buffer.lookup_batch(target_frame, source_frame, wanted, status=status)
+    if len(wanted) and status.all():  # nothing was found: the first lookup says why
+        buffer.lookup_transform(target_frame, source_frame, int(wanted[0]))
+    found = status == 0
+    return Trajectory(wanted[found], poses[found], target_frame, source_frame, tuple(gaps))
+
+
+def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: int | None = None) -> list[Gap]:
+    """Pauses in increasing stamps (N,) that are longer than ``max_gap_ns``.
+
+    None takes ten times the median pause, and at least half a second.
+    """
+    pauses = np.diff(stamps_ns)
+    if not len(pauses):
+        return []
+    if max_gap_ns is None:
+        max_gap_ns = max(_SHORTEST_GAP_NS, int(_GAP_FACTOR * np.median(pauses)))
+    return [
+        Gap(int(stamps_ns[i]), int(stamps_ns[i + 1])) for i in np.flatnonzero(pauses > max_gap_ns)
+    ]
+
+
+def _moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
+    """The children of the moving links between two frames."""
+    buffer.lookup_transform(target, source)  # raises what is wrong with the names
+    by_child = {link.child_frame: link for link in links(buffer)}
+
+    def to_root(frame: str) -> list[str]:
+        way = []
+        while frame in by_child and frame not in way:
+            way.append(frame)
+            frame = by_child[frame].parent_frame
+        return way
+
+    target_way, source_way = to_root(target), to_root(source)
+    shared = set(target_way) & set(source_way)
+    return [
+        child
+        for child in (*target_way, *source_way)
+        if child not in shared and not by_child[child].static
+    ]
+
+
+def _stamps_of(buffer: Buffer, child: str) -> NDArray[np.int64]:
+    return np.unique(np.concatenate([run[1] for run in buffer.samples(child)]))
+
+
+def _times(histories: list[NDArray[np.int64]], rate_hz: float | None) -> NDArray[np.int64]:
+    """Times within the interval that all histories cover."""
+    start = max(int(history[0]) for history in histories)
+    end = min(int(history[-1]) for history in histories)
+    if rate_hz is None:
+        times = np.unique(np.concatenate(histories))
+        return times[(times >= start) & (times <= end)]
+    if rate_hz <= 0:
+        raise ValueError(f"the rate is {rate_hz} Hz; it must be positive")
+    count = int((end - start) * rate_hz / 1e9) + 1 if end >= start else 0
+    return start + np.round(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)

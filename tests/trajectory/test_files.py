@@ -1,0 +1,162 @@
+"""Trajectories survive files, to the nanosecond; evo reads what we write; wrong files are named."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.trajectory.conftest import random_walk
+
+from turtlewire.trajectory import (
+    Trajectory,
+    quaternions,
+    read_csv,
+    read_euroc,
+    read_kitti,
+    read_trajectory,
+    read_tum,
+    write_csv,
+    write_euroc,
+    write_kitti,
+    write_tum,
+)
+
+FORMATS = {
+    "tum": (read_tum, write_tum),
+    "csv": (read_csv, write_csv),
+    "euroc": (read_euroc, write_euroc),
+}
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_nothing_is_lost(tmp_path, name):
+    read, write = FORMATS[name]
+    walk = random_walk(1)
+    write(walk, tmp_path / "walk")
+    for found in (read(tmp_path / "walk"), read_trajectory(tmp_path / "walk")):
+        assert found.stamps_ns.tolist() == walk.stamps_ns.tolist()
+        assert found.poses.tolist() == walk.poses.tolist()
+
+
+def test_kitti(tmp_path):
+    walk = random_walk(1)
+    write_kitti(walk, tmp_path / "poses", tmp_path / "times")
+    found = read_kitti(tmp_path / "poses", tmp_path / "times")
+    assert found.stamps_ns.tolist() == walk.stamps_ns.tolist()
+    assert found.as_matrices() == pytest.approx(walk.as_matrices(), abs=1e-12)
+    assert read_trajectory(tmp_path / "poses").stamps_ns[:2].tolist() == [0, 10**9]
+    (tmp_path / "times").write_text("1.0\n2.0\n")
+    with pytest.raises(ValueError, match=r"has 300 poses, .*times has 2 times"):
+        read_kitti(tmp_path / "poses", tmp_path / "times")
+
+
+@given(st.lists(st.integers(-(2**62), 2**62), min_size=1, max_size=20, unique=True))
+def test_every_stamp_survives_tum(tmp_path_factory, stamps):
+    path = tmp_path_factory.mktemp("tum") / "walk"
+    poses = np.tile((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (len(stamps), 1))
+    write_tum(Trajectory(sorted(stamps), poses), path)
+    assert read_tum(path).stamps_ns.tolist() == sorted(stamps)
+
+
+@pytest.mark.parametrize("name", ["tum", "euroc", "kitti"])
+def test_evo_reads_it(tmp_path, name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        from evo.tools import file_interface
+
+    walk = random_walk(3)
+    path = str(tmp_path / "walk.csv")
+    if name == "kitti":
+        write_kitti(walk, path)
+        found = file_interface.read_kitti_poses_file(path)
+    else:
+        FORMATS[name][1](walk, path)
+        read = {
+            "tum": file_interface.read_tum_trajectory_file,
+            "euroc": file_interface.read_euroc_csv_trajectory,
+        }
+        found = read[name](path)
+        assert found.timestamps == pytest.approx(walk.stamps_ns / 1e9, abs=1e-6)
+    assert found.positions_xyz == pytest.approx(walk.positions)
+    same = np.abs(np.sum(found.orientations_quat_wxyz[:, [1, 2, 3, 0]] * walk.rotations, axis=1))
+    assert same == pytest.approx(1)
+
+
+def test_comments_headings_exponents_and_a_byte_order_mark(tmp_path):
+    path = tmp_path / "walk"
+    path.write_text(
+        "\ufeff# timestamp tx …\n\n1.5 0 0 0 0 0 0 1\n  # more\n2.5e0 1 0 0 0 0 0 1\n"
+        "3 2 0 0 0 0 0 1\n",
+        encoding="utf-8",
+    )
+    found = read_tum(path)
+    assert found.stamps_ns.tolist() == [1_500_000_000, 2_500_000_000, 3_000_000_000]
+    assert found.positions[:, 0].tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("1 0 0 0 0 0 0 1\n2 0 0\n", r"walk, line 2: expected 8 numbers.*found 3"),
+        ("1 0 0 0 0 0 0 1 9\n", r"walk, line 1: expected 8 numbers.*found 9"),
+        ("1 0 0 x 0 0 0 1\n", r"line 1: .*could not convert string to float: 'x'"),
+        ("1.x 0 0 0 0 0 0 1\n", r"line 1: .*'1\.x' is not a time"),
+        ("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "walk: stamps must increase; stamp 1"),
+        ("1 0 0 0 0 0 0 0.5\n", "quaternion of pose 0 has the length 0.5"),
+        ("1 0 0 0 nan 0 0 1\n", "quaternion of pose 0 has the length nan"),
+    ],
+)
+def test_wrong_files(tmp_path, text, complaint):
+    path = tmp_path / "walk"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=complaint):
+        read_tum(path)
+
+
+def test_pandas():
+    walk = random_walk(1)
+    frame = walk.to_pandas()
+    assert frame.index.asi8.tolist() == walk.stamps_ns.tolist()
+    assert frame[["x", "y", "z", "qx", "qy", "qz", "qw"]].to_numpy().tolist() == walk.poses.tolist()
+    assert list(frame.columns[7:]) == ["roll", "pitch", "yaw"]
+
+
+def test_stamps():
+    poses = np.tile((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (2, 1))
+    dates = np.array(["2026-01-01T00:00:00.000000001", "2026-01-02"], dtype="datetime64[ns]")
+    assert Trajectory(dates, poses).stamps_ns.tolist() == dates.astype(np.int64).tolist()
+    days = np.array(["2026-01-01", "2026-01-02"], dtype="datetime64[D]")
+    assert Trajectory(days, poses).duration_ns == 86_400 * 10**9
+    with pytest.raises(TypeError, match="integer nanoseconds or datetime64, got float64"):
+        Trajectory([1.0, 2.0], poses)
+    with pytest.raises(ValueError, match="stamp 1 does not follow stamp 0"):
+        Trajectory([2, 2], poses)
+    with pytest.raises(ValueError, match=r"expected poses of shape \(3, 7\)"):
+        Trajectory([1, 2, 3], poses)
+
+
+def test_quaternions_agree_with_scipy():
+    from scipy.spatial.transform import Rotation
+
+    a, b = (Rotation.random(200, rng=seed) for seed in (1, 2))
+    qa, qb = a.as_quat(), b.as_quat()
+    product = quaternions.multiply(qa, qb)
+    assert np.abs(np.sum(product * (a * b).as_quat(), axis=1)) == pytest.approx(1)
+    vectors = np.random.default_rng(3).normal(size=(200, 3))
+    assert quaternions.rotate(qa, vectors) == pytest.approx(a.apply(vectors))
+    assert quaternions.matrices(qa) == pytest.approx(a.as_matrix())
+    assert quaternions.angle(qa) == pytest.approx(a.magnitude())
+    assert quaternions.euler(qa) == pytest.approx(a.as_euler("xyz"))
+    back = quaternions.from_matrices(a.as_matrix())
+    assert np.abs(np.sum(back * qa, axis=1)) == pytest.approx(1)
+    assert np.all(back[:, 3] >= 0)
+
+
+def test_half_turns_about_each_axis():
+    for axis in range(3):
+        q = np.zeros((1, 4))
+        q[0, axis] = 1
+        assert np.abs(quaternions.from_matrices(quaternions.matrices(q))) == pytest.approx(q)

@@ -1,0 +1,196 @@
+"""Alignment, APE and RPE agree with evo."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from tests.trajectory.conftest import disturbed, evo_trajectory, random_walk
+
+from turtlewire.trajectory import RELATIONS, Trajectory, align, ape, associate, compare, rpe
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    from evo.core import metrics as evo_metrics
+    from evo.core import sync as evo_sync
+    from evo.core.geometry import umeyama_alignment
+
+RELATION_OF_EVO = {
+    "trans_part": evo_metrics.PoseRelation.translation_part,
+    "rot_part": evo_metrics.PoseRelation.rotation_part,
+    "full": evo_metrics.PoseRelation.full_transformation,
+    "angle_rad": evo_metrics.PoseRelation.rotation_angle_rad,
+    "angle_deg": evo_metrics.PoseRelation.rotation_angle_deg,
+    "point_distance": evo_metrics.PoseRelation.point_distance,
+    "point_distance_error_ratio": evo_metrics.PoseRelation.point_distance_error_ratio,
+}
+
+
+def test_every_relation_is_compared():
+    assert set(RELATION_OF_EVO) == set(RELATIONS)
+
+
+@pytest.mark.parametrize("relation", [name for name in RELATIONS if "ratio" not in name])
+def test_ape(pair, relation):
+    metric = evo_metrics.APE(RELATION_OF_EVO[relation])
+    metric.process_data(tuple(map(evo_trajectory, pair)))
+    errors = ape(*pair, relation)
+    assert errors.values == pytest.approx(metric.error, abs=1e-8)
+    expected = metric.get_all_statistics()
+    assert errors.statistics._asdict() == pytest.approx(expected, abs=1e-8)
+
+
+UNITS = {
+    "f": evo_metrics.Unit.frames,
+    "m": evo_metrics.Unit.meters,
+    "d": evo_metrics.Unit.degrees,
+    "r": evo_metrics.Unit.radians,
+}
+
+
+@pytest.mark.parametrize(
+    ("delta", "unit", "all_pairs"),
+    [
+        (1, "f", False),
+        (7, "f", False),
+        (7, "f", True),
+        (0.8, "m", False),
+        (0.8, "m", True),
+        (40.0, "d", False),
+        (20.0, "d", True),
+        (0.5, "r", False),
+    ],
+)
+def test_rpe(delta, unit, all_pairs):
+    reference = random_walk(1, 80)
+    estimate = disturbed(reference, 101)
+    for relation, relation_of_evo in RELATION_OF_EVO.items():
+        metric = evo_metrics.RPE(
+            relation_of_evo, delta, UNITS[unit], rel_delta_tol=0.1, all_pairs=all_pairs
+        )
+        metric.process_data((evo_trajectory(reference), evo_trajectory(estimate)))
+        errors = rpe(reference, estimate, relation, delta=delta, unit=unit, all_pairs=all_pairs)
+        assert len(errors.values) > 3
+        assert errors.values == pytest.approx(np.asarray(metric.error), abs=1e-7), relation
+
+
+@pytest.mark.parametrize("with_scale", [False, True])
+def test_umeyama(pair, with_scale):
+    reference, estimate = pair
+    r, t, c = umeyama_alignment(estimate.positions.T, reference.positions.T, with_scale)
+    found = align(reference, estimate, "sim3" if with_scale else "se3")
+    from turtlewire.trajectory import quaternions
+
+    assert quaternions.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
+    assert found.translation == pytest.approx(t, abs=1e-8)
+    assert found.scale == pytest.approx(c)
+
+
+def test_a_reflection_is_no_rotation():
+    dice = np.random.default_rng(5)
+    points = np.hstack((dice.normal(size=(20, 3)), np.tile((0.0, 0.0, 0.0, 1.0), (20, 1))))
+    mirrored = points * (1, 1, -1, 1, 1, 1, 1)
+    stamps = np.arange(20)
+    found = align(Trajectory(stamps, points), Trajectory(stamps, mirrored), "se3")
+    r, _, _ = umeyama_alignment(mirrored[:, :3].T, points[:, :3].T, False)
+    from turtlewire.trajectory import quaternions
+
+    assert quaternions.matrices(found.rotation) == pytest.approx(r, abs=1e-9)
+
+
+@pytest.mark.parametrize("how", ["se3", "sim3", "yaw", "origin"])
+def test_an_estimate_that_is_only_moved_has_no_error(how):
+    from turtlewire.trajectory.alignment import Alignment
+
+    reference = random_walk(8)
+    turn = np.array((0.0, 0.0, np.sin(0.7), np.cos(0.7)))
+    moved = Alignment(turn, np.array((3.0, -2.0, 1.0)), 2.0 if how == "sim3" else 1.0)
+    comparison = compare(reference, moved.apply(reference), how)
+    assert comparison.ape().statistics.max < 1e-9
+    assert comparison.ape("angle_rad").statistics.max < 1e-7
+    assert comparison.rpe().statistics.max < 1e-9
+
+
+def test_yaw_leaves_the_tilt_alone(pair):
+    reference, estimate = pair
+    x, y, _, _ = align(reference, estimate, "yaw").rotation
+    assert (x, y) == (0, 0)
+
+
+def test_no_better_yaw_exists(pair):
+    reference, estimate = pair
+    best = compare(reference, estimate, "yaw", max_diff_ns=10**9).ape().statistics.sse
+    from turtlewire.trajectory.alignment import Alignment
+
+    for small in (0.001, -0.001):
+        turn = np.array((0.0, 0.0, np.sin(small), np.cos(small)))
+        aligned = compare(reference, estimate, "yaw", max_diff_ns=10**9).estimate
+        centre = aligned.positions.mean(axis=0)
+        from turtlewire.trajectory import quaternions
+
+        around = Alignment(turn, centre - quaternions.rotate(turn, centre), 1.0)
+        assert ape(reference, around.apply(aligned)).statistics.sse > best
+
+
+def test_a_straight_line_leaves_the_rotation_open():
+    line = np.zeros((10, 7))
+    line[:, 0] = range(10)
+    line[:, 6] = 1
+    trajectory = Trajectory(np.arange(10), line)
+    with pytest.raises(ValueError, match="Degenerate covariance rank"):
+        align(trajectory, trajectory, "se3")
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("offset_ns", [0, 20_000_000])
+def test_association(swapped, offset_ns):
+    dense, sparse = random_walk(1, 1000, period_ns=7_000_000), random_walk(2, 100)
+    first, second = (sparse, dense) if swapped else (dense, sparse)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        a, b = evo_sync.associate_trajectories(
+            evo_trajectory(first),
+            evo_trajectory(second),
+            max_diff=0.002,
+            offset_2=offset_ns / 1e9,
+        )
+    rows = associate(first, second, 2_000_000, offset_ns)
+    assert 10 < len(rows[0]) < 100
+    assert first.positions[rows[0]] == pytest.approx(a.positions_xyz)
+    assert second.positions[rows[1]] == pytest.approx(b.positions_xyz)
+
+
+def test_clocks_that_differ_are_told():
+    early = random_walk(1)
+    late = Trajectory(early.stamps_ns + 3600 * 10**9, early.poses)
+    with pytest.raises(ValueError, match=r"an offset of -3600\.000 s makes them begin together"):
+        compare(early, late)
+    assert len(compare(early, late, offset_ns=-3600 * 10**9).estimate) == len(early)
+
+
+def test_the_table_is_evos(pair):
+    lines = compare(*pair, "se3", max_diff_ns=10**9).table().splitlines()
+    assert lines[0] == "APE trans_part (m), aligned: se3"
+    assert [line.split("\t")[0].strip() for line in lines[2:]] == [
+        "max",
+        "mean",
+        "median",
+        "min",
+        "rmse",
+        "sse",
+        "std",
+    ]
+
+
+def test_wrong_words(pair):
+    with pytest.raises(ValueError, match="unknown relation 'tranz'; known are trans_part"):
+        ape(*pair, "tranz")
+    with pytest.raises(ValueError, match="unknown unit 'x'"):
+        rpe(*pair, unit="x")
+    with pytest.raises(ValueError, match="no two poses are 100000"):
+        rpe(*pair, delta=100_000, unit="m")
+    with pytest.raises(ValueError, match="unknown alignment 'SE3'"):
+        compare(*pair, "SE3")
+    with pytest.raises(ValueError, match="300 and 10 poses; associate them first"):
+        ape(pair[0], pair[1][:10])
