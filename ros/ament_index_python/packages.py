@@ -19,6 +19,9 @@ __all__ = [
 class PackageNotFoundError(KeyError):
     """No prefix has the package."""
 
+    #: The nearest names there are, for a user who mistyped it; empty when none is near.
+    hint: str = ""
+
 
 def get_package_prefix(package_name: str) -> str:
     """The prefix in which the package is installed, for example ``/opt/ros/jazzy``.
@@ -34,7 +37,12 @@ def get_package_prefix(package_name: str) -> str:
     paths = get_search_paths()
     prefix = package_prefix(package_name)
     if prefix is None:
-        raise PackageNotFoundError(f"package '{package_name}' not found, searching: {paths}")
+        from turtlewire_ros.prefix import package_names
+        from turtlewire_ros.suggestion import did_you_mean
+
+        error = PackageNotFoundError(f"package '{package_name}' not found, searching: {paths}")
+        error.hint = did_you_mean(package_name, package_names())
+        raise error
     return prefix
 
 

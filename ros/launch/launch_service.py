@@ -182,8 +182,10 @@ class LaunchService:
         self._logger.debug(
             "%s", "".join(traceback.format_exception(type(error), error, error.__traceback__))
         )
+        hint = getattr(error, "hint", "")
         self._logger.error(
-            "Caught exception in launch (see debug for traceback): %s%s", error, raised_in(error)
+            "Caught exception in launch (see debug for traceback): %s%s%s",
+            *(error, f"\n{hint}" if hint else "", raised_in(error)),
         )
         self._return_code = 1
         self._shut_down(

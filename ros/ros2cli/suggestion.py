@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from turtlewire_ros import suggestion
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -13,10 +15,8 @@ __all__ = ["did_you_mean", "field_meant", "interface_meant", "package_meant", "s
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A line with the nearest known names, to be put behind a message; empty when none is near."""
-    import difflib
-
-    near = difflib.get_close_matches(name, list(known), n=3)
-    return f"\nDid you mean: {', '.join(near)}" if near else ""
+    line = suggestion.did_you_mean(name, known)
+    return f"\n{line}" if line else ""
 
 
 def field_meant(error: BaseException | None) -> str:

@@ -167,6 +167,7 @@ def test_anonymous_names_are_kept_within_a_launch(context):
 def test_locals(context):
     context.extend_locals({"event": OSError(5, "broken")})
     assert LocalSubstitution("event.strerror").perform(context) == "broken"
+    assert LocalSubstitution("event.args[0]").perform(context) == "5"
     assert LocalSubstitution("event.strerror", "why").describe() == "LocalVar('why')"
     with pytest.raises(SubstitutionFailure, match=r"no local 'event\.nothing'"):
         LocalSubstitution("event.nothing").perform(context)

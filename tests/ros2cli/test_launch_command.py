@@ -73,3 +73,77 @@ def test_a_file_without_arguments_says_so(tmp_path, capsys):
         capsys.readouterr().out
         == "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
     )
+
+
+def error_of(capsys, *words):
+    try:
+        status = main(["launch", *words])
+    except SystemExit as end:
+        status = end.code
+    assert status in (1, 2)
+    return capsys.readouterr().err.splitlines()
+
+
+def test_a_path_that_is_nearly_right(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "demo.launch.py").touch()
+    assert error_of(capsys, "./deom.launch.py")[1] == "Did you mean: demo.launch.py"
+    assert error_of(capsys, "deom.launch.py")[1] == "Did you mean: demo.launch.py"
+    assert error_of(capsys, "nowhere/demo.launch.py") == [
+        "No launch file at 'nowhere/demo.launch.py'"
+    ]
+    assert error_of(capsys, ".") == ["'.' is a folder", "Launch files there: demo.launch.py"]
+
+
+def test_a_package_alone_lists_its_launch_files(capsys):
+    assert error_of(capsys, "turtlesim")[-1] == "Launch files there: multisim.launch.py"
+    assert error_of(capsys, "turtlesm")[-2:] == [
+        "Package 'turtlesm' not found",
+        "Did you mean: turtlesim, turtlesim_msgs, turtlewire_ros",
+    ]
+
+
+def test_one_character_of_an_argument_is_missing(tmp_path, capsys):
+    (tmp_path / "a.launch.py").touch()
+    path = str(tmp_path / "a.launch.py")
+    assert error_of(capsys, path, "x=1")[1:] == ["Did you mean: x:=1"]
+    assert error_of(capsys, path, "x:=")[1:] == []
+    assert error_of(capsys, path, "word")[1:] == []
+
+
+def test_print_shows_named_nodes_as_ros_does(tmp_path, capsys):
+    file = tmp_path / "a.launch.py"
+    file.write_text(
+        """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    node = Node(
+        package="turtlesim", executable="mimic", name="m", namespace="n", arguments=["a"],
+        ros_arguments=["--log-level", "debug"], remappings=[("x", "y")], parameters=[{"p": 1}],
+    )
+    return LaunchDescription([node, Node(package="turtlesim", executable="mimic")])
+"""
+    )
+    assert main(["launch", str(file), "-p"]) == 0
+    mimic = "ExecInPkg(pkg='turtlesim', exec='mimic')"
+    named = f"{mimic}, 'a', '--ros-args', '--log-level', 'debug', '-r', LocalVar('node name')"
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        f"├── ExecuteProcess(cmd=[{named}], cwd=None, env=None, shell=False)",
+        f"└── ExecuteProcess(cmd=[{mimic}, '--ros-args'], cwd=None, env=None, shell=False)",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("package", "executable", "meant"),
+    [
+        ("turtlesm", "mimic", "turtlesim, turtlesim_msgs, turtlewire_ros"),
+        ("turtlesim", "mimik", "mimic"),
+    ],
+)
+def test_names_in_a_launch_file_that_are_nearly_right(launch, package, executable, meant):
+    from launch_ros.actions import Node
+
+    outcome = launch(Node(package=package, executable=executable))
+    assert outcome.lines[-1] == f"Did you mean: {meant}"

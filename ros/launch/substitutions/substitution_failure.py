@@ -6,4 +6,13 @@ __all__ = ["SubstitutionFailure"]
 
 
 class SubstitutionFailure(RuntimeError):
-    """A substitution has no text here; the message says why."""
+    """A substitution has no text here; the message says why.
+
+    Args:
+        message: Why.
+        hint: What to do about it.
+    """
+
+    def __init__(self, message: str = "", *, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint

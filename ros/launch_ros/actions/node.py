@@ -62,13 +62,14 @@ class Node(ExecuteProcess):
             if package is None
             else ExecutableInPackage(package=package, executable=executable)
         )
+        self._ros = NodeArguments(name, namespace, parameters, remappings)
         cmd = [program, *(arguments or ()), "--ros-args", *(ros_arguments or ())]
+        cmd += self._ros.name_words()
         if exec_name is None and package is not None:
             exec_name = executable
         super().__init__(cmd=cmd, name=exec_name, **kwargs)
         self._package = package
         self._node_executable = executable
-        self._ros = NodeArguments(name, namespace, parameters, remappings)
         self._expanded_remappings: list[tuple[str, str]] = []
 
     @classmethod
@@ -147,10 +148,12 @@ class Node(ExecuteProcess):
 
     def prepare(self, context: LaunchContext) -> None:
         """Perform the substitutions, and append the arguments that come of the scope."""
+        self._ros.expand_names(context)
+        context.extend_locals({"ros_specific_arguments": {"name": f"__node:={self._ros.name}"}})
         super().prepare(context)
         final_cmd = self.process_description.final_cmd
         assert final_cmd is not None
-        final_cmd += self._ros.expand_names(context) + self._ros.expand_parameters(context)
+        final_cmd += self._ros.namespace_words() + self._ros.expand_parameters(context)
         self._expanded_remappings = self._ros.expand_remappings(context)
         final_cmd += [
             word

@@ -11,6 +11,7 @@ from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from turtlewire_ros.executables import executable_paths, libexec_directory
+from turtlewire_ros.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -72,12 +73,13 @@ class ExecutableInPackage(Substitution):
         package = perform_substitutions(context, self._package)
         prefix = get_package_prefix(package)
         names = (executable, f"{executable}.exe")
-        found = [
-            path for path in executable_paths(package) or () if os.path.basename(path) in names
-        ]
+        paths = executable_paths(package) or []
+        found = [path for path in paths if os.path.basename(path) in names]
         if not found:
             raise SubstitutionFailure(
-                f"executable '{executable}' not found on the libexec directory '{libexec_directory(prefix, package)}' "
+                f"executable '{executable}' not found on the libexec directory "
+                f"'{libexec_directory(prefix, package)}' ",
+                hint=did_you_mean(executable, [os.path.basename(path) for path in paths]),
             )
         if len(found) > 1:
             raise SubstitutionFailure(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch import logging
 from launch.substitution import Substitution
+from launch.substitutions import LocalSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import Parameter, ParameterFile
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
@@ -71,16 +72,24 @@ class NodeArguments:
         """Namespace and name; ``<node_name_unspecified>`` stands for a name that the program chooses."""
         return f"{(self.namespace or '').rstrip('/')}/{self.name or '<node_name_unspecified>'}"
 
-    def expand_names(self, context: LaunchContext) -> list[str]:
-        """Find name and namespace; the words for them."""
+    def name_words(self) -> list[SomeSubstitutionsType]:
+        """The words for the name, which takes its place when the node starts."""
+        if self._name is None:
+            return []
+        return ["-r", LocalSubstitution("ros_specific_arguments['name']", "node name")]
+
+    def expand_names(self, context: LaunchContext) -> None:
+        """Find name and namespace."""
         if self._name is not None:
             self.name = perform_substitutions(context, self._name)
         own = None if self._namespace is None else perform_substitutions(context, self._namespace)
         joined = prefix_namespace(context.launch_configurations.get("ros_namespace"), own)
         if joined is not None:
             self.namespace = make_namespace_absolute(joined)
-        name = [] if self.name is None else ["-r", f"__node:={self.name}"]
-        return name + ([] if not self.namespace else ["-r", f"__ns:={self.namespace}"])
+
+    def namespace_words(self) -> list[str]:
+        """The words for the namespace."""
+        return ["-r", f"__ns:={self.namespace}"] if self.namespace else []
 
     def expand_parameters(self, context: LaunchContext) -> list[str]:
         """The words for the parameters; mappings become files, which :meth:`clean_up` removes."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -159,10 +160,11 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
     if os.path.isfile(args.package_name):
         return args.package_name, ([] if name is None else [name]) + args.launch_arguments
     if name is None:
-        if os.sep in args.package_name or args.package_name.endswith(_SUFFIXES):
-            raise RuntimeError(f"No launch file at '{args.package_name}'")
+        if _looks_like_a_path(args.package_name):
+            raise RuntimeError(_no_file(args.package_name))
         args.parser.error(
             "the following arguments are required: launch_file_name, launch_arguments"
+            + _files_of(args.package_name)
         )
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
@@ -175,6 +177,36 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
             f"Package '{args.package_name}' not found: {error}{package_meant(args.package_name)}"
         ) from error
     return _in_share(args.package_name, share, str(name)), args.launch_arguments
+
+
+def _looks_like_a_path(word: str) -> bool:
+    return os.path.isdir(word) or os.sep in word or word.endswith(_SUFFIXES)
+
+
+def _no_file(path: str) -> str:
+    """That there is no launch file, and which there are in that folder."""
+    if os.path.isdir(path):
+        return f"'{path}' is a folder{_list(_files_in(path))}"
+    from ros2cli.suggestion import did_you_mean
+
+    folder, name = os.path.split(path)
+    known = os.listdir(folder or ".") if os.path.isdir(folder or ".") else []
+    return f"No launch file at '{path}'{did_you_mean(name, known)}"
+
+
+def _files_of(package: str) -> str:
+    """A line with the launch files of a package, or with the package that was meant."""
+    from ros2cli.suggestion import package_meant
+    from turtlewire_ros.prefix import share_directory
+
+    share = share_directory(package)
+    if share is None:
+        return f"\nPackage '{package}' not found{package_meant(package)}"
+    return _list(_files_in(share))
+
+
+def _list(files: list[str]) -> str:
+    return f"\nLaunch files there: {', '.join(files) or 'none'}"
 
 
 def _in_share(package: str, share: str, name: str) -> str:
@@ -214,9 +246,12 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     for word in words:
         name, separator, value = word.partition(":=")
         if not separator or not name or not value:
-            raise RuntimeError(
+            error = RuntimeError(
                 f"malformed launch argument '{word}', expected format '<name>:=<value>'"
             )
+            match = re.fullmatch(r"(\w+):?=(.+)", word)
+            vars(error)["hint"] = f"Did you mean: {match[1]}:={match[2]}" if match else ""
+            raise error
         values[name] = value
     return list(values.items())
 

@@ -1,0 +1,18 @@
+"""Names that may have been meant."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["did_you_mean"]
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A line with the nearest known names; empty when none is near."""
+    import difflib
+
+    near = difflib.get_close_matches(name, list(known), n=3)
+    return f"Did you mean: {', '.join(near)}" if near else ""
