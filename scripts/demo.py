@@ -1,36 +1,30 @@
-"""What scripts/demo does once .venv is there: runs the tutorial's launch file and says what a person needs to know."""
+"""What scripts/demo runs once .venv is there: the tutorial's launch file, with hints."""
 
 from __future__ import annotations
 
 import signal
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing runs yet that would have to be stopped
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there are processes to stop
 
 import argparse
 import math
 import os
-import subprocess
 import sys
-import threading
 import time
-from contextlib import contextmanager
 from importlib.util import find_spec
-from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
+
+from demo_domain import other_demo_runs
+from demo_launch import ENDING, VENV, Launch, interrupt
 
 from turtlewire.errors import WireError
 from turtlewire.wire import environment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire import Buffer
 
-VENV = Path(sys.prefix)
-COMMAND = ("ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
 LEADER, FOLLOWER = "turtle1", "turtle2"
-ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def main() -> int:
@@ -44,7 +38,8 @@ def main() -> int:
     mode.add_argument(
         "--check",
         action="store_true",
-        help="run headless, drive turtle1 through a square, print figures; status 0 if turtle2 followed",
+        help="run headless, drive turtle1 through a square, print figures; "
+        "status 0 if turtle2 followed",
     )
     arguments = parser.parse_args()
     started = float(os.environ.get("TURTLEWIRE_DEMO_STARTED", "").replace(",", ".") or time.time())
@@ -68,7 +63,7 @@ def seconds(text: str) -> float:
 
 
 def prepare_environment() -> None:
-    """Set what the launched processes inherit: nothing of a real ROS 2 that was sourced, and no place to write to outside of .venv."""
+    """Set what the launched processes inherit: no sourced ROS 2, and logs below .venv."""
     os.environ["PATH"] = f"{VENV / 'bin'}{os.pathsep}{os.environ['PATH']}"
     os.environ.setdefault("ROS_LOG_DIR", str(VENV / "log"))
     for name in ("PYTHONPATH", "AMENT_PREFIX_PATH"):
@@ -76,88 +71,13 @@ def prepare_environment() -> None:
 
 
 def choose_core() -> None:
-    """Say once, instead of in each process, that the compiled core is missing; the plain-Python one does the same."""
+    """Report a missing compiled core once, not in each process; the plain-Python core replaces it."""
     if "TURTLEWIRE_CORE" not in os.environ and find_spec("turtlewire._native") is None:
         os.environ["TURTLEWIRE_CORE"] = "python"
         print(
-            "[demo] transforms run on the plain-Python core; `apt install g++ python3-dev` (or the like) brings the compiled one"
+            "[demo] transforms run on the plain-Python core; "
+            "to get the compiled one, type `apt install g++ python3-dev` (or the like)"
         )
-
-
-def interrupt(_signum: int, _frame: object) -> NoReturn:
-    """End as after Ctrl-C."""
-    raise KeyboardInterrupt
-
-
-@contextmanager
-def held_back() -> Iterator[None]:
-    """Let Ctrl-C and its like wait for the end of the block."""
-    came: list[int] = []
-    handlers = {
-        signum: signal.signal(signum, lambda number, _frame: came.append(number))
-        for signum in ENDING
-    }
-    yield
-    for signum, handler in handlers.items():
-        signal.signal(signum, handler)
-    if came:
-        raise KeyboardInterrupt
-
-
-class Launch:
-    """The launched processes. They have a session of their own: Ctrl-C reaches only this process, which then stops them in order.
-
-    Args:
-        output: File that gets what they print; None lets them print here.
-    """
-
-    def __init__(self, output: int | None = None) -> None:
-        self.ended = threading.Event()
-        self._output = output
-        self._process: subprocess.Popen[bytes] | None = None
-        self._waiter = threading.Thread(target=self._wait, name="launch-waiter", daemon=True)
-
-    def start(self) -> None:
-        """Start them; `stop` is to be called whatever happens."""
-        command = [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]]
-        with held_back():  # a process that nobody knows of yet could not be stopped
-            # without a terminal as its input, the launch tells its processes to end itself, instead
-            # of leaving that to the terminal
-            self._process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=self._output,
-                stderr=self._output,
-                start_new_session=True,
-            )
-            self._waiter.start()
-
-    def _wait(self) -> None:
-        if self._process is not None:
-            self._process.wait()
-        self.ended.set()
-
-    def stop(self) -> int:
-        """Ask them to end, as Ctrl-C does, and kill what has not ended after ten seconds.
-
-        Returns:
-            0, or the exit status of a launch that had ended by itself.
-        """
-        for signum in ENDING:
-            signal.signal(signum, signal.SIG_IGN)
-        if self._process is None:
-            return 0
-        status = self._process.returncode if self.ended.is_set() else 0
-        if not self.ended.is_set():
-            self._process.send_signal(signal.SIGINT)
-        if not self.ended.wait(10.0):
-            print(
-                "[demo] not all processes ended when they were asked to: killing them",
-                file=sys.stderr,
-            )
-            os.killpg(self._process.pid, signal.SIGKILL)
-        self._waiter.join()
-        return status
 
 
 def show(seconds: float | None) -> int:
@@ -177,6 +97,7 @@ def show(seconds: float | None) -> int:
         pass
     finally:
         status = launch.stop()
+        print("[demo] ended", flush=True)
     return status
 
 
@@ -197,6 +118,12 @@ def greet() -> None:
     )
     print("[demo]     ros2 run turtlesim turtle_teleop_key")
     print("[demo] Ctrl-C ends it", flush=True)
+    if other_demo_runs(domain):
+        print(
+            f"[demo] another demo runs in ROS domain {domain}: both drive the same turtles. "
+            f"To keep them apart, end this one and type: ROS_DOMAIN_ID={domain + 1} scripts/demo",
+            flush=True,
+        )
 
 
 def report_each_second(launch: Launch, deadline: float) -> None:

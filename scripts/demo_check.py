@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-import socket
 import sys
 import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from demo import FOLLOWER, LEADER, Launch
+from demo import FOLLOWER, LEADER
+from demo_domain import free_domain
+from demo_launch import Launch
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.errors import TransformException
@@ -49,7 +50,11 @@ def check(started: float) -> int:
     Returns:
         The exit status: 0 when turtle2 followed and ended near turtle1.
     """
-    domain, _mark = free_domain()
+    reserved = free_domain()
+    if reserved is None:
+        print("[demo] failed: all ROS domains from 1 to 101 are in use", file=sys.stderr)
+        return 1
+    domain, _mark = reserved
     os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
@@ -92,24 +97,6 @@ def judge(observer: Observer, launch: Launch) -> str:
     if observer.distance > NEAR_M:
         return f"{FOLLOWER} ended {observer.distance:.2f} m from {LEADER}, farther than {NEAR_M} m"
     return ""
-
-
-def free_domain() -> tuple[int, socket.socket]:
-    """A domain in which nobody on this computer listens; below 102, the ports stay clear of those that systems hand out.
-
-    The socket occupies the port of a domain's first process: as long as it is open, no other check
-    takes the domain.
-    """
-    for offset in range(101):
-        domain = 1 + (os.getpid() + offset) % 101
-        mark = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        try:
-            mark.bind(("", 7410 + 250 * domain))
-        except OSError:
-            mark.close()
-            continue
-        return domain, mark
-    raise CheckError("all ROS domains from 1 to 101 are in use on this computer")
 
 
 class Track:

@@ -1,19 +1,22 @@
-"""What scripts/setup does, with nothing but a bare python3: no venv package, no pip, no compiler is taken for granted."""
+"""What scripts/setup does. A bare python3 is enough: no venv package, no pip, no compiler is needed."""
 
 from __future__ import annotations
 
+import argparse
 import fcntl
 import hashlib
 import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
+import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,8 +27,16 @@ PYTHON = VENV / "bin" / "python"
 STAMP = VENV / "turtlewire-stamp.json"
 LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
 
+#: The signals that end the set-up.
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 #: pip that installs dependency groups of a pyproject.toml.
 OLDEST_PIP = (25, 1)
+#: What can be installed besides: dependency groups of pyproject.toml, and an extra of turtlewire-ros.
+EXTRAS = {"test": "what the tests need", "lint": "ruff, mypy …", "workspace": "colcon and rosdep"}
+#: What pip prints when it cannot reach the package index.
+NO_NETWORK = re.compile(
+    r"NewConnectionError|NameResolutionError|ConnectTimeoutError|Max retries exceeded|ProxyError"
+)
 
 
 class SetupError(Exception):
@@ -36,7 +47,8 @@ def main(extras: list[str]) -> None:
     """Bring .venv up to date with the sources, with ``extras`` installed besides."""
     if sys.version_info < (3, 10):  # noqa: UP036 -- whatever python3 is on the machine runs this
         raise SetupError(
-            f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed (PYTHON=python3.12 names another)"
+            f"{sys.executable} is Python {sys.version.split()[0]}; 3.10 or newer is needed "
+            "(PYTHON=python3.12 names another)"
         )
     if not missing(extras)[1]:
         return
@@ -45,6 +57,21 @@ def main(extras: list[str]) -> None:
     if wanted:
         bring_up_to_date(stamp, wanted)
     os.close(lock)
+
+
+def parse_extras(arguments: list[str]) -> list[str]:
+    """The extras named on the command line; ends the program when there is no such extra."""
+    described = "; ".join(f"{name}: {text}" for name, text in EXTRAS.items())
+    parser = argparse.ArgumentParser(
+        prog="scripts/setup",
+        description="Makes .venv in this folder or brings it up to date, and installs everything "
+        "into it, editable. Outside of this folder it writes only what pip keeps in its cache.",
+    )
+    parser.add_argument("extras", nargs="*", metavar="EXTRA", help=described)
+    extras: list[str] = parser.parse_args(arguments).extras
+    for unknown in sorted({*extras} - {*EXTRAS}):
+        parser.error(f"there is no extra {unknown!r}; choose from {', '.join(EXTRAS)}")
+    return extras
 
 
 def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -77,9 +104,7 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
     if only_extras:
         say(f"adding to .venv: {', '.join(sorted({*wanted['extras']} - {*stamp['extras']}))}")
     elif not venv_works:
-        say(
-            "making .venv here and downloading what it needs (about 55 packages, under a minute); nothing else is touched"
-        )
+        say("making .venv here and downloading about 55 packages, which takes about a minute")
         make_venv()
     else:
         say("bringing .venv up to date with the sources")
@@ -179,7 +204,7 @@ def ensure_pip() -> None:
         run_python("-m", "ensurepip")
     if (version := pip_version()) is not None:
         if version < OLDEST_PIP:
-            pip("install", "--upgrade", "pip")
+            pip("install", f"pip>={OLDEST_PIP[0]}.{OLDEST_PIP[1]}")
         return
     outer = subprocess.run(
         [sys.executable, "-m", "pip", "--version"], capture_output=True, text=True, check=False
@@ -188,7 +213,8 @@ def ensure_pip() -> None:
         checked([sys.executable, "-m", "pip", "--python", str(PYTHON), "install", "-q", "pip"])
         return
     raise SetupError(
-        "this Python has no pip of 22.3 or newer; install it (Debian: `apt install python3-pip`) and try again"
+        "this Python has no pip of 22.3 or newer; install it (Debian: `apt install python3-pip`) "
+        "and try again"
     )
 
 
@@ -230,24 +256,46 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
 
 def pip(*arguments: str) -> None:
     """Run the venv's pip."""
-    checked([str(PYTHON), "-m", "pip", "--disable-pip-version-check", "-q", *arguments])
+    command = [str(PYTHON), "-m", "pip", "--disable-pip-version-check", "--no-input", "-q"]
+    checked([*command, *arguments])
 
 
 def checked(command: list[str]) -> None:
-    """Run a command whose failure ends the setup."""
+    """Run a command whose failure ends the set-up, and show what it printed if it fails."""
     # setuptools warns at length about every editable installation
     environment = {**clean_environment(), "PYTHONWARNINGS": "ignore::UserWarning"}
     started = time.monotonic()
-    with subprocess.Popen(command, env=environment, stdout=sys.stderr) as process:
-        try:
-            while not ended_within(process, 1.0):
-                show_progress(f"[setup] {time.monotonic() - started:.0f} s ")
-        except BaseException:
-            process.kill()
-            raise
-    show_progress("")
-    if process.returncode:
-        raise SetupError(f"this failed, see above: {' '.join(command)}")
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
+        # In a session of its own: Ctrl-C reaches only this program, which stops the whole group.
+        with subprocess.Popen(
+            command,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        ) as process:
+            try:
+                while not ended_within(process, 1.0):
+                    show_progress(f"[setup] {time.monotonic() - started:.0f} s ")
+            except BaseException:
+                os.killpg(process.pid, signal.SIGKILL)
+                raise
+            finally:
+                show_progress("")
+        if process.returncode:
+            output.seek(0)
+            fail(command, output.read())
+
+
+def fail(command: list[str], output: str) -> NoReturn:
+    """Raise the error that says why a command failed."""
+    if NO_NETWORK.search(output):
+        raise SetupError(
+            "no network: the package index cannot be reached; connect, then type the same again"
+        )
+    sys.stderr.write(output)
+    raise SetupError(f"this failed, see above: {' '.join(command)}")
 
 
 def ended_within(process: subprocess.Popen[bytes], seconds: float) -> bool:
@@ -265,11 +313,27 @@ def show_progress(text: str) -> None:
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
 
-if __name__ == "__main__":
+def interrupt(_signum: int, _frame: object) -> NoReturn:
+    """End as after Ctrl-C; a second signal, which a terminal sends too, is ignored."""
+    for signum in ENDING:
+        signal.signal(signum, lambda _signum, _frame: None)
+    raise KeyboardInterrupt
+
+
+def run(arguments: list[str]) -> int:
+    """Set up, and say in one line what went wrong; the exit status."""
+    for signum in ENDING:
+        signal.signal(signum, interrupt)
     try:
-        main(sys.argv[1:])
+        main(parse_extras(arguments))
     except SetupError as error:
-        sys.exit(f"[setup] {error}")
+        say(str(error))
+        return 1
     except KeyboardInterrupt:
         say("interrupted; the next run goes on")
-        sys.exit(130)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(run(sys.argv[1:]))

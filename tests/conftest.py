@@ -19,6 +19,7 @@ import tempfile
 import threading
 import time
 import uuid
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,8 @@ os.environ["ROS_DOMAIN_ID"] = free_domain()
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="turtlewire-test-log-")
 os.environ.pop("RMW_IMPLEMENTATION", None)
+if find_spec("turtlewire._native") is None:  # each child process would say that it is not built
+    os.environ.setdefault("TURTLEWIRE_CORE", "python")
 
 
 # A shell starts what ends with `&` with SIGINT ignored, and `nohup` ignores SIGHUP; children inherit

@@ -195,7 +195,7 @@ a NaN or infinite command loses the turtle
 an invalid turtle name ends the process
   turtlesim/test_turtlesim_node.py test_start_spawn_kill_and_reset_with_their_texts
 nothing is said of turtles that others wait for
-  turtlesim/test_turtlesim_node.py test_a_wanted_turtle_is_named_once_with_the_command
+  turtlesim/test_turtlesim_node.py test_a_wanted_turtle_is_named_with_the_command test_the_command_for_a_wanted_turtle_is_shown_until_it_is_there
   turtlesim/test_page.py test_a_missing_turtle_is_offered
 callbacks run inside ticks only
   turtlesim/test_model.py test_teleports_are_applied_in_order_at_the_next_tick

@@ -1,4 +1,4 @@
-"""What scripts/setup installs, and what it leaves as it is."""
+"""What scripts/setup installs, what it leaves as it is, and what it prints."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-SETUP = Path(__file__).parents[2] / "scripts" / "setup.py"
+SCRIPTS = Path(__file__).parents[2] / "scripts"
+SETUP = SCRIPTS / "setup.py"
 
 
 @pytest.fixture
@@ -63,6 +64,86 @@ def test_what_fails_is_named(setup, capfd):
     with pytest.raises(setup.SetupError, match="this failed, see above"):
         setup.checked([sys.executable, "-c", "import sys; print('why'); sys.exit(3)"])
     assert capfd.readouterr().err == "why\n"
+
+
+def printing(text: str, status: int) -> list[str]:
+    """A command that stands for pip."""
+    return [
+        sys.executable,
+        "-c",
+        f"import sys; print({text!r}, file=sys.stderr); sys.exit({status})",
+    ]
+
+
+def test_a_missing_network_is_one_line(setup, monkeypatch, capfd):
+    text = (
+        "WARNING: Retrying (…) after connection broken by 'NewConnectionError(…)'\nERROR: No match"
+    )
+    monkeypatch.setattr(setup, "pip", lambda *_words: setup.checked(printing(text, 1)))
+    assert setup.run([]) == 1
+    *_, said = capfd.readouterr().err.splitlines()
+    assert said.startswith("[setup] no network: ")
+    assert "Retrying" not in said
+
+
+def test_warnings_of_a_pip_that_succeeds_are_not_shown(setup, capfd):
+    setup.checked(printing("WARNING: Location '/wheels' is ignored", 0))
+    assert capfd.readouterr().err == ""
+
+
+def test_an_unknown_extra_is_refused_with_those_there_are(setup, capfd):
+    with pytest.raises(SystemExit) as ended:
+        setup.run(["tset"])
+    assert ended.value.code == 2
+    assert "there is no extra 'tset'; choose from test, lint, workspace" in capfd.readouterr().err
+    assert setup.calls == []
+
+
+#: scripts/setup with a pip that tells when it runs, and complains at length when it is interrupted.
+SLOW_PIP = f"""
+import importlib.util, sys
+spec = importlib.util.spec_from_file_location("setup_script", {str(SETUP)!r})
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+pip = "import os, sys, time; os.write(int(sys.argv[1]), b'pip runs'); time.sleep(600)"
+import os, subprocess
+told, tell = os.pipe()
+start = subprocess.Popen
+subprocess.Popen = lambda command, **options: start([*command, str(tell)], pass_fds=[tell], **options)
+module.show_progress = lambda text: text and print(os.read(told, 100).decode(), flush=True)
+module.main = lambda extras: module.checked([sys.executable, "-c", pip])
+sys.exit(module.run([]))
+"""
+
+
+def test_ctrl_c_while_pip_runs_is_one_line(run):
+    program = run(SCRIPTS / "interruptible", sys.executable, "-c", SLOW_PIP, terminal=True)
+    program.wait_for("pip runs")
+    program.type("\x03")
+    assert program.wait() == 130
+    assert "[setup] interrupted; the next run goes on" in program.text
+    assert "Traceback" not in program.text
+    assert program.survivors() == []
+
+
+def test_ctrl_c_while_python_starts_is_silent(run, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text("print('starting', flush=True)\nwhile True: pass\n")
+    command = ["env", f"PYTHONPATH={tmp_path}", sys.executable, "-c", ""]
+    program = run(SCRIPTS / "interruptible", *command, terminal=True)
+    program.wait_for("starting")
+    program.type("\x03")
+    assert program.wait() == 130
+    assert program.text.replace("^C", "").split() == ["starting"]
+    assert program.survivors() == []
+
+
+@pytest.mark.parametrize("status", [0, 3])
+def test_an_interruptible_program_keeps_its_status_and_its_input(run, status):
+    code = f"import sys; print(input()); sys.exit({status})"
+    program = run(SCRIPTS / "interruptible", sys.executable, "-c", code, terminal=True)
+    program.type("hello\r")
+    assert program.wait() == status
+    assert program.text.split()[-1] == "hello"
 
 
 def test_a_terminal_shows_that_it_goes_on(run):

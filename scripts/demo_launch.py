@@ -1,0 +1,135 @@
+"""The processes of the demo: starting them, passing on what they print, and stopping them."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["ENDING", "VENV", "Launch", "interrupt"]
+
+VENV = Path(sys.prefix)
+COMMAND = ("ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
+#: The signals that end the demo.
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+#: How long the processes may take to end [s].
+_PATIENCE_S = 10.0
+
+
+class Launch:
+    """The launched processes, in a session of their own: Ctrl-C reaches only this process.
+
+    What they print is shown until :meth:`stop` is called. Interpreters that are stopped while they
+    start print tracebacks, which help nobody; the log files keep them.
+
+    Args:
+        output: File descriptor for what they print; None shows it here.
+    """
+
+    def __init__(self, output: int | None = None) -> None:
+        self.ended = threading.Event()
+        self._output = output
+        self._stopping = False
+        self._process: subprocess.Popen[bytes] | None = None
+        self._waiter = threading.Thread(target=self._wait, name="launch-waiter", daemon=True)
+
+    def start(self) -> None:
+        """Start them; call :meth:`stop` afterwards, whatever happens."""
+        source, output = _output_pair() if self._output is None else (None, self._output)
+        with _held_back():  # an interrupt in here would leave processes that nobody stops
+            # Without a terminal as its input, the launch sends its processes SIGINT itself.
+            self._process = subprocess.Popen(
+                [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]],
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=output,
+                start_new_session=True,
+            )
+            if source is not None:
+                os.close(output)
+                threading.Thread(
+                    target=self._show, args=(source,), name="launch-output", daemon=True
+                ).start()
+            self._waiter.start()
+
+    def _show(self, source: int) -> None:
+        """Pass on what the processes print, until the last one has closed its output."""
+        with open(source, "rb", buffering=0) as stream:
+            while True:
+                try:
+                    text = stream.read(65536)
+                except OSError:  # how the end of a pseudo-terminal reads on Linux
+                    return
+                if not text:
+                    return
+                if not self._stopping:
+                    sys.stdout.buffer.write(text)
+                    sys.stdout.flush()
+
+    def _wait(self) -> None:
+        if self._process is not None:
+            self._process.wait()
+        self.ended.set()
+
+    def stop(self) -> int:
+        """Send them SIGINT, and kill those that have not ended after ten seconds.
+
+        Returns:
+            0, or the exit status of a launch that had ended before.
+        """
+        _ignore_further_signals()
+        if self._process is None:
+            return 0
+        if self.ended.is_set():
+            self._waiter.join()
+            return self._process.returncode
+        self._stopping = True
+        self._process.send_signal(signal.SIGINT)
+        if not self.ended.wait(_PATIENCE_S):
+            print("[demo] some processes did not end: killing them", file=sys.stderr)
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._waiter.join()
+        return 0
+
+
+def _output_pair() -> tuple[int, int]:
+    """A readable and a writable file descriptor; a pseudo-terminal if the output is a terminal.
+
+    Programs use colours when they write to a terminal.
+    """
+    return os.openpty() if sys.stdout.isatty() else os.pipe()
+
+
+@contextmanager
+def _held_back() -> Iterator[None]:
+    """Delay the signals of :data:`ENDING` until the end of the block."""
+    came: list[int] = []
+    handlers = {
+        signum: signal.signal(signum, lambda number, _frame: came.append(number))
+        for signum in ENDING
+    }
+    yield
+    for signum, handler in handlers.items():
+        signal.signal(signum, handler)
+    if came:
+        interrupt()
+
+
+def interrupt(_signum: int = 0, _frame: object = None) -> NoReturn:
+    """End as after Ctrl-C."""
+    _ignore_further_signals()
+    raise KeyboardInterrupt
+
+
+def _ignore_further_signals() -> None:
+    """Let nothing disturb the clean-up: at a terminal Ctrl-C arrives twice, as SIGINT and SIGTERM."""
+    for signum in ENDING:  # with SIG_IGN, Python complains about a signal that is already pending
+        signal.signal(signum, lambda _signum, _frame: None)
