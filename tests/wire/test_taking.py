@@ -26,8 +26,14 @@ if taking.take_messages is not taking.take_with_ctypes:
 
 
 @pytest.fixture
-def pair():
+def context():
     context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def pair(context):
     node = context.create_node("node")
     qos = QoS(history=History.KEEP_ALL)
     publisher, subscription = (
@@ -35,8 +41,7 @@ def pair():
         node.create_subscription("/texts", STRING, qos),
     )
     assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG_NS)
-    yield publisher, subscription
-    context.close()
+    return publisher, subscription
 
 
 @pytest.mark.parametrize("take", list(WAYS.values()), ids=list(WAYS))
@@ -69,3 +74,26 @@ def test_there_is_nothing_in_an_empty_or_closed_reader(pair, take):
     subscription.close()
     assert take(subscription.handle, 10) == []
     assert subscription.take() == []
+
+
+def test_what_is_remembered_of_publishers_is_bounded(context, pair, monkeypatch):
+    """Peers come and go for weeks; the caches of their gids and user data must not grow with them."""
+    monkeypatch.setattr("turtlewire.wire.cyclone.subscription._KNOWN_PUBLISHERS", 4)
+    _, subscription = pair
+    wait_set = context.create_wait_set()
+    wait_set.attach(subscription)
+    node = context.create_node("other")
+    gids = []
+    for number in range(11):
+        publisher = node.create_publisher("/texts", STRING, QoS())
+        assert context.graph.wait_for(lambda p=publisher: p.subscription_count() == 1, LONG_NS)
+        publisher.publish(cdr(number, size=8))
+        assert wait_set.wait(LONG_NS) == [subscription]
+        [(_, info)] = subscription.take()
+        assert info.publisher_gid == publisher.gid
+        gids.append(publisher.gid)
+        publisher.close()
+        assert context.graph.wait_for(lambda: subscription.publisher_count() == 1, LONG_NS)
+    assert len(subscription._gids) <= 4
+    assert sum(subscription.user_data_of(gid) != b"" for gid in gids) <= 4
+    assert subscription.user_data_of(gids[-1]) != b""
