@@ -161,9 +161,17 @@ def test_big_endian_fixed_arrays_and_wide_strings_are_decoded():
         mesh, bytes.fromhex("00000000 00000001 00000002 00000003")
     ).vertex_indices.tolist() == [1, 2, 3]
     wide = msg.get_message("example_interfaces/msg/WString")
-    assert msg.deserialize(wide, bytes.fromhex("00000000 00000002 00006c49 0001f422")) == wide(
-        data="汉🐢"
-    )
+    assert msg.deserialize(
+        wide, bytes.fromhex("00000000 00000003 00006c49 0000d83d 0000dc22")
+    ) == wide(data="汉🐢")
+
+
+def test_wide_characters_beyond_the_basic_plane_are_two_units():
+    """As in ROS 2: the code units of the golden ``äö汉``, and of UTF-16 for the turtle."""
+    wide = msg.get_message("example_interfaces/msg/WString")
+    data = bytes.fromhex("00010000 03000000 61000000 3dd80000 22dc0000")
+    assert msg.serialize(wide(data="a🐢")) == data
+    assert msg.deserialize(wide, data) == wide(data="a🐢")
 
 
 @pytest.mark.parametrize("header", ["", "00", "0002", "0003", "0007", "0100", "00060000", "ffff"])
@@ -219,8 +227,13 @@ def test_other_encapsulations_are_refused(header):
         ),
         (
             msg.get_message("example_interfaces/msg/WString"),
-            "0100000000001100",
-            "field 'data' at offset 8: a string that is not valid UTF-32 (code point not in range(0x110000))",
+            "0100000022f40100",
+            "field 'data' at offset 8: a string that is not valid UTF-16 (a code unit above 0xffff)",
+        ),
+        (
+            msg.get_message("example_interfaces/msg/WString"),
+            "020000003dd8000041000000",
+            "field 'data' at offset 8: a string that is not valid UTF-16 (illegal UTF-16 surrogate)",
         ),
         (
             msg.get_message("std_msgs/msg/Empty"),

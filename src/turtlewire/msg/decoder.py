@@ -25,6 +25,7 @@ from turtlewire.msg.types import (
     NamespacedType,
 )
 from turtlewire.msg.values import element_code, numpy_name
+from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -62,7 +63,11 @@ class _Decoder:
         self.order = order
         self.lines: list[str] = []
         self.indent = " "
-        self.environment: dict[str, Any] = {"new": object.__new__, "numbers": numbers}
+        self.environment: dict[str, Any] = {
+            "new": object.__new__,
+            "numbers": numbers,
+            "text_of_units": text_of_units,
+        }
         self.names = 0
         self.modulus = 8
         self.remainder = 0
@@ -121,9 +126,8 @@ class _Decoder:
 
     def wide_text(self, type_: AbstractWString, target: str) -> None:
         size = self.length(type_)
-        self.bounded_end(f"{size} * 4")
-        codec = "utf-32-le" if self.order == "<" else "utf-32-be"
-        self.line(f"{target} = data[{self.position()}:end].decode({codec!r})")
+        self.bounded_end(f"{size} * {UNIT_SIZE}")
+        self.line(f"{target} = text_of_units(data[{self.position()}:end], {self.order!r})")
         self.jump("end", 4)
 
     def sequence(self, type_: AbstractSequence, target: str) -> None:

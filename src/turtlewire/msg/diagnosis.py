@@ -22,6 +22,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
+from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units, units_of_text
 
 if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
@@ -90,18 +91,18 @@ class _ByteWalk:
         narrow = isinstance(type_, AbstractString)
         size = self.length(type_, path, extra=int(narrow))
         start = self.offset
-        content = self.take(size if narrow else size * 4, 1, path)
+        content = self.take(size if narrow else size * UNIT_SIZE, 1, path)
         if narrow and content:
             if content[-1]:
                 raise self.fault(path, start, "a string without its terminating zero byte")
             content = content[:-1]
         try:
-            content.decode("utf-8" if narrow else f"utf-32-{'le' if self.order == '<' else 'be'}")
+            content.decode() if narrow else text_of_units(content, self.order)
         except UnicodeDecodeError as fault:
             raise self.fault(
                 path,
                 start,
-                f"a string that is not valid {'UTF-8' if narrow else 'UTF-32'} ({fault.reason})",
+                f"a string that is not valid {'UTF-8' if narrow else 'UTF-16'} ({fault.reason})",
             ) from None
 
     def length(self, type_: AbstractType, path: str, extra: int = 0) -> int:
@@ -177,13 +178,15 @@ class _ValueWalk:
             raise self.fault(path, "str", value)
         narrow = isinstance(type_, AbstractString)
         try:
-            size = len(value.encode()) if narrow else len(value.encode("utf-32-le")) // 4
+            size = len(value.encode()) if narrow else len(units_of_text(value)) // UNIT_SIZE
         except UnicodeEncodeError:
             raise self.fault(path, "str that can be encoded (no lone surrogates)", value) from None
         limit = getattr(type_, "maximum_size", None)
         if limit is not None and size > limit:
             raise self.fault(
-                path, f"at most {limit} {'bytes of UTF-8' if narrow else 'characters'}", value
+                path,
+                f"at most {limit} {'bytes of UTF-8' if narrow else 'UTF-16 code units'}",
+                value,
             )
 
     def values(self, type_: AbstractNestedType, value: Any, path: str) -> None:

@@ -26,6 +26,7 @@ from turtlewire.msg.types import (
     NamespacedType,
 )
 from turtlewire.msg.values import element_code
+from turtlewire.msg.wide_text import UNIT_SIZE, units_of_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -131,6 +132,7 @@ class _Encoder:
             "byte_string": byte_string,
             "array_bytes": array_bytes,
             "swapped": swapped,
+            "units_of_text": units_of_text,
             "HEADER": HEADER,
         }
         self.names = 0
@@ -193,11 +195,11 @@ class _Encoder:
 
     def text(self, type_: AbstractString | AbstractWString, value: str) -> None:
         wide = isinstance(type_, AbstractWString)
-        text = self.local(f"{value}.encode('utf-32-le')" if wide else f"{value}.encode()")
+        text = self.local(f"units_of_text({value})" if wide else f"{value}.encode()")
         if type_.has_maximum_size():
-            limit = type_.maximum_size * (4 if wide else 1)  # type: ignore[union-attr]
+            limit = type_.maximum_size * (UNIT_SIZE if wide else 1)  # type: ignore[union-attr]
             self.line(f"if len({text}) > {limit}: raise ValueError")
-        self.number("I", f"len({text}) // 4" if wide else f"len({text}) + 1")
+        self.number("I", f"len({text}) // {UNIT_SIZE}" if wide else f"len({text}) + 1")
         self.flush()
         self.append(text)
         self.forget_down_to(4 if wide else 1)
