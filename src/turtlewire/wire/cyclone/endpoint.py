@@ -24,6 +24,7 @@ __all__ = [
     "Endpoint",
     "EndpointSpec",
     "StatusSource",
+    "matched_handles",
     "read_count",
     "read_incompatible",
     "read_liveliness_changed",
@@ -174,3 +175,15 @@ def read_liveliness_changed(status: dds.LivelinessChangedStatus) -> EventStatus:
         status.alive_count,
         status.alive_count_change,
     )
+
+
+def matched_handles(handle: int, list_matched: Callable[..., int]) -> list[int]:
+    """Cyclone's handles of the readers or writers that match."""
+    count = list_matched(handle, None, 0)
+    while count > 0:
+        found = (ctypes.c_uint64 * count)()
+        total = list_matched(handle, found, count)
+        if total <= count:
+            return list(found[: max(total, 0)])
+        count = total  # one more came in between
+    return []

@@ -38,7 +38,6 @@ __all__ = ["CycloneGraph"]
 S = TypeVar("S", bound=ctypes.Structure)
 
 _BATCH = 64
-_EVERYTHING = 1_000_000
 
 
 class _Endpoint(NamedTuple):
@@ -119,11 +118,11 @@ class CycloneGraph(GraphView):
         the last words of one that has gone do not bring its nodes back.
         """
         with self._lock:
-            infos = self._infos.take(limit=_EVERYTHING)
+            infos = self._infos.take_bytes()
             self._update_participants()
             self._update_endpoints("publisher", self._publications)
             self._update_endpoints("subscription", self._subscriptions)
-            for cdr, _ in infos:
+            for cdr in infos:
                 self._update_nodes(cdr)
 
     def _update_participants(self) -> None:

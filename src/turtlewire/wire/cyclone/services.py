@@ -13,6 +13,7 @@ from turtlewire.wire.report import warn_once
 from turtlewire.wire.services import TopicClient, TopicService, join_header, split_header
 
 from . import library as dds
+from .endpoint import matched_handles
 from .qos import read_user_data
 
 if TYPE_CHECKING:
@@ -175,7 +176,7 @@ def _matched_ids(
 ) -> set[str | None]:
     """The ``clientid`` or ``serviceid`` of all endpoints that match; None stands for those that say none."""
     ids: set[str | None] = set()
-    for instance in _matched_handles(handle, list_matched):
+    for instance in matched_handles(handle, list_matched):
         endpoint = read_matched(handle, instance)
         if endpoint:
             try:
@@ -183,14 +184,3 @@ def _matched_ids(
             finally:
                 dds.free_endpoint(endpoint)
     return ids
-
-
-def _matched_handles(handle: int, list_matched: Callable[..., int]) -> list[int]:
-    count = list_matched(handle, None, 0)
-    while count > 0:
-        found = (ctypes.c_uint64 * count)()
-        total = list_matched(handle, found, count)
-        if total <= count:
-            return list(found[: max(total, 0)])
-        count = total  # one more came in between
-    return []

@@ -15,6 +15,7 @@ from .endpoint import (
     Endpoint,
     EndpointSpec,
     StatusSource,
+    matched_handles,
     read_count,
     read_incompatible,
     read_liveliness_changed,
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to"]
 
 _BATCH = 32
-_KNOWN_PUBLISHERS = 1000
+_EVERYTHING = 1_000_000
 
 
 class CycloneSubscription(Endpoint, Subscription):
@@ -81,6 +82,8 @@ class CycloneSubscription(Endpoint, Subscription):
         self._condition = 0
         self._gids: dict[int, bytes] = {}
         self._user_data: dict[bytes, bytes] = {}
+        self._forget = False
+        self.on_matched.append(self._publishers_changed)
         topic = participant.topic(spec.dds_topic, spec.type_id.name)
         self.inlet = None if intake is None else Inlet(participant.handle, intake)
         listener = None if self.inlet is None else self.inlet.listener
@@ -101,7 +104,13 @@ class CycloneSubscription(Endpoint, Subscription):
     def take(self, limit: int = _BATCH) -> list[tuple[bytes, MessageInfo]]:
         """See :meth:`Subscription.take`."""
         with self._lock:
-            return [] if self._closed else self._messages_of(take_messages(self.handle, limit))
+            if self._closed:
+                return []
+            taken = take_messages(self.handle, limit)
+            messages = self._messages_of(taken)
+            if self._forget and len(taken) < limit:  # with more to come, their senders are needed
+                self._forget_publishers({publisher for _, publisher, _ in taken})
+            return messages
 
     def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
         """What an intake kept back, readable or not; None when that was nothing. Their publishers are introduced to the intake."""
@@ -110,6 +119,8 @@ class CycloneSubscription(Endpoint, Subscription):
         for _, publisher, _ in kept:
             if publisher in self._gids:
                 inlet.intake.introduce(publisher, self._gids[publisher])
+        if self._forget and not kept:
+            self._forget_publishers(set())
         return messages if kept else None
 
     def _messages_of(self, taken: list[tuple[bytes, int, int]]) -> list[tuple[bytes, MessageInfo]]:
@@ -121,6 +132,20 @@ class CycloneSubscription(Endpoint, Subscription):
             if data[:2] == LITTLE_ENDIAN or self._refuse(data)
         ]
 
+    def take_bytes(self) -> list[bytes]:
+        """All waiting messages, readable or not, if it does not matter who sent them."""
+        return [data for data, _, _ in take_messages(self.handle, _EVERYTHING)]
+
+    def _publishers_changed(self) -> None:
+        self._forget = True
+
+    def _forget_publishers(self, senders: set[int]) -> None:
+        """Forget the publishers that have left, but for the ``senders`` of the messages just taken."""
+        self._forget = False
+        there = senders.union(matched_handles(self.handle, dds.matched_publications))
+        for publisher in self._gids.keys() - there:
+            self._user_data.pop(self._gids.pop(publisher), None)
+
     def _gid_of(self, publisher: int) -> bytes:
         endpoint = dds.matched_publication_data(self.handle, publisher)
         if not endpoint:  # it has gone already
@@ -130,9 +155,6 @@ class CycloneSubscription(Endpoint, Subscription):
             user_data = read_user_data(endpoint.contents.qos)
         finally:
             dds.free_endpoint(endpoint)
-        if len(self._gids) >= _KNOWN_PUBLISHERS:
-            self._gids.clear()
-            self._user_data.clear()
         self._gids[publisher] = gid
         self._user_data[gid] = user_data
         self._compare_types(parse_user_data(user_data).get("typehash", ""))
