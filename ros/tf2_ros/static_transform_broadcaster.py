@@ -29,13 +29,17 @@ class _Kept:
     """What one publisher keeps for late joiners."""
 
     def __init__(self, publisher: Publisher) -> None:
-        self._publisher = ref(
-            publisher
-        )  # its node owns it; whoever comes to replace a transform must not keep it alive
+        # Its node owns it: a broadcaster that replaces a transform later must not keep it alive.
+        self._publisher = ref(publisher)
         self.transforms: dict[str, TransformStamped] = {}
 
+    @property
+    def gone(self) -> bool:
+        """Whether nothing refers to the publisher any more."""
+        return self._publisher() is None
+
     def publish(self) -> None:
-        """Send all of it in one message; a publisher that is gone keeps nothing any more."""
+        """Send all of it in one message, unless the publisher is gone or destroyed."""
         publisher = self._publisher()
         if publisher is not None:
             with suppress(InvalidHandle):
@@ -77,6 +81,8 @@ class StaticTransformBroadcaster:
             self._keepers = _keepers.setdefault(node.context, {}).setdefault(
                 self.pub_tf.topic_name, {}
             )
+            for child in [child for child, kept in self._keepers.items() if kept.gone]:
+                del self._keepers[child]
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
         """Publish one or several transforms, each the pose of ``child_frame_id`` in ``header.frame_id``.
