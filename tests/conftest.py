@@ -10,12 +10,9 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-import shutil
 import signal
-import socket
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import uuid
@@ -25,34 +22,10 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-reservations = []
+from turtlewire.testing import isolated_domain, reserved_domain
 
-
-def free_domain():
-    """A domain in which no process of this computer listens.
-
-    Up to 101, its ports stay clear of those that systems hand out. Until this process ends, no other test process takes it: a
-    TCP port that DDS does not use stands for the domain.
-    """
-    for offset in range(101):
-        domain = 1 + (os.getpid() + offset) % 101
-        reservation = socket.socket()
-        with (
-            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe,
-            contextlib.suppress(OSError),
-        ):
-            probe.bind(("", 7410 + 250 * domain))
-            reservation.bind(("127.0.0.1", 7410 + 250 * domain))
-            reservations.append(reservation)
-            return str(domain)
-        reservation.close()
-    raise RuntimeError("all ROS domains from 1 to 101 are in use on this computer")
-
-
-os.environ["ROS_DOMAIN_ID"] = free_domain()
-os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="turtlewire-test-log-")
-os.environ.pop("RMW_IMPLEMENTATION", None)
+for_this_run = contextlib.ExitStack()
+for_this_run.enter_context(isolated_domain())
 if find_spec("turtlewire._native") is None:  # each child process would say that it is not built
     os.environ.setdefault("TURTLEWIRE_CORE", "python")
 
@@ -67,9 +40,7 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 
 def pytest_unconfigure():
     """Leave nothing behind."""
-    shutil.rmtree(os.environ["ROS_LOG_DIR"], ignore_errors=True)
-    for reservation in reservations:
-        reservation.close()
+    for_this_run.close()
 
 
 # The same examples in each run: what fails is due to the change at hand. `scripts/test
@@ -174,7 +145,8 @@ class Program:
 @pytest.fixture
 def other_domain():
     """The number of a domain that is not the one of this process, and in which nobody is."""
-    return int(free_domain())
+    with reserved_domain() as domain:
+        yield domain
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import random
 
 import pytest
@@ -193,3 +194,17 @@ def test_a_destroyed_broadcaster_says_so(node, stamped):
     node.destroy_node()
     with pytest.raises(Exception, match="destruction was requested"):
         broadcaster.sendTransform(stamped())
+
+
+def test_broadcasters_that_are_gone_leave_nothing_behind(context, node, stamped):
+    """A process whose nodes come and go with ever new frames does not grow."""
+    staying = StaticTransformBroadcaster(node)
+    staying.sendTransform(stamped(child="staying"))
+    for number in range(20):
+        passing = Node(f"passing{number}", context=context)
+        StaticTransformBroadcaster(passing).sendTransform(stamped(child=f"frame{number}"))
+        passing.destroy_node()
+        del passing
+        gc.collect()
+    StaticTransformBroadcaster(node)
+    assert list(staying._keepers) == ["staying"]

@@ -1,0 +1,299 @@
+"""What scripts/soak does once .venv is there: lets a robot's processes run while others come and go, and measures them."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import signal
+import statistics
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import IO, NamedTuple
+
+from soak_actors import BROADCASTERS
+
+from turtlewire import wire
+from turtlewire.testing import isolated_domain
+
+ACTORS = Path(__file__).with_name("soak_actors.py")
+BIN = Path(sys.executable).parent
+VISITS_PER_MINUTE = 60
+MOST_VISITORS = 12  # at a time: a slow machine gets fewer, and the table says how many
+KILLED = 3  # one of so many visitors
+SAMPLES = 60
+#: What a process may grow by between the middle and the last third of the run: the allocator's
+#: noise, and Cyclone's receive buffer, a block of 1 MB that packets fill before the next is taken.
+MEMORY_LIMIT = 2 << 20
+START_LIMIT_S = 120
+END_LIMIT_S = 60
+
+
+class Sample(NamedTuple):
+    """What a process holds at a moment."""
+
+    memory: int
+    descriptors: int
+    threads: int
+
+
+class Resident:
+    """A process that stays, and its samples."""
+
+    def __init__(self, name: str, *command: str | Path, log: IO[str]) -> None:
+        self.name = name
+        self.samples: list[Sample] = []
+        self.process = subprocess.Popen(
+            [str(word) for word in command], stdout=subprocess.DEVNULL, stderr=log
+        )
+
+    def sample(self) -> None:
+        """Note what it holds now; nothing of one that has ended."""
+        folder = Path(f"/proc/{self.process.pid}")
+        try:
+            pages = int((folder / "statm").read_text().split()[1])
+            descriptors = len(list((folder / "fd").iterdir()))
+            threads = len(list((folder / "task").iterdir()))
+        except (OSError, IndexError):
+            return
+        self.samples.append(Sample(pages * os.sysconf("SC_PAGE_SIZE"), descriptors, threads))
+
+    def ends_within(self, seconds: float) -> bool:
+        """Whether it ends in that time by itself; it is killed otherwise."""
+        try:
+            self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+            return False
+        return True
+
+    def faults(self) -> list[str]:
+        """What is wrong with it at the end of the run."""
+        if self.process.poll() is not None:
+            return [f"ended with status {self.process.returncode}"]
+        middle, last = self.thirds()[1:]
+        found = []
+        if last.memory - middle.memory > MEMORY_LIMIT:
+            found.append(f"grew by {(last.memory - middle.memory) / 2**20:.1f} MB")
+        for what in ("descriptors", "threads"):
+            before, after = getattr(middle, what), getattr(last, what)
+            if after > before:
+                found.append(f"{what}: {before} became {after}")
+        return found
+
+    def thirds(self) -> list[Sample]:
+        """For each third of the run the median of memory, and the fewest descriptors and threads.
+
+        Visitors that are there at the moment have theirs; what stays is in the minimum.
+        """
+        size = max(1, len(self.samples) // 3)
+        parts = [self.samples[:size], self.samples[size:-size], self.samples[-size:]]
+        return [
+            Sample(
+                int(statistics.median(sample.memory for sample in part)),
+                min(sample.descriptors for sample in part),
+                min(sample.threads for sample in part),
+            )
+            for part in parts
+        ]
+
+
+class Visitors:
+    """Processes that come and go, on a thread of their own; one of three is killed."""
+
+    def __init__(self, page: str, seconds: float, log: IO[str]) -> None:
+        self.come = self.killed = 0
+        self.failures: list[str] = []
+        self._page = page
+        self._seconds = seconds
+        self._log = log
+        self._stop = threading.Event()
+        self._seats = threading.Semaphore(MOST_VISITORS)
+        self._random = random.Random(1)  # the same visits in each run
+        self._visits: list[threading.Thread] = []
+        self._thread = threading.Thread(target=self._run)
+
+    def __enter__(self) -> Visitors:  # noqa: PYI034 -- typing.Self comes with Python 3.11
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stop.set()
+        self._thread.join()
+        for visit in self._visits:
+            visit.join()
+
+    def _run(self) -> None:
+        started = time.monotonic()
+        for number in range(round(self._seconds * VISITS_PER_MINUTE / 60)):
+            due = started + number * 60 / VISITS_PER_MINUTE
+            self._seats.acquire()
+            if self._stop.wait(max(0.0, due - time.monotonic())):
+                return
+            self.come += 1
+            lifetime = self._random.uniform(0.2, 2.0) if number % KILLED == 0 else None
+            visit = threading.Thread(target=self._visit, args=(number, lifetime))
+            self._visits.append(visit)
+            visit.start()
+
+    def _visit(self, number: int, lifetime: float | None) -> None:
+        """Run one to its end, or kill it after its lifetime."""
+        process = subprocess.Popen(
+            self._command(number), stdout=subprocess.DEVNULL, stderr=self._log
+        )
+        try:
+            status = process.wait(START_LIMIT_S if lifetime is None else lifetime)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            if lifetime is None:
+                self.failures.append(f"visitor {number} did not end")
+            else:
+                self.killed += 1
+        else:
+            if status:
+                self.failures.append(f"visitor {number} ended with status {status}")
+        self._seats.release()
+
+    def _command(self, number: int) -> list[str]:
+        kinds = {
+            "visiting_listener": str(number),
+            "visiting_node": str(number),
+            "visiting_page": self._page,
+        }
+        if number % 10 == 9:
+            return [str(BIN / "ros2"), "topic", "list"]
+        kind = list(kinds)[number // KILLED % len(kinds)]
+        return [sys.executable, str(ACTORS), kind, kinds[kind]]
+
+
+def main() -> int:
+    """Run the soak; the exit status."""
+    parser = argparse.ArgumentParser(prog="scripts/soak", description=__doc__)
+    parser.add_argument("--minutes", type=float, default=15.0, help="default: %(default)s")
+    arguments = parser.parse_args()
+    if not sys.platform.startswith("linux"):
+        parser.error("needs /proc, which only Linux has")
+    if not 0.5 <= arguments.minutes <= 10_000:
+        parser.error(f"--minutes is between 0.5 and 10000, got {arguments.minutes:g}")
+    log_path = BIN.parent / "log" / f"soak-{os.getpid()}.txt"
+    log_path.parent.mkdir(exist_ok=True)
+    print(
+        f"[soak] {arguments.minutes:g} minutes; what the processes say goes to {log_path}",
+        flush=True,
+    )
+    with isolated_domain(), log_path.open("w") as log:
+        return soak(arguments.minutes * 60, log, log_path)
+
+
+def soak(seconds: float, log: IO[str], log_path: Path) -> int:
+    """Run everything for so many seconds, and judge it."""
+    residents: list[Resident] = []
+    faults: list[str] = []
+    try:
+        page = start_residents(residents, log, log_path)
+        with Visitors(page, seconds, log) as visitors:
+            watch(residents, seconds)
+        report(residents, visitors)
+        faults += [f"{each.name} {fault}" for each in residents for fault in each.faults()]
+        faults += visitors.failures
+    finally:
+        faults += stop(residents)
+    for fault in faults:
+        print(f"[soak] FAULT: {fault}")
+    print(f"[soak] {'failed' if faults else 'passed'}")
+    return 1 if faults else 0
+
+
+def start_residents(residents: list[Resident], log: IO[str], log_path: Path) -> str:
+    """Start what stays; the page's address."""
+    os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "PYTHONUNBUFFERED": "1"}
+    # Not with `ros2 run`, which would be the process that is measured.
+    node = ("-c", "from turtlesim.turtlesim_node import main; main()")
+    residents.append(Resident("turtlesim_node", sys.executable, *node, log=log))
+    page = wait_for_page(residents[0], log_path)
+    residents += [actor("broadcaster", name, log) for name in BROADCASTERS]
+    residents += [actor(name, "", log) for name in ("listener", "watcher", "server", "client")]
+    residents.append(actor("viewer", page, log))
+    wait_for_nodes({f"broadcaster_{name}" for name in BROADCASTERS} | {"listener", "client"})
+    return page
+
+
+def wait_for_nodes(names: set[str]) -> None:
+    """Block until the graph has nodes of these names."""
+    context = wire.open_context()
+    try:
+        graph = context.graph
+        if not graph.wait_for(
+            lambda: names <= {node.name for node in graph.nodes()}, START_LIMIT_S * 10**9
+        ):
+            raise SystemExit(f"[soak] not all of {', '.join(sorted(names))} started")
+    finally:
+        context.close()
+
+
+def actor(name: str, argument: str, log: IO[str]) -> Resident:
+    """A resident of soak_actors.py."""
+    label = f"{name} {argument}" if name == "broadcaster" else name
+    return Resident(label, sys.executable, ACTORS, name, argument, log=log)
+
+
+def wait_for_page(simulator: Resident, log_path: Path) -> str:
+    """The address that the simulator logs."""
+    import re
+
+    end = time.monotonic() + START_LIMIT_S
+    while time.monotonic() < end and simulator.process.poll() is None:
+        match = re.search(r"http://127\.0\.0\.1:\d+/", log_path.read_text())
+        if match:
+            return match[0]
+        time.sleep(0.2)  # a file does not tell when it grows
+    raise SystemExit(f"[soak] the simulator did not start: see {log_path}")
+
+
+def watch(residents: list[Resident], seconds: float) -> None:
+    """Sample all residents until the time is over; ends early when one of them has ended."""
+    for number in range(SAMPLES):
+        time.sleep(seconds / SAMPLES)
+        for resident in residents:
+            resident.sample()
+        ended = [resident.name for resident in residents if resident.process.poll() is not None]
+        if ended:
+            print(f"[soak] ended too early: {', '.join(ended)}")
+            return
+        if number % (SAMPLES // 6) == SAMPLES // 6 - 1:
+            print(f"[soak] {(number + 1) * seconds / SAMPLES / 60:.1f} min", flush=True)
+
+
+def report(residents: list[Resident], visitors: Visitors) -> None:
+    """Print the table: medians of the thirds of the run."""
+    print(f"\n{'process':20} {'memory [MB], by thirds':>24} {'descriptors':>15} {'threads':>15}")
+    for resident in residents:
+        if len(resident.samples) < 3:
+            continue
+        thirds = resident.thirds()
+        memory = " ".join(f"{third.memory / 2**20:7.2f}" for third in thirds)
+        descriptors = " ".join(f"{third.descriptors:4}" for third in thirds)
+        threads = " ".join(f"{third.threads:4}" for third in thirds)
+        print(f"{resident.name:20} {memory:>24} {descriptors:>15} {threads:>15}")
+    print(f"\nvisitors: {visitors.come}, of them killed: {visitors.killed}\n")
+
+
+def stop(residents: list[Resident]) -> list[str]:
+    """Interrupt all residents; which of them did not end as they should."""
+    for resident in residents:
+        if resident.process.poll() is None:
+            resident.process.send_signal(signal.SIGINT)
+    return [
+        f"{resident.name} did not end after SIGINT"
+        for resident in residents
+        if not resident.ends_within(END_LIMIT_S)
+    ]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
