@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import TYPE_CHECKING, Protocol
 
 from .entity import Entity, Work
@@ -40,10 +41,18 @@ class BackgroundEvents(Entity):
     def __init__(self, arrivals: Arrivals) -> None:
         super().__init__(None)
         self._arrivals = arrivals
+        report = weakref.WeakMethod(self._report)  # what is called later keeps no node alive
+
+        def report_if_alive() -> None:
+            method = report()
+            if method is not None:
+                method()
+
+        self._call = report_if_alive
 
     def expect(self) -> None:
         """Report the next message to the executor, at once if one came already."""
-        if self._arrivals.expect_message(self._report):
+        if self._arrivals.expect_message(self._call):
             self._report()
 
     def _report(self) -> None:

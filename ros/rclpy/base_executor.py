@@ -79,6 +79,7 @@ class Executor:
         self._is_shutdown = False
         self._in_spin = False
         self._context.on_shutdown(self.wake)
+        self._context.note_executor(self)
 
     @property
     def context(self) -> Context:
@@ -116,11 +117,10 @@ class Executor:
         with self._lock:
             if node in self._nodes:
                 return False
-            self._nodes[node] = self._nodes_made
+            index = self._nodes[node] = self._nodes_made
             self._nodes_made += 1
         node.executor = self
-        for entity in node._rclpy_endpoints.entities():
-            self._attach(entity, node)
+        node._rclpy_endpoints.attach(self, index)
         return True
 
     def remove_node(self, node: Node) -> None:
@@ -128,20 +128,13 @@ class Executor:
         with self._lock:
             if self._nodes.pop(node, None) is None:
                 return
-        for entity in node._rclpy_endpoints.entities():
-            self._detach(entity)
+        node._rclpy_endpoints.detach(self)
         node.executor = None
 
     def get_nodes(self) -> list[Node]:
         """The nodes that it serves."""
         with self._lock:
             return list(self._nodes)
-
-    def _attach(self, entity: Entity, node: Node) -> None:
-        """Serve an entity of ``node``; nothing happens when the node is not here, or the entity is."""
-        index = self._nodes.get(node)
-        if index is not None:
-            self._adopt(entity, index)
 
     def _adopt(self, entity: Entity, node_index: int = -1) -> None:
         """Serve an entity of the node with this number; those of no node come before all others."""
@@ -151,7 +144,7 @@ class Executor:
             self._entities_made += 1
             entity._rank = (node_index, entity._ORDER, self._entities_made)
             entity._executor = weakref.ref(self)
-            entity._attach(self)
+            self._listen_to(entity, entity._attach)
 
     def _detach(self, entity: Entity) -> None:
         """Serve an entity no longer."""
@@ -421,12 +414,16 @@ class Executor:
                 return
             self._paused.discard(entity)
             self._self_waits.goes_on(entity)
-            try:
-                entity._resume(self)
-            except WireError:
-                if self._context.ok():  # else it was closed by the shutdown
-                    raise
+            self._listen_to(entity, entity._resume)
         self.wake()
+
+    def _listen_to(self, entity: Entity, attach: Callable[[Executor], None]) -> None:
+        """Attach an entity, which another thread or a shutdown may destroy at this moment."""
+        try:
+            attach(self)
+        except WireError:
+            if self._context.ok() and not entity._destroyed:
+                raise
 
     # Running
 

@@ -9,7 +9,7 @@ from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
 from ._rclpy_pybind11 import RCLError
-from .hints import described, with_hint
+from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 from .wait_for_response import wait_for_response
@@ -17,10 +17,9 @@ from .wait_for_response import wait_for_response
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
+    from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
-    from .context import Context
     from .entity import Work
-    from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
 
 __all__ = ["Client"]
@@ -51,22 +50,14 @@ class Client(IntrospectedEndpoint):
         srv_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
-        context: Context,
-        logger: RcutilsLogger,
-        wire_node: base.Node,
+        core: NodeCore,
     ) -> None:
-        super().__init__(wire, wire_node, srv_type, callback_group)
+        super().__init__(wire, core, srv_type, callback_group)
         self.srv_name = srv_name
         self.qos_profile = qos_profile
-        self._context = context
-        self._logger = logger
+        self._context = core.context
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
-
-    @property
-    def logger_name(self) -> str:
-        """Name of the logger of its node."""
-        return self._logger.name
 
     def call_async(self, request: Any) -> Future:
         """Send a request.
@@ -80,8 +71,10 @@ class Client(IntrospectedEndpoint):
         """
         self._check_usable()
         if not isinstance(request, self.srv_type.Request):
-            hint = f"A request of service '{self._wire.service}' is a {self.srv_type.__name__}.Request(), not {described(request)}"
-            raise with_hint(TypeError(), hint)
+            raise TypeError(
+                f"A request of service '{self._wire.service}' is a "
+                f"{self.srv_type.__name__}.Request(), not {described(request)}"
+            )
         future = Future()
         with self._lock:  # the response may be faster than we are: it has to find the future
             sequence_number = self._send(serialize(request))

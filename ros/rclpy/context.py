@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from .arguments import Arguments
+    from .base_executor import Executor
 
 __all__ = ["Context"]
 
@@ -44,6 +45,7 @@ class Context:
         self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
         self._waits: set[threading.Event] = set()
+        self._executors: weakref.WeakSet[Executor] = weakref.WeakSet()
 
     def init(
         self,
@@ -87,6 +89,14 @@ class Context:
                 from . import logging
 
                 logging.configure(self._arguments)
+
+    def note_executor(self, executor: Executor) -> None:
+        """Have :meth:`executors` name it while it exists."""
+        self._executors.add(executor)
+
+    def executors(self) -> list[Executor]:
+        """All executors of this context."""
+        return list(self._executors)
 
     def ok(self) -> bool:
         """Whether it is initialized and has not been shut down."""

@@ -40,7 +40,7 @@ def note_signal() -> None:
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
     if hasattr(sys, "ps1"):  # at a prompt, the traceback says what was interrupted
         _previous_hook(kind, value, traceback)
-    elif _is_of_the_command_line(traceback):
+    elif getattr(value, "is_of_command_line", False) or _is_of_the_command_line(traceback):
         _previous_hook(kind, value.with_traceback(None), None)
     elif not issubclass(kind, KeyboardInterrupt):
         _previous_hook(kind, value, traceback)

@@ -137,7 +137,14 @@ class InvalidParameterException(ParameterException):
 
 
 class InvalidParameterTypeException(ParameterException):
-    """A value has another type than its parameter was declared with."""
+    """A value has another type than its parameter was declared with.
+
+    Attributes:
+        is_of_command_line: Whether the user typed the value: then the program is not at fault, and
+            needs no traceback.
+    """
+
+    is_of_command_line = False
 
     def __init__(self, desired_parameter: Parameter, expected_type: str) -> None:
         # One line with all facts, unlike the base's "text: name".

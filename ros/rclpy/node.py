@@ -17,21 +17,20 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
 
-from ._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
+from ._node.core import NodeCore
+from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client
 from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from .guard_condition import GuardCondition
 from .handle import Handle
 from .hints import with_hint
-from .logging import get_logger
-from .node_endpoints import NodeEndpoints
+from .node_endpoints import NodeEndpoints, QosOverrides
 from .node_graph import NodeGraph
 from .parameter_service import ParameterService
 from .parameters import NodeParameters
 from .publisher import Publisher
 from .qos import qos_profile_parameter_events, qos_profile_services_default
-from .rosout import RosoutPublisher
 from .service import Service
 from .subscription import Subscription
 from .time_source import TimeSource
@@ -125,23 +124,19 @@ class Node:
         enable_logger_service: bool = False,
     ) -> None:
         self.__executor: weakref.ref[Executor] | None = None
-        self.__destroyed = False
         self._context = _usable_context(context)
-        self.__arguments = _arguments(
-            self._context, cli_args, use_global_arguments=use_global_arguments
+        arguments = _arguments(self._context, cli_args, use_global_arguments=use_global_arguments)
+        name, namespace = _names(node_name, namespace or "/", arguments)
+        self.__core = core = NodeCore(
+            self._context, name, namespace, arguments, enable_rosout=enable_rosout
         )
-        self.__name, self.__namespace = _names(node_name, namespace or "/", self.__arguments)
-        self.__wire = self._context.wire.create_node(
-            self.__name, self.__namespace, self.__arguments.enclave
-        )
-        self._logger = get_logger(self.get_fully_qualified_name()[1:].replace("/", "."))
+        self._logger = core.logger
         self._clock = ROSClock()
-        self._rclpy_endpoints = NodeEndpoints(self, self.__arguments)
-        self.__graph = NodeGraph(self)
-        self.__rosout = RosoutPublisher(self.__wire, self._logger.name) if enable_rosout else None
+        self._rclpy_endpoints = NodeEndpoints(core)
+        self.__graph = NodeGraph(core, self._rclpy_endpoints)
         self._parameters = NodeParameters(
-            node_fqn=self.get_fully_qualified_name(),
-            overrides=self.__arguments.parameter_overrides(self.get_fully_qualified_name()),
+            node_fqn=core.full_name,
+            overrides=arguments.parameter_overrides(core.full_name),
             constructor_overrides=parameter_overrides,
             allow_undeclared=allow_undeclared_parameters,
             now=self._clock.now,
@@ -162,7 +157,7 @@ class Node:
     def __parameter_event_publisher(self) -> Publisher:
         from rcl_interfaces.msg import ParameterEvent
 
-        return self.create_publisher(
+        return self._rclpy_endpoints.create_publisher(
             ParameterEvent, "/parameter_events", qos_profile_parameter_events
         )
 
@@ -170,15 +165,15 @@ class Node:
 
     def get_name(self) -> str:
         """Base name, after remapping."""
-        return self.__name
+        return self.__core.name
 
     def get_namespace(self) -> str:
         """Namespace, after remapping."""
-        return self.__namespace
+        return self.__core.namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name, for example ``/robot1/camera``."""
-        return names.fully_qualified_node_name(self.__name, self.__namespace)
+        return self.__core.full_name
 
     def get_clock(self) -> Clock:
         """Its clock: ROS time, which follows ``/clock`` when the parameter ``use_sim_time`` is true."""
@@ -196,9 +191,7 @@ class Node:
     @property
     def _rclpy_wire(self) -> base.Node:
         """The middleware's side of it; raises ``InvalidHandle`` after :meth:`destroy_node`."""
-        if self.__destroyed:
-            raise InvalidHandle("cannot use Destroyable because destruction was requested")
-        return self.__wire
+        return self.__core.wire
 
     @property
     def handle(self) -> Handle:
@@ -315,8 +308,8 @@ class Node:
             qos_profile,
             callback_group,
             event_callbacks,
-            qos_overriding_options,
             publisher_class,
+            QosOverrides(qos_overriding_options, self._parameters),
         )
 
     def create_subscription(
@@ -361,8 +354,8 @@ class Node:
             qos_profile,
             callback_group,
             event_callbacks,
-            qos_overriding_options,
             raw,
+            QosOverrides(qos_overriding_options, self._parameters),
         )
 
     def create_client(
@@ -489,10 +482,7 @@ class Node:
         if executor is not None:
             executor.remove_node(self)
         self._rclpy_endpoints.destroy_all()
-        self.__destroyed = True
-        if self.__rosout is not None:
-            self.__rosout.close()
-        self.__wire.close()
+        self.__core.close()
 
     # Parameters
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any, TypeVar
+import weakref
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from turtlewire.msg import type_name
 from turtlewire.wire import names
@@ -31,16 +32,32 @@ from .type_support import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .arguments import Arguments
+    from ._node.core import NodeCore
+    from .base_executor import Executor
     from .callback_groups import CallbackGroup
     from .clock import Clock
-    from .node import Node
+    from .parameters import NodeParameters
     from .qos_overriding_options import QoSOverridingOptions
     from .waitable import Waitable
 
-__all__ = ["NodeEndpoints"]
+__all__ = ["NodeEndpoints", "QosOverrides"]
 
 _Owned = TypeVar("_Owned")
+
+
+class QosOverrides(NamedTuple):
+    """What parameters may say of an endpoint's quality of service."""
+
+    options: QoSOverridingOptions | None
+    parameters: NodeParameters
+
+    def apply(self, kind: str, profile: QoSProfile, resolve_topic: Callable[[], str]) -> QoSProfile:
+        """The profile with the parameters' values; ``kind`` is publisher or subscription."""
+        if self.options is None:
+            return profile
+        from .qos_overriding_options import overridden_profile
+
+        return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
 
 
 class NodeEndpoints:
@@ -50,9 +67,9 @@ class NodeEndpoints:
         default_callback_group: Of entities that are made without one.
     """
 
-    def __init__(self, node: Node, arguments: Arguments) -> None:
-        self._node = node
-        self._arguments = arguments
+    def __init__(self, core: NodeCore) -> None:
+        self._core = core
+        self._host: tuple[weakref.ref[Executor], int] | None = None
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -77,13 +94,15 @@ class NodeEndpoints:
         msg_type: Any,
         topic: str,
         qos_profile: QoSProfile | int,
-        callback_group: CallbackGroup | None,
-        event_callbacks: PublisherEventCallbacks | None,
-        qos_overriding_options: QoSOverridingOptions | None,
-        publisher_class: type[Publisher],
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        publisher_class: type[Publisher] = Publisher,
+        overrides: QosOverrides | None = None,
     ) -> Publisher:
         """See :meth:`rclpy.node.Node.create_publisher`."""
-        profile = self._overridden("publisher", topic, qos_profile, qos_overriding_options)
+        profile = validate_qos(qos_profile)
+        if overrides is not None:
+            profile = overrides.apply("publisher", profile, lambda: self.resolve_topic(topic))
         publisher = self.make_publisher(msg_type, topic, profile, publisher_class)
         self._own_events(publisher, event_callbacks or PublisherEventCallbacks(), callback_group)
         return self._own(Publisher, publisher)
@@ -100,10 +119,10 @@ class NodeEndpoints:
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         self._require_context("publisher")
-        wire = self._node._rclpy_wire.create_publisher(
+        wire = self._core.wire.create_publisher(
             name, type_id(type_name(msg_type)), profile.to_wire()
         )
-        return publisher_class(wire, msg_type, profile, self._node.context)
+        return publisher_class(wire, msg_type, profile, self._core)
 
     def create_subscription(
         self,
@@ -113,11 +132,12 @@ class NodeEndpoints:
         qos_profile: QoSProfile | int,
         callback_group: CallbackGroup | None,
         event_callbacks: SubscriptionEventCallbacks | None,
-        qos_overriding_options: QoSOverridingOptions | None,
         raw: bool,
+        overrides: QosOverrides,
     ) -> Subscription:
         """See :meth:`rclpy.node.Node.create_subscription`."""
-        profile = self._overridden("subscription", topic, qos_profile, qos_overriding_options)
+        profile = validate_qos(qos_profile)
+        profile = overrides.apply("subscription", profile, lambda: self.resolve_topic(topic))
         subscription = self.make_subscription(
             msg_type, topic, callback, profile, callback_group, raw
         )
@@ -140,33 +160,14 @@ class NodeEndpoints:
         profile = validate_qos(qos_profile)
         name = self.resolve_topic(topic)
         self._require_context("subscription")
-        wire = self._node._rclpy_wire.create_subscription(
+        wire = self._core.wire.create_subscription(
             name, type_id(type_name(msg_type)), profile.to_wire()
         )
         group = callback_group or self.default_callback_group
-        return Subscription(wire, msg_type, callback, group, profile, raw, self._node.get_logger())
-
-    def _overridden(
-        self,
-        kind: str,
-        topic: str,
-        qos_profile: QoSProfile | int,
-        options: QoSOverridingOptions | None,
-    ) -> QoSProfile:
-        """The profile with what parameters say, where ``options`` lets them."""
-        profile = validate_qos(qos_profile)
-        if options is None:
-            return profile
-        import copy
-
-        from .qos_overriding_options import declare_qos_parameters
-
-        profile = copy.copy(profile)
-        declare_qos_parameters(kind, self._node, self.resolve_topic(topic), profile, options)
-        return profile
+        return Subscription(wire, msg_type, callback, group, profile, raw, self._core)
 
     def _require_context(self, what: str) -> None:
-        if not self._node.context._is_open():
+        if not self._core.context._is_open():
             raise RCLError(f"could not create {what}: rcl node's context is invalid")
 
     def _own_events(
@@ -179,7 +180,7 @@ class NodeEndpoints:
             callback_group or self.default_callback_group,
             endpoint._wire,
             endpoint.topic,
-            self._node.get_logger(),
+            self._core.logger,
         )
         for handler in endpoint.event_handlers:
             self._own(EventHandler, handler)
@@ -205,7 +206,7 @@ class NodeEndpoints:
         check_is_valid_srv_type(srv_type)
         name = self.resolve_service(srv_name)
         self._require_context("client")
-        wire = self._node._rclpy_wire.create_client(
+        wire = self._core.wire.create_client(
             name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
         )
         group = callback_group or self.default_callback_group
@@ -215,9 +216,7 @@ class NodeEndpoints:
             srv_name,
             qos_profile,
             group,
-            self._node.context,
-            self._node.get_logger(),
-            self._node._rclpy_wire,
+            self._core,
         )
 
     def create_service(
@@ -247,7 +246,7 @@ class NodeEndpoints:
         _check_callable(callback)
         name = self.resolve_service(srv_name)
         self._require_context("service")
-        wire = self._node._rclpy_wire.create_service(
+        wire = self._core.wire.create_service(
             name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
         )
         group = callback_group or self.default_callback_group
@@ -258,8 +257,7 @@ class NodeEndpoints:
             callback,
             group,
             qos_profile,
-            self._node.get_logger(),
-            self._node._rclpy_wire,
+            self._core,
         )
 
     def create_timer(
@@ -278,7 +276,7 @@ class NodeEndpoints:
         return self._own(
             Timer,
             Timer(
-                callback, group, period_ns, clock, context=self._node.context, autostart=autostart
+                callback, group, period_ns, clock, context=self._core.context, autostart=autostart
             ),
         )
 
@@ -290,14 +288,14 @@ class NodeEndpoints:
         timer = self.create_timer(
             1.0 / frequency, None, MutuallyExclusiveCallbackGroup(), clock, autostart=True
         )
-        return Rate(timer, context=self._node.context)
+        return Rate(timer, context=self._core.context)
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None
     ) -> GuardCondition:
         """See :meth:`rclpy.node.Node.create_guard_condition`."""
         group = callback_group or self.default_callback_group
-        return self._own(GuardCondition, GuardCondition(callback, group, self._node.context))
+        return self._own(GuardCondition, GuardCondition(callback, group, self._core.context))
 
     def add_waitable(self, waitable: Waitable) -> None:
         """See :meth:`rclpy.node.Node.add_waitable`."""
@@ -307,7 +305,7 @@ class NodeEndpoints:
 
     def remove_waitable(self, waitable: Waitable) -> None:
         """See :meth:`rclpy.node.Node.remove_waitable`."""
-        executor = self._node.executor
+        executor = waitable._serving_executor()
         if executor is not None:
             executor._detach(waitable)
         self._disown(waitable)
@@ -316,16 +314,43 @@ class NodeEndpoints:
         """Destroy ``resource`` together with the node; it calls ``_on_destroy(itself)`` when it was destroyed before."""
         self._own(type(resource), resource)
 
+    def before_leaving(self, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call()`` called before the node leaves the graph; returns what undoes this.
+
+        Unlike what :meth:`keep` is given, it is called for a node that is garbage collected, too.
+        """
+        self._core.before_leaving[call] = None
+        return lambda: self._core.before_leaving.pop(call, None)
+
     def _own(self, kind: type, owned: _Owned) -> _Owned:
         made: Any = owned
         with self._lock:
             self._owned.setdefault(kind, []).append(owned)
         made._on_destroy = self._disown
-        if isinstance(owned, Entity):
-            executor = self._node.executor
+        host = self._host
+        if host is not None and isinstance(owned, Entity):
+            reference, node_index = host
+            executor = reference()
             if executor is not None:
-                executor._attach(owned, self._node)
+                executor._adopt(owned, node_index)
         return owned
+
+    def attach(self, executor: Executor, node_index: int) -> None:
+        """Have ``executor`` serve the entities, those of the future included.
+
+        Args:
+            executor: What serves them.
+            node_index: Their node's place in the executor's order.
+        """
+        self._host = (weakref.ref(executor), node_index)
+        for entity in self.entities():
+            executor._adopt(entity, node_index)
+
+    def detach(self, executor: Executor) -> None:
+        """Undo :meth:`attach`."""
+        self._host = None
+        for entity in self.entities():
+            executor._detach(entity)
 
     def _disown(self, owned: Any) -> None:
         with self._lock:
@@ -357,9 +382,7 @@ class NodeEndpoints:
         expanded = self._expand(topic, InvalidTopicNameException)
         if only_expand:
             return expanded
-        return self._arguments.remap_topic(
-            expanded, self._node.get_name(), self._node.get_namespace()
-        )
+        return self._core.arguments.remap_topic(expanded, self._core.name, self._core.namespace)
 
     def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a service, remapped unless ``only_expand``.
@@ -370,9 +393,7 @@ class NodeEndpoints:
         expanded = self._expand(service, InvalidServiceNameException)
         if only_expand:
             return expanded
-        return self._arguments.remap_service(
-            expanded, self._node.get_name(), self._node.get_namespace()
-        )
+        return self._core.arguments.remap_service(expanded, self._core.name, self._core.namespace)
 
     def _expand(
         self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]
@@ -383,9 +404,7 @@ class NodeEndpoints:
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
         try:
-            expanded = names.expand_topic_name(
-                name, self._node.get_name(), self._node.get_namespace()
-            )
+            expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
         except ValueError as unknown:
             raise error(name, str(unknown), 0) from None
         fault = names.validate_full_topic_name(expanded)

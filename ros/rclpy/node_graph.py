@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import EndpointInfo, Graph
 
-    from .node import Node
+    from ._node.core import NodeCore
+    from .node_endpoints import NodeEndpoints
     from .topic_endpoint_info import TopicEndpointInfo
 
 __all__ = ["NodeGraph"]
@@ -25,13 +26,14 @@ NamesAndTypes = list[tuple[str, list[str]]]
 class NodeGraph:
     """The graph queries of one node."""
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, core: NodeCore, endpoints: NodeEndpoints) -> None:
+        self._core = core
+        self._endpoints = endpoints
 
     @property
     def _graph(self) -> Graph:
-        _ = self._node._rclpy_wire  # a destroyed node must not be asked
-        return self._node.context.wire.graph
+        _ = self._core.wire  # a destroyed node must not be asked
+        return self._core.context.wire.graph
 
     def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:
         """See :meth:`rclpy.node.Node.get_topic_names_and_types`."""
@@ -125,7 +127,7 @@ class NodeGraph:
         Raises:
             InvalidTopicNameException: The name breaks the rules.
         """
-        name = self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+        name = self._full_name(topic, self._endpoints.resolve_topic, InvalidTopicNameException)
         return sum(
             endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints()
         )
@@ -137,7 +139,7 @@ class NodeGraph:
             InvalidServiceNameException: The name breaks the rules.
         """
         name = self._full_name(
-            service, self._node.resolve_service_name, InvalidServiceNameException
+            service, self._endpoints.resolve_service, InvalidServiceNameException
         )
         wanted = ("subscription" if kind == "service" else "publisher", names.request_topic(name))
         return sum(
@@ -163,7 +165,7 @@ class NodeGraph:
         name = (
             topic
             if no_mangle
-            else self._full_name(topic, self._node.resolve_topic_name, InvalidTopicNameException)
+            else self._full_name(topic, self._endpoints.resolve_topic, InvalidTopicNameException)
         )
         found = []
         for endpoint in self._graph.endpoints():
@@ -191,4 +193,4 @@ class NodeGraph:
             )
 
         timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
-        return self._node.context._wait_for_graph(is_there, timeout_ns)
+        return self._core.context._wait_for_graph(is_there, timeout_ns)

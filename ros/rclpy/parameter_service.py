@@ -51,14 +51,11 @@ class ParameterService:
         return node
 
     def _describe_parameters(self, request: Any, response: Any) -> Any:
-        from rcl_interfaces.msg import ParameterDescriptor
-
         node = self._node()
-        names = request.names
-        response.descriptors = [
-            node.describe_parameter(name) if node.has_parameter(name) else ParameterDescriptor()
-            for name in names
-        ]
+        try:
+            response.descriptors = [node.describe_parameter(name) for name in request.names]
+        except ParameterNotDeclaredException:
+            response.descriptors = []  # ROS 2 gives no descriptor at all when one is missing
         return response
 
     def _get_parameters(self, request: Any, response: Any) -> Any:

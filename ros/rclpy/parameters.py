@@ -65,6 +65,9 @@ class NodeParameters:
     ) -> None:
         self._node_fqn = node_fqn
         self._overrides = dict(overrides)
+        self._of_command_line = self._overrides.keys() - {
+            parameter.name for parameter in constructor_overrides or ()
+        }
         self._overrides.update(
             (parameter.name, parameter.value) for parameter in constructor_overrides or ()
         )
@@ -143,9 +146,11 @@ class NodeParameters:
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
             if reason.startswith(parameter_descriptors.WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
-                raise InvalidParameterTypeException(parameter, expected.name).with_hint(
-                    yaml_hint(parameter, expected)
+                error = InvalidParameterTypeException(parameter, expected.name)
+                error.is_of_command_line = (
+                    not ignore_override and parameter.name in self._of_command_line
                 )
+                raise error.with_hint(yaml_hint(parameter, expected))
             if reason:
                 raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._parameters[name] for name in declared]

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
 from turtlewire.msg import serialize
+from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from .duration import Duration
 from .handle import Handle
-from .qos_policies import DurabilityPolicy
+from .qos_policies import DurabilityPolicy, LivelinessPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from .context import Context
+    from ._node.core import NodeCore
     from .qos import QoSProfile
 
 __all__ = ["Publisher"]
@@ -38,15 +39,20 @@ class Publisher:
     """
 
     def __init__(
-        self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, context: Context
+        self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, core: NodeCore
     ) -> None:
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.topic = wire.topic
         self.event_handlers: list[Any] = []
         self._wire = wire
-        self._context = context
-        self._keeps_for_late_joiners = qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        self._core = core
+        self._context = core.context
+        self._sends_always = (  # late joiners, deadlines and liveliness count every message
+            qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+            or qos_profile.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
+            or 0 < qos_profile.deadline.nanoseconds < BEST_AVAILABLE_NS
+        )
         self._destroyed = False
         self._on_destroy: Callable[[Publisher], None] | None = None
 
@@ -63,7 +69,7 @@ class Publisher:
         if self._destroyed:
             self._check_usable()
         if isinstance(msg, self.msg_type):
-            if not self._keeps_for_late_joiners and self._wire.subscription_count() == 0:
+            if not self._sends_always and self._wire.subscription_count() == 0:
                 self._check_context()
                 return
             cdr = serialize(msg)
@@ -101,7 +107,7 @@ class Publisher:
     @property
     def logger_name(self) -> str:
         """Name of the logger of its node."""
-        return getattr(self, "_logger_name", "")
+        return self._core.logger.name
 
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive (``LivelinessPolicy.MANUAL_BY_TOPIC``)."""

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from rcl_interfaces.msg import SetParametersResult
 
-    from .node import Node
+    from .parameters import NodeParameters
     from .qos import QoSProfile
 
 __all__ = [
@@ -84,14 +84,33 @@ def __getattr__(name: str) -> Any:
     return SetParametersResult
 
 
+def overridden_profile(
+    entity_type: str,
+    topic_name: str,
+    qos: QoSProfile,
+    options: QoSOverridingOptions,
+    parameters: NodeParameters,
+) -> QoSProfile:
+    """A copy of the profile with what parameters say, where ``options`` lets them."""
+    import copy
+
+    qos = copy.copy(qos)
+    declare_qos_parameters(entity_type, parameters, topic_name, qos, options)
+    return qos
+
+
 def declare_qos_parameters(
-    entity_type: str, node: Node, topic_name: str, qos: QoSProfile, options: QoSOverridingOptions
+    entity_type: str,
+    node: NodeParameters,
+    topic_name: str,
+    qos: QoSProfile,
+    options: QoSOverridingOptions,
 ) -> None:
     """Declare the parameters of an endpoint and put their values into ``qos``.
 
     Args:
         entity_type: ``publisher`` or ``subscription``.
-        node: The node that owns the parameters.
+        node: What keeps the parameters: a node, or a part of it.
         topic_name: Fully qualified and remapped name.
         qos: Gives the defaults, and takes the values.
         options: Which policies.
@@ -126,7 +145,7 @@ def declare_qos_parameters(
         )
 
 
-def _declare(node: Node, name: str, default: Any, what: str) -> Any:
+def _declare(node: NodeParameters, name: str, default: Any, what: str) -> Any:
     """The value of the read-only parameter of one policy."""
     from rcl_interfaces.msg import ParameterDescriptor
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.errors import CdrError
+from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
-from .hints import described, with_hint
+from ._rclpy_pybind11 import InvalidHandle
+from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 
 if TYPE_CHECKING:
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
+    from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
     from .entity import Work
-    from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
 
 __all__ = ["Service"]
@@ -46,19 +47,12 @@ class Service(IntrospectedEndpoint):
         callback: Callable[[Any, Any], Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
-        logger: RcutilsLogger,
-        wire_node: base.Node,
+        core: NodeCore,
     ) -> None:
-        super().__init__(wire, wire_node, srv_type, callback_group)
+        super().__init__(wire, core, srv_type, callback_group)
         self.srv_name = srv_name
         self.callback = callback
         self.qos_profile = qos_profile
-        self._logger = logger
-
-    @property
-    def logger_name(self) -> str:
-        """Name of the logger of its node."""
-        return self._logger.name
 
     def send_response(self, response: Any, header: base.RequestId) -> None:
         """Answer the request that ``header`` identifies.
@@ -68,11 +62,10 @@ class Service(IntrospectedEndpoint):
         """
         self._check_usable()
         if not isinstance(response, self.srv_type.Response):
-            hint = (
+            raise TypeError(
                 f"The callback of service '{self._wire.service}' has to return its second argument, "
                 f"or another {self.srv_type.__name__}.Response; it returned {described(response)}"
             )
-            raise with_hint(TypeError(), hint)
         self._wire.send_response(header, serialize(response))
         if self._events is not None:
             self._events.publish(
@@ -103,8 +96,16 @@ class Service(IntrospectedEndpoint):
         outcome = self.callback(request, self.srv_type.Response())
         if isinstance(outcome, CoroutineType):
             return self._answer_later(header, outcome)
-        self.send_response(outcome, header)
+        self._send_unless_destroyed(outcome, header)
         return None
 
     async def _answer_later(self, header: base.RequestId, outcome: Any) -> None:
-        self.send_response(await outcome, header)
+        self._send_unless_destroyed(await outcome, header)
+
+    def _send_unless_destroyed(self, response: Any, header: base.RequestId) -> None:
+        """Another thread may destroy the service while it answers: then nobody gets the answer."""
+        try:
+            self.send_response(response, header)
+        except (InvalidHandle, WireError):
+            if not self._destroyed:
+                raise

@@ -13,6 +13,7 @@ from .type_support import type_id
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
+    from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
     from .clock import Clock
     from .executors import Executor
@@ -45,7 +46,7 @@ class IntrospectedEndpoint(Entity):
 
     Args:
         wire: Its side on the wire.
-        wire_node: The node that publishes the events.
+        core: The core of the node that owns it and publishes the events.
         srv_type: The service class.
         callback_group: Its callback group.
     """
@@ -55,15 +56,21 @@ class IntrospectedEndpoint(Entity):
     def __init__(
         self,
         wire: base.Client | base.Service,
-        wire_node: base.Node,
+        core: NodeCore,
         srv_type: Any,
         callback_group: CallbackGroup,
     ) -> None:
         super().__init__(callback_group)
         self.srv_type = srv_type
         self._wire: Any = wire
-        self._wire_node = wire_node
+        self._core = core
+        self._logger = core.logger
         self._events: _EventPublisher | None = None
+
+    @property
+    def logger_name(self) -> str:
+        """Name of the logger of its node."""
+        return self._logger.name
 
     @property
     def service_name(self) -> str:
@@ -92,7 +99,7 @@ class IntrospectedEndpoint(Entity):
         if introspection_state != ServiceIntrospectionState.OFF:
             event_type = type_id(f"{type_name(self.srv_type)}_Event")
             topic = f"{self._wire.service}/_service_event"
-            wire = self._wire_node.create_publisher(
+            wire = self._core.wire.create_publisher(
                 topic, event_type, service_event_qos_profile.to_wire()
             )
             self._events = _EventPublisher(

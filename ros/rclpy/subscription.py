@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
+    from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
     from .executors import Executor
-    from .impl.rcutils_logger import RcutilsLogger
     from .qos import QoSProfile
 
 __all__ = ["MessageInfo", "Subscription"]
@@ -52,7 +52,7 @@ class Subscription(Entity):
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
         raw: bool,
-        logger: RcutilsLogger,
+        core: NodeCore,
     ) -> None:
         super().__init__(callback_group)
         self.msg_type = msg_type
@@ -62,7 +62,8 @@ class Subscription(Entity):
         self.event_handlers: list[Any] = []
         self.callback = callback
         self._wire = wire
-        self._logger = logger
+        self._core = core
+        self._logger = core.logger
 
     @property
     def callback(self) -> Callable[..., Any]:

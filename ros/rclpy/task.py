@@ -50,7 +50,7 @@ class Future:
     def __await__(self) -> Generator[Any, None, Any]:
         if self._pending():
             loop = _running_asyncio_loop()
-            if loop is None:
+            if loop is None or loop is _steps.loop_outside:
                 while self._pending():
                     yield self
             else:
@@ -222,7 +222,11 @@ class Task(Future):
                     self._complete(result=outcome)
                     return
                 self._handler = outcome
-            self._awaited = self._handler.send(None)
+            outer, _steps.loop_outside = _steps.loop_outside, _running_asyncio_loop()
+            try:
+                self._awaited = self._handler.send(None)
+            finally:
+                _steps.loop_outside = outer
         except StopIteration as stop:
             self._complete(result=stop.value)
         except Exception as error:  # noqa: BLE001 - it becomes the task's outcome, which the executor raises
@@ -256,6 +260,19 @@ class Task(Future):
             finally:
                 self._step_lock.release()
         super().cancel()
+
+
+class _Steps(threading.local):
+    """Tells an asyncio loop that spins an executor from one that a task runs itself.
+
+    Attributes:
+        loop_outside: The loop that was running when this thread's innermost task made a step.
+    """
+
+    loop_outside: Any = None
+
+
+_steps = _Steps()
 
 
 def _running_asyncio_loop() -> Any:

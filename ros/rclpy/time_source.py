@@ -118,10 +118,21 @@ class TimeSource:
     def clock_callback(self, msg: rosgraph_msgs.msg.Clock) -> None:
         """Take the time of a message over to all clocks."""
         stamp = msg.clock
+        if stamp.sec < 0:  # no ROS time; the publisher's mistake must not end this program
+            self._warn_of_negative_time(stamp.sec)
+            return
         self._last_time_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
         time = self._last_time()
         for clock in tuple(self._clocks):
             clock.set_ros_time_override(time)
+
+    def _warn_of_negative_time(self, seconds: int) -> None:
+        node = self._attached_node()
+        if node is not None:
+            node.get_logger().warning(
+                f"Ignoring a negative time on '{CLOCK_TOPIC}' ({seconds} s)",
+                throttle_duration_sec=5.0,
+            )
 
     def _last_time(self) -> Time:
         return Time(nanoseconds=self._last_time_ns, clock_type=ClockType.ROS_TIME)

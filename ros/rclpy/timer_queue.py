@@ -20,7 +20,7 @@ class TimerQueue:
     """A heap of due moments on the monotonic clock. Thread-safe.
 
     A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the
-    newest ticket of a timer counts.
+    newest ticket of a timer counts. Old entries are swept out before they outnumber the others.
 
     Args:
         on_earlier: Called, without locks held, when the next moment came nearer: whoever waits for
@@ -39,10 +39,12 @@ class TimerQueue:
         with self._lock:
             if delay_ns is None:
                 self._tickets.pop(timer, None)
+                self._sweep()
                 return
             ticket = self._tickets[timer] = next(self._next_ticket)
             entry = (time.monotonic_ns() + delay_ns, ticket, timer)
             heapq.heappush(self._heap, entry)
+            self._sweep()
             is_first = self._heap[0] is entry
         if is_first:
             self._on_earlier()
@@ -69,6 +71,11 @@ class TimerQueue:
                 due.append(timer)
                 self._drop_stale()
         return due
+
+    def _sweep(self) -> None:
+        if len(self._heap) > 2 * len(self._tickets):
+            self._heap = [entry for entry in self._heap if self._tickets.get(entry[2]) == entry[1]]
+            heapq.heapify(self._heap)
 
     def _drop_stale(self) -> None:
         while self._heap and self._tickets.get(self._heap[0][2]) != self._heap[0][1]:

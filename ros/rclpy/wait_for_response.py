@@ -59,26 +59,33 @@ def _serve_responses(
 
     future._add_waiter(executor.wake)
     outer, executor._response_awaited = executor._response_awaited, future
+    patience: float | None = time.monotonic() + _PATIENCE_S
     try:
         while not future.done() and (deadline is None or time.monotonic() < deadline):
+            if patience is not None and time.monotonic() >= patience:
+                patience = None
+                _warn_of_other_executor(client, executor)
             if is_hopeless():
                 raise RuntimeError(
                     "The service is served by the executor that this call blocks: it would never answer"
                 )
-            remaining = (
-                None
-                if deadline is None
-                else max(0, int((deadline - time.monotonic()) * 1_000_000_000))
-            )
             try:
                 executor._execute(
-                    *executor._next(remaining, lambda: future.done() or is_hopeless())
+                    *executor._next(
+                        _remaining_ns(deadline, patience), lambda: future.done() or is_hopeless()
+                    )
                 )
             except (TimeoutException, ConditionReachedException):
                 continue
     finally:
         executor._response_awaited = outer
         executor._resume_paused()
+
+
+def _remaining_ns(*moments: float | None) -> int | None:
+    """Until the first of these moments; None when there is none."""
+    known = [moment for moment in moments if moment is not None]
+    return max(0, int((min(known) - time.monotonic()) * 1_000_000_000)) if known else None
 
 
 def _is_served_by(client: Client, entities: set[Entity]) -> bool:
@@ -127,6 +134,22 @@ def _warn_of_long_wait(client: Client, executor: Executor | None) -> None:
         client._logger.warning(
             f"Waiting for a response of service '{name}', which cannot run because its callback group is busy. If the callback that waits "
             "is in that group, it waits for ever: give the service a callback group of its own"
+        )
+    else:
+        _warn_of_other_executor(client, executor)
+
+
+def _warn_of_other_executor(client: Client, executor: Executor) -> None:
+    """Another executor of this process has the request and cannot run the service."""
+    if any(
+        other is not executor and _is_served_by(client, other._paused)
+        for other in client._context.executors()
+    ):
+        client._logger.warning(
+            f"Waiting for a response of service '{client._wire.service}', which another executor "
+            "of this process serves: all its threads, or the service's callback group, are busy. "
+            "If they wait for a service of this executor, both wait for ever: use call_async() "
+            "with await, or a MultiThreadedExecutor with more threads"
         )
 
 

@@ -96,6 +96,7 @@ class TransformListener:
         self._events = BackgroundEvents(self._engine)
         self.node._rclpy_endpoints.keep(self._events)
         self.node._rclpy_endpoints.keep(self)
+        self._stop_closing = self.node._rclpy_endpoints.before_leaving(self._engine.close)
         self.executor: SingleThreadedExecutor | None = None
         self.dedicated_listener_thread: Thread | None = None
         if spin_thread:
@@ -111,6 +112,7 @@ class TransformListener:
         """What :meth:`unregister` does; the node calls it when it is destroyed itself."""
         self._events.destroy()
         self._engine.close()
+        self._stop_closing()
         if self._follow_clock is not None:
             self._follow_clock.unregister()
         if self._on_destroy is not None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+import rclpy
 from rclpy import event_handler
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.executors import SingleThreadedExecutor
@@ -18,6 +20,7 @@ from rclpy.qos_overriding_options import (
     QoSOverridingOptions,
 )
 from std_msgs.msg import String
+from turtlewire.wire.base import EventKind, EventStatus
 
 RELIABLE = QoSProfile(depth=1)
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -235,3 +238,33 @@ def test_wrong_overrides(context):
     ):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
     node.destroy_node()
+
+
+def test_a_publisher_misses_its_deadline_without_a_subscription(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
+    with Context() as context:
+        context.init(args=[])
+        node = Node("alone", context=context)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        missed = rclpy.task.Future()
+        publisher = node.create_publisher(
+            String,
+            "promised",
+            QoSProfile(depth=1, deadline=Duration(nanoseconds=50_000_000)),
+            event_callbacks=PublisherEventCallbacks(deadline=missed.set_result),
+        )
+        publisher.publish(String())
+        executor.spin_until_future_complete(missed, timeout_sec=60)
+        assert missed.result().total_count >= 1
+        executor.shutdown()
+
+
+def test_a_liveliness_change_tells_the_living_from_the_others():
+    """``EventStatus`` has those that are not alive as its total, the living as its current count."""
+    status = EventStatus(
+        total_count=1, total_count_change=-2, current_count=3, current_count_change=4
+    )
+    info = event_handler._INFOS[EventKind.LIVELINESS_CHANGED](status)
+    assert (info.alive_count, info.alive_count_change) == (3, 4)
+    assert (info.not_alive_count, info.not_alive_count_change) == (1, -2)

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
+import time
+
 import pytest
 
 from example_interfaces.srv import AddTwoInts
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action import ActionClient
+from rclpy.arguments import Arguments
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from std_msgs.msg import String
+from std_msgs.msg import Int32, String
+from std_srvs.srv import Trigger
 from turtlesim.action import RotateAbsolute
+from turtlewire.wire import report
 
 MISTAKES = {
     "a timer gets what the callback returned": (
@@ -99,11 +109,139 @@ def test_a_service_that_forgets_to_return_its_response(node, executor):
     response = node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request())
     with pytest.raises(TypeError) as caught:
         executor.spin_until_future_complete(response, timeout_sec=10)
-    assert str(caught.value) == ""  # as in ROS 2
-    assert caught.value.hint.startswith(
-        "The callback of service '/add' has to return its second argument"
+    text = str(caught.value)
+    assert text.startswith("The callback of service '/add' has to return its second argument")
+    assert text.endswith("it returned None")
+
+
+def test_one_topic_with_two_types(node, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    node.create_subscription(String, "chatter", print, 10)
+    node.create_publisher(Int32, "chatter", 10)
+    node.create_subscription(Int32, "chatter", print, 10)
+    node.create_publisher(Int32, "chatter", 10)
+    said = [line for line in capfd.readouterr().err.splitlines() if "chatter" in line]
+    assert [line.partition("]: ")[2] for line in said] == [
+        (
+            "topic /chatter has the type std_msgs/msg/Int32, but this process subscribes to "
+            "std_msgs/msg/String: no messages get through. "
+            "Use the topic's type, or another topic name."
+        ),
+        (
+            "topic /chatter has the type std_msgs/msg/String, but this process publishes "
+            "std_msgs/msg/Int32: no messages get through. "
+            "Use the topic's type, or another topic name."
+        ),
+    ]
+
+
+def test_endpoints_that_have_gone_conflict_with_nothing(node, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    node.destroy_subscription(node.create_subscription(String, "chatter", print, 10))
+    node.create_publisher(Int32, "chatter", 10)
+    assert "chatter" not in capfd.readouterr().err
+
+
+PEER = """
+    import rclpy
+    from rclpy.node import Node
+    from std_msgs.msg import String
+
+    rclpy.init()
+    node = Node("twin")
+    publisher = node.create_publisher(String, "chatter", 10)
+    print("ready", flush=True)
+    rclpy.spin(node)
+"""
+
+
+def test_a_twin_and_another_type_in_another_process(program, capfd, monkeypatch):
+    monkeypatch.setattr(report, "_said", set())
+    peer = program(PEER)
+    assert peer.read_line() == "ready"
+    with Context() as context:
+        context.init(args=[])
+        node = Node("twin", context=context)
+        node.create_subscription(Int32, "chatter", print, 10)
+        assert context._wait_for_graph(
+            lambda: (
+                node.count_publishers("chatter") == 1
+                and node.get_fully_qualified_node_names().count("/twin") == 2
+                and node.count_subscribers("chatter") == 1
+            ),
+            60_000_000_000,
+        )
+    said = capfd.readouterr().err
+    assert said.count("another process has a node /twin in domain") == 1
+    assert "ROS_DOMAIN_ID" in said
+    assert said.count("topic /chatter has the type std_msgs/msg/String") == 1
+
+
+def test_a_command_line_that_gives_another_type_is_told_in_one_line(program):
+    source = """
+        import rclpy
+        from rclpy.node import Node
+
+        rclpy.init()
+        Node("n").declare_parameter("speed", 1.0)
+    """
+    status, _, errors = program(source, "--ros-args", "-p", "speed:=fast").finish()
+    assert status == 1
+    first, *rest = errors.strip().splitlines()
+    assert first == (
+        "rclpy.exceptions.InvalidParameterTypeException: Trying to set parameter 'speed' to 'fast'"
+        " of type 'STRING', expecting type 'DOUBLE'"
     )
-    assert caught.value.hint.endswith("it returned None")
+    assert rest == []
+
+
+def test_a_parameter_file_that_is_nested_too_deeply(tmp_path):
+    path = tmp_path / "deep.yaml"
+    path.write_text(
+        "".join(f"{' ' * level}n{level}:\n" for level in range(3000)) + " " * 3000 + "1"
+    )
+    with pytest.raises(RCLError, match="More than 100 names within each other"):
+        Arguments.parse_global(["program", "--ros-args", "--params-file", str(path)])
+
+
+def test_two_executors_that_wait_for_each_other(context, capfd):
+    """Each serves what the other one's only thread waits for."""
+    nodes = [Node(name, context=context) for name in ("left", "right")]
+    executors = [SingleThreadedExecutor(context=context) for _ in nodes]
+    clients = [
+        node.create_client(Trigger, other.get_name(), callback_group=ReentrantCallbackGroup())
+        for node, other in zip(nodes, reversed(nodes), strict=True)
+    ]
+    warned = threading.Event()
+
+    def ask(client):
+        def answer(_, response):
+            future = client.call_async(Trigger.Request())
+            while not warned.is_set():
+                with contextlib.suppress(TimeoutError):
+                    client._block_for(future, 2.0)
+            return response
+
+        return answer
+
+    threads = []
+    for node, client, executor in zip(nodes, clients, executors, strict=True):
+        node.create_service(Trigger, node.get_name(), ask(client))
+        executor.add_node(node)
+        threads.append(threading.Thread(target=executor.spin, daemon=True))
+        threads[-1].start()
+    caller = Node("caller", context=context)
+    caller.create_client(Trigger, "left").call_async(Trigger.Request())
+    said = ""
+    deadline = time.monotonic() + 60
+    while "another executor" not in said and time.monotonic() < deadline:
+        warned.wait(0.1)
+        said += capfd.readouterr().err
+    warned.set()
+    for executor, thread in zip(executors, threads, strict=True):
+        executor.shutdown()
+        thread.join(60)
+    assert "which another executor of this process serves" in said
 
 
 def test_after_a_mistake_the_executor_still_shuts_down(context):

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 
 import pytest
 
+from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import Log
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle, InvalidNamespaceException, InvalidNodeNameException
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
+from tf2_ros import Buffer, TransformBroadcaster, TransformListener
 
 BUILT_IN_SERVICES = {
     "describe_parameters",
@@ -218,3 +224,80 @@ def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
     executor.shutdown()
     spinning.join(60)
     assert failures == []
+
+
+def gone(observer, name):
+    """Wait until the garbage collector and the graph have let go of a node."""
+    gc.collect()
+
+    def is_gone():
+        return name not in observer.get_node_names()
+
+    return observer.context._wait_for_graph(is_gone, 60_000_000_000)
+
+
+@pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+def test_a_node_that_is_dropped_leaves_the_graph(monkeypatch, middleware):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+    with Context() as context:
+        context.init(args=[])
+        observer = Node("observer", context=context)
+        client = observer.create_client(Trigger, "serve")
+        executor = SingleThreadedExecutor(context=context)
+
+        def use_a_node():
+            node = Node("dropped", context=context)
+            node.create_service(Trigger, "serve", lambda _, response: response)
+            node.create_timer(3600.0, lambda: None)
+            TransformListener(Buffer(), node)
+            executor.add_node(node)
+            executor.spin_once(timeout_sec=0)
+            executor.remove_node(node)
+            assert client.wait_for_service(60)
+
+        use_a_node()
+        assert gone(observer, "dropped")
+        assert not client.service_is_ready()
+        executor.shutdown()
+
+
+def test_an_endpoint_that_is_kept_keeps_its_node(context):
+    observer = Node("observer", context=context)
+    received = []
+    observer.create_subscription(Int32, "numbers", received.append, 10)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(observer)
+    publisher = Node("dropped", context=context).create_publisher(Int32, "numbers", 10)
+    gc.collect()
+    publisher.publish(Int32(data=1))
+    executor.spin_once(timeout_sec=60)
+    assert [message.data for message in received] == [1]
+    assert "dropped" in observer.get_node_names()
+    del publisher
+    assert gone(observer, "dropped")
+    executor.shutdown()
+
+
+def test_a_listener_of_a_dropped_node_leaves_the_others_their_subscription(context):
+    kept = TransformListener(Buffer(), Node("kept", context=context))
+    first = Node("dropped", context=context)
+    TransformListener(Buffer(), first)
+    kept.unregister()  # the subscription they shared is now one of the node to be dropped
+    second = TransformListener(Buffer(), kept.node)
+    del first
+    assert gone(kept.node, "dropped")
+    talker = Node("talker", context=context)
+    message = TransformStamped(child_frame_id="robot")
+    message.header.frame_id = "world"
+    message.transform.rotation.w = 1.0
+    TransformBroadcaster(talker).sendTransform(message)
+    assert second.buffer.can_transform("world", "robot", Time(), Duration(seconds=60))
+
+
+def test_timers_that_come_and_go_leave_nothing_in_the_executor(context, node, executor):
+    node.create_timer(3600.0, lambda: None)
+    executor.remove_node(node)
+    for _ in range(100):
+        executor.add_node(node)
+        executor.remove_node(node)
+    assert len(executor._wait.timers._heap) < 5

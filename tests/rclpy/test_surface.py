@@ -828,4 +828,4 @@ def test_node_is_a_facade():
         work = [each for each in method.body if not isinstance(each, ast.ImportFrom)]
         if len(work) - (ast.get_docstring(method) is not None) != 1:
             longer.add(method.name)
-    assert longer == {"__init__", "_rclpy_wire", "destroy_node", "executor"}
+    assert longer == {"__init__", "destroy_node", "executor"}

@@ -197,7 +197,7 @@ def test_a_destroyed_rate_does_not_sleep(node):
 
 
 def test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever(node, executor):
-    rate = node.create_rate(100)
+    rate = node.create_rate(0.001)  # not due before the other timer, however busy the machine is
     node.create_timer(0.001, rate.sleep)
     with pytest.raises(
         RuntimeError,

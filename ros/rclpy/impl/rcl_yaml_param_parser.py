@@ -7,6 +7,7 @@ string.
 from __future__ import annotations
 
 import re
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import yaml
@@ -34,6 +35,8 @@ _HEX_FLOAT = re.compile(
 _DOTTED = re.compile(r"[+-]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 #: More digits than 64 bits have in any base; Python refuses to convert thousands of them.
 _LONGEST_INT = 100
+#: Names within names; far beyond any real file, and before Python's own limit.
+_DEEPEST = 100
 _TYPE_NAMES = {bool: "bool", int: "integer", float: "double", str: "string"}
 
 
@@ -68,6 +71,7 @@ class _Parser:
 
     def __init__(self, text: str) -> None:
         self._line = 1
+        self._depth = 0
         self._events = self._read(text)
         self._nodes: dict[str, dict[str, ParameterValue]] = {}
 
@@ -105,6 +109,14 @@ class _Parser:
                 )
         return self._nodes
 
+    @contextmanager
+    def _one_level_down(self) -> Iterator[None]:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise RuleError(f"More than {_DEEPEST} names within each other at line {self._line}")
+        yield
+        self._depth -= 1
+
     def _keys(self) -> Iterator[str]:
         """The keys of the mapping that has begun; whoever iterates reads the value after each key."""
         for event in self._events:
@@ -130,7 +142,8 @@ class _Parser:
                     )
                 self._parameters(self._nodes.setdefault(prefix, {}), "")
             elif isinstance(event, yaml.MappingStartEvent):
-                self._node_names(f"{prefix.rstrip('/')}/{key.lstrip('/')}" if prefix else key)
+                with self._one_level_down():
+                    self._node_names(f"{prefix.rstrip('/')}/{key.lstrip('/')}" if prefix else key)
             elif isinstance(event, yaml.ScalarEvent):
                 raise RuleError(
                     f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
@@ -145,7 +158,8 @@ class _Parser:
             name = f"{prefix}.{key}" if prefix else key
             event = next(self._events)
             if isinstance(event, yaml.MappingStartEvent):
-                self._parameters(parameters, name)
+                with self._one_level_down():
+                    self._parameters(parameters, name)
             else:
                 parameters[name] = self._value(event)
 

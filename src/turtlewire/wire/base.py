@@ -393,5 +393,12 @@ class Context(ABC):
         """A new, empty wait set."""
 
     @abstractmethod
+    def call_soon(self, call: Callable[[], None]) -> None:
+        """Have the context's reader thread call ``call()``, unless the context closes before.
+
+        Takes no lock that this thread may hold already, so a finalizer may use it.
+        """
+
+    @abstractmethod
     def close(self) -> None:
         """Close everything, end the reader thread and all waits, and join. Idempotent; always returns."""

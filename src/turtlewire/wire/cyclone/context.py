@@ -9,6 +9,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
+from turtlewire.wire import names
 from turtlewire.wire.base import Context
 
 from .announcer import Announcer, NodeRecord
@@ -19,6 +20,8 @@ from .reader import ReaderThread
 from .waiting import CycloneWaitSet
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire.wire.base import WaitSet
 
 __all__ = ["CycloneContext"]
@@ -71,6 +74,8 @@ class CycloneContext(Context):
                 self._enclave = enclave
             node = CycloneNode(self, name, namespace)
             self._nodes[node] = None
+        if self._graph is not None:
+            self._graph.compare_name(names.fully_qualified_node_name(name, namespace))
         self.graph_changed()
         return node
 
@@ -94,6 +99,10 @@ class CycloneContext(Context):
             wait_set = CycloneWaitSet(self.participant.handle, self._wait_sets.discard)
             self._wait_sets.add(wait_set)
         return wait_set
+
+    def call_soon(self, call: Callable[[], None]) -> None:
+        """See :meth:`Context.call_soon`."""
+        self.reader.call_soon(call)
 
     def _require_open(self, what: str) -> None:
         if self._closed:

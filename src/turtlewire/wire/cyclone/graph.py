@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from turtlewire.errors import CdrError
 from turtlewire.wire import names
 from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.conflicts import NodeNames, TopicTypes
 from turtlewire.wire.graph import (
     DISCOVERY_TOPIC,
     DISCOVERY_TYPE,
@@ -27,7 +28,7 @@ from .qos import read_qos, read_user_data
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from .announcer import Announcer
     from .participant import Participant
@@ -93,6 +94,8 @@ class CycloneGraph(GraphView):
         self._enclaves: dict[bytes, str] = {}
         self._endpoints: dict[bytes, _Endpoint] = {}
         self._announced: dict[bytes, list[NodeEndpoints]] = {}
+        self._topic_types = TopicTypes()
+        self._node_names = NodeNames(participant.domain_id)
         qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
         self._infos = CycloneSubscription(
             participant,
@@ -133,23 +136,38 @@ class CycloneGraph(GraphView):
             else:
                 self._enclaves.pop(gid, None)
                 self._announced.pop(gid, None)
+                self._node_names.gone(gid)
 
     def _update_endpoints(self, kind: str, source: _BuiltinReader) -> None:
         for alive, sample in source.take(dds.BuiltinEndpoint):
             gid = bytes(sample.key)
             if alive and sample.topic_name.startswith(b"DCPS"):
                 continue  # Cyclone's own readers of this very information
+            former = self._endpoints.pop(gid, None)
+            if former is not None:
+                self._compare_types(self._topic_types.remove, gid, former)
             if alive:
                 user_data = parse_user_data(read_user_data(sample.qos))
                 topic, type_name = (
                     sample.topic_name.decode("utf-8", "replace"),
                     sample.type_name.decode("utf-8", "replace"),
                 )
-                self._endpoints[gid] = _Endpoint(
+                self._endpoints[gid] = endpoint = _Endpoint(
                     kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos)
                 )
-            else:
-                self._endpoints.pop(gid, None)
+                self._compare_types(self._topic_types.add, gid, endpoint)
+
+    def _compare_types(self, change: Callable[..., None], gid: bytes, endpoint: _Endpoint) -> None:
+        topic = names.topic_from_dds(endpoint.dds_topic)
+        if topic is not None:
+            type_name = names.type_from_dds(endpoint.dds_type)
+            own = process_of(gid) == process_of(self._participant_gid)
+            change(topic, endpoint.kind, type_name, own=own)
+
+    def compare_name(self, full_name: str) -> None:
+        """Warn if another process has a node of the name that a new one of ours has."""
+        with self._lock:
+            self._node_names.own(full_name)
 
     def _update_nodes(self, cdr: bytes) -> None:
         try:
@@ -161,6 +179,9 @@ class CycloneGraph(GraphView):
             return
         if participant in self._enclaves:
             self._announced[participant] = nodes
+            if process_of(participant) != process_of(self._participant_gid):
+                own = _full_names(self._announcer.nodes())
+                self._node_names.others(participant, _full_names(nodes), own)
 
     def _all_nodes(self) -> list[tuple[NodeInfo, NodeEndpoints]]:
         announced = {self._participant_gid: self._announcer.nodes(), **self._announced}
@@ -204,6 +225,10 @@ class CycloneGraph(GraphView):
                 _endpoint_info(gid, endpoint, owners.get(gid))
                 for gid, endpoint in self._endpoints.items()
             ]
+
+
+def _full_names(nodes: Iterable[NodeEndpoints]) -> list[str]:
+    return [names.fully_qualified_node_name(node.name, node.namespace) for node in nodes]
 
 
 def _endpoint_info(gid: bytes, endpoint: _Endpoint, owner: NodeInfo | None) -> EndpointInfo:

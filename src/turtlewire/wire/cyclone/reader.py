@@ -6,6 +6,7 @@ import heapq
 import itertools
 import threading
 import time
+from collections import deque
 from typing import TYPE_CHECKING
 
 from .waiting import ConditionSet
@@ -27,6 +28,7 @@ class ReaderThread:
         self._lock = threading.Lock()
         self._timers: list[tuple[int, int, Callable[[], None]]] = []
         self._numbers = itertools.count()
+        self._soon: deque[Callable[[], None]] = deque()
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="turtlewire-reader", daemon=True)
         self._thread.start()
@@ -45,10 +47,16 @@ class ReaderThread:
             heapq.heappush(self._timers, (when_ns, next(self._numbers), call))
         self._conditions.wake()
 
+    def call_soon(self, call: Callable[[], None]) -> None:
+        """Call ``call`` once. Takes no lock, so a finalizer may use it."""
+        self._soon.append(call)
+        self._conditions.wake()
+
     def _run(self) -> None:
         while not self._closed:
             self._call_each(self._conditions.wait(self._time_to_next()))
             self._call_each(self._due())
+            self._call_each([self._soon.popleft() for _ in range(len(self._soon))])
 
     def _call_each(self, calls: list[Callable[[], None]]) -> None:
         for call in calls:

@@ -6,10 +6,14 @@ import itertools
 import threading
 from typing import TYPE_CHECKING, NamedTuple
 
+from turtlewire.wire import names
 from turtlewire.wire.base import EventKind, EventStatus
+from turtlewire.wire.conflicts import TopicTypes
 from turtlewire.wire.qos import Durability, Reliability
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .context import LocalContext
     from .endpoints import LocalEndpoint, LocalPublisher, LocalSubscription
 
@@ -50,6 +54,7 @@ class Bus:
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.contexts: list[LocalContext] = []
+        self._types = TopicTypes()
         self._topics: dict[tuple[str, str], _Topic] = {}
 
     def publishers(self) -> list[LocalPublisher]:
@@ -69,6 +74,7 @@ class Bus:
         """Let it match; called with the lock held."""
         topic = self._topic_of(publisher)
         topic.publishers[publisher] = None
+        self._compare_types(self._types.add, publisher, "publisher")
         for subscription in topic.subscriptions:
             _meet(publisher, subscription)
 
@@ -76,12 +82,14 @@ class Bus:
         """Let it match; called with the lock held."""
         topic = self._topic_of(subscription)
         topic.subscriptions[subscription] = None
+        self._compare_types(self._types.add, subscription, "subscription")
         for publisher in topic.publishers:
             _meet(publisher, subscription)
 
     def remove_publisher(self, publisher: LocalPublisher) -> None:
         """Let it match no more; called with the lock held."""
         del self._topic_of(publisher).publishers[publisher]
+        self._compare_types(self._types.remove, publisher, "publisher")
         for subscription in publisher.matched:
             _part(subscription, publisher)
         self._forget_if_empty(publisher)
@@ -89,9 +97,17 @@ class Bus:
     def remove_subscription(self, subscription: LocalSubscription) -> None:
         """Let it match no more; called with the lock held."""
         del self._topic_of(subscription).subscriptions[subscription]
+        self._compare_types(self._types.remove, subscription, "subscription")
         for publisher in subscription.matched:
             _part(publisher, subscription)
         self._forget_if_empty(subscription)
+
+    def _compare_types(
+        self, change: Callable[..., None], endpoint: LocalEndpoint, kind: str
+    ) -> None:
+        topic = names.topic_from_dds(endpoint.dds_topic)
+        if topic is not None:
+            change(topic, kind, endpoint.type_id.name, own=True)
 
     def _forget_if_empty(self, endpoint: LocalEndpoint) -> None:
         topic = self._topic_of(endpoint)

@@ -154,6 +154,10 @@ class LocalContext(Context):
             self._wait_sets.add(wait_set)
         return wait_set
 
+    def call_soon(self, call: Callable[[], None]) -> None:
+        """See :meth:`Context.call_soon`."""
+        self.reader.submit(call)
+
     def _require_open(self, what: str) -> None:
         if self._closed:
             raise WireError(f"{what}: the context is closed")

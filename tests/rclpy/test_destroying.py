@@ -1,0 +1,160 @@
+"""Entities that another thread destroys while an executor serves them: spinning goes on."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+
+import pytest
+
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
+
+LIMIT_S = 60
+ROUNDS = 60
+
+
+@pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
+def context(request, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    with Context() as context:
+        context.init(args=[])
+        yield context
+
+
+class Spinning:
+    """An executor that spins in a thread, and what made it stop."""
+
+    def __init__(self, executor, node):
+        self.executor = executor
+        self.failure = None
+        executor.add_node(node)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    def _spin(self):
+        try:
+            self.executor.spin()
+        except BaseException as failure:
+            self.failure = failure
+
+    def still_runs(self, node):
+        done = threading.Event()
+        guard = node.create_guard_condition(done.set)
+        guard.trigger()
+        ran = done.wait(LIMIT_S)
+        return ran and self.failure is None
+
+    def end(self):
+        self.executor.shutdown()
+        self._thread.join(LIMIT_S)
+        assert not self._thread.is_alive()
+
+
+@pytest.fixture(
+    params=[SingleThreadedExecutor, lambda context: MultiThreadedExecutor(4, context=context)]
+)
+def spinning(request, context, node):
+    spinning = Spinning(request.param(context=context), node)
+    yield spinning
+    spinning.end()
+
+
+def test_a_service_that_answers(spinning, node, context):
+    """The callback waits until the service has been destroyed: its answer goes nowhere."""
+    in_callback, destroyed = threading.Event(), threading.Event()
+
+    def answer(_, response):
+        in_callback.set()
+        destroyed.wait(LIMIT_S)
+        return response
+
+    service = node.create_service(Trigger, "serve", answer)
+    caller = Node("caller", context=context)
+    client = caller.create_client(Trigger, "serve")
+    assert client.wait_for_service(LIMIT_S)
+    client.call_async(Trigger.Request())
+    assert in_callback.wait(LIMIT_S)
+    node.destroy_service(service)
+    destroyed.set()
+    assert spinning.still_runs(node)
+
+
+def test_everything_under_load(spinning, node, context):
+    """Entities come, are used and go, again and again; whatever the moment, spinning goes on."""
+    other = Node("other", context=context)
+    publisher = other.create_publisher(Int32, "numbers", 10)
+    client = other.create_client(AddTwoInts, "add")
+    for _ in range(ROUNDS):
+        subscription = node.create_subscription(Int32, "numbers", lambda _: None, 10)
+        service = node.create_service(AddTwoInts, "add", lambda _, response: response)
+        timer = node.create_timer(0.0001, lambda: None)
+        guard = node.create_guard_condition(lambda: None)
+        assert client.wait_for_service(LIMIT_S)
+        for _ in range(5):
+            publisher.publish(Int32())
+            client.call_async(AddTwoInts.Request())
+            guard.trigger()
+        node.destroy_service(service)
+        node.destroy_subscription(subscription)
+        node.destroy_timer(timer)
+        node.destroy_guard_condition(guard)
+        assert spinning.failure is None
+    assert spinning.still_runs(node)
+
+
+def test_a_future_awaited_in_a_callback_that_an_asyncio_loop_spins(node):
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    client = node.create_client(Trigger, "inner")
+
+    async def outer(_, response):
+        response.message = (await client.call_async(Trigger.Request())).message
+        return response
+
+    def inner(_, response):
+        response.message = "from within"
+        return response
+
+    node.create_service(Trigger, "inner", inner, callback_group=ReentrantCallbackGroup())
+    node.create_service(Trigger, "outer", outer)
+
+    async def main():
+        future = node.create_client(Trigger, "outer").call_async(Trigger.Request())
+        while not future.done():
+            executor.spin_once(timeout_sec=LIMIT_S)
+            await asyncio.sleep(0)
+        return (await future).message
+
+    assert asyncio.run(main()) == "from within"
+    executor.shutdown()
+
+
+def test_a_callback_may_run_an_asyncio_loop_that_awaits_a_future(node):
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    result = executor.create_task(lambda: None)
+    executor.spin_once()
+
+    async def wait_for(future):
+        return await asyncio.wait_for(_awaited(future), LIMIT_S)
+
+    async def callback():
+        later = executor.create_task(lambda: 3)
+        threading.Timer(0.01, later).start()
+        return asyncio.run(wait_for(later))
+
+    assert result.done()
+    task = executor.create_task(callback)
+    executor.spin_until_future_complete(task, timeout_sec=LIMIT_S)
+    assert task.result() == 3
+    executor.shutdown()
+
+
+async def _awaited(future):
+    return await future
