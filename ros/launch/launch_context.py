@@ -1,21 +1,20 @@
-"""What the parts of a running launch share: events and handlers, configurations, environment, locals."""
+"""What the entities of a running launch see of it."""
 
 from __future__ import annotations
 
-import collections
 import os
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
-from turtlewire_ros.process_family import ProcessFamily
+from launch._kernel.run import Run
+from launch._kernel.scopes import Scopes
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Callable, Iterable, Mapping, MutableMapping
+    from collections.abc import Iterable, Mapping, MutableMapping
 
+    from launch._kernel.protocols import EventHandling, Performable
     from launch.event import Event
-    from launch.event_handler import BaseEventHandler
-    from launch.substitution import Substitution
 
 __all__ = ["LaunchContext"]
 
@@ -30,36 +29,44 @@ class _Locals:
         """Return the local of that name."""
         if name not in self._values:
             raise AttributeError(
-                f"context.locals has no attribute '{name}', available attributes: {sorted(self._values)}"
+                f"context.locals has no attribute '{name}', "
+                f"available attributes: {sorted(self._values)}"
             )
         return self._values[name]
 
 
 class LaunchContext:
-    """Belongs to one launch. All methods are for the thread of its event loop, except for :meth:`emit_event_sync` and :meth:`emit_event`.
+    """Events, launch configurations, environment and locals of one launch.
+
+    All methods are for the thread of its event loop, except for :meth:`emit_event_sync` and
+    :meth:`emit_event`.
 
     Args:
         argv: Arguments of the launch.
-        noninteractive: Whether nobody at a terminal watches it.
+        noninteractive: Whether no user watches it at a terminal.
+        run: The state of the launch; a launch that is only looked at gets its own.
     """
 
-    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
+    def __init__(
+        self,
+        *,
+        argv: Iterable[str] | None = None,
+        noninteractive: bool = False,
+        run: Run[LaunchContext] | None = None,
+    ) -> None:
         self._argv = list(argv or ())
         self._noninteractive = noninteractive
-        self._events: collections.deque[Event] = collections.deque()
-        self._event_handlers: collections.deque[BaseEventHandler] = collections.deque()
-        self._on_event: Callable[[], None] = lambda: None
-        self._on_completion_future: Callable[[asyncio.Future[Any]], None] = lambda _: None
-        self._asyncio_loop: asyncio.AbstractEventLoop | None = None
-        self._is_shutdown = False
+        self._run: Run[LaunchContext] = Run() if run is None else run
         self._launch_configurations: dict[str, str] = {}
-        self._configuration_stack: list[dict[str, str]] = []
         self._environment_at_start = dict(os.environ)
-        self._environment_stack: list[dict[str, str]] = []
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}
-        self._locals_stack: list[dict[str, Any]] = []
-        self._process_family: ProcessFamily | None = None
+        #: Begin and end scopes of the launch configurations.
+        self.configuration_scopes = Scopes(self._launch_configurations, "launch configurations")
+        #: Begin and end scopes of the environment variables.
+        self.environment_scopes = Scopes(os.environ, "environment")
+        #: Begin and end scopes of the locals.
+        self.local_scopes = Scopes(self._locals, "locals")
         self._logger = logging.get_logger("launch.launch_context")
 
     @property
@@ -69,69 +76,58 @@ class LaunchContext:
 
     @property
     def noninteractive(self) -> bool:
-        """Whether nobody at a terminal watches the launch."""
+        """Whether no user watches the launch at a terminal."""
         return self._noninteractive
 
     @property
     def is_shutdown(self) -> bool:
         """Whether the launch is ending."""
-        return self._is_shutdown
+        return self._run.is_shutdown
 
     @property
     def asyncio_loop(self) -> asyncio.AbstractEventLoop | None:
         """The event loop that the launch runs on, or None before it runs."""
-        return self._asyncio_loop
+        return self._run.loop
 
     # events
 
-    def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
+    def register_event_handler(
+        self, event_handler: EventHandling[LaunchContext], append: bool = False
+    ) -> None:
         """Add a handler: before all others, or after them."""
-        if append:
-            self._event_handlers.append(event_handler)
-        else:
-            self._event_handlers.appendleft(event_handler)
+        self._run.register(event_handler, last=append)
 
-    def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
+    def unregister_event_handler(self, event_handler: EventHandling[LaunchContext]) -> None:
         """Remove a handler.
 
         Raises:
             ValueError: It is not registered.
         """
-        self._event_handlers.remove(event_handler)
+        self._run.unregister(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Whether some handler waits for such an event."""
-        return any(handler.matches(event) for handler in self._event_handlers)
+        """Whether a handler is registered for such an event."""
+        return any(handler.matches(event) for handler in self._run.handlers())
 
     def emit_event_sync(self, event: Event) -> None:
         """Queue an event; its handlers run later on the loop. Safe from any thread."""
         self._logger.debug("emitting event synchronously: '%s'", event.name)
-        self._queue_event(event)
+        self._run.emit(event)
 
     async def emit_event(self, event: Event) -> None:
         """Queue an event; its handlers run later on the loop."""
         self._logger.debug("emitting event: '%s'", event.name)
-        self._queue_event(event)
+        self._run.emit(event)
 
-    def _queue_event(self, event: Event) -> None:
-        self._events.append(event)
-        self._on_event()
+    # work of the launch
 
     def add_completion_future(self, completion_future: asyncio.Future[Any]) -> None:
         """Keep the launch running until the future is done."""
-        self._on_completion_future(completion_future)
+        self._run.keep_running_for(completion_future)
 
     def marked_environment(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child process, which ends with the launch by that."""
-        if self._process_family is None:
-            self._process_family = ProcessFamily().__enter__()
-        return self._process_family.marked(environment)
-
-    def end_processes(self) -> None:
-        """Stop what launched processes have left behind; returns when it has ended."""
-        if self._process_family is not None:
-            self._process_family.__exit__()
-            self._process_family = None
+        """The environment for a child process, by which it ends with the launch at the latest."""
+        return self._run.marked(environment)
 
     # launch configurations, environment, locals
 
@@ -145,25 +141,9 @@ class LaunchContext:
         """The environment variables of this process, which its children inherit."""
         return os.environ
 
-    def _push_launch_configurations(self) -> None:
-        self._configuration_stack.append(dict(self._launch_configurations))
-
-    def _pop_launch_configurations(self) -> None:
-        if not self._configuration_stack:
-            raise RuntimeError("launch configurations stack unexpectedly empty")
-        self._launch_configurations.clear()
-        self._launch_configurations.update(self._configuration_stack.pop())
-
-    def _push_environment(self) -> None:
-        self._environment_stack.append(dict(os.environ))
-
-    def _pop_environment(self) -> None:
-        if not self._environment_stack:
-            raise RuntimeError("environment stack unexpectedly empty")
-        _replace_environment(self._environment_stack.pop())
-
-    def _reset_environment(self) -> None:
-        _replace_environment(self._environment_at_start)
+    def reset_environment(self) -> None:
+        """Put the environment variables back that this context began with."""
+        self.environment_scopes.replace(self._environment_at_start)
 
     def extend_globals(self, extensions: Mapping[str, Any]) -> None:
         """Add locals that are there during all visits."""
@@ -182,20 +162,6 @@ class LaunchContext:
         """All locals, as attributes: ``context.locals.event``."""
         return _Locals(self.get_locals_as_dict())
 
-    def _push_locals(self) -> None:
-        self._locals_stack.append(dict(self._locals))
-
-    def _pop_locals(self) -> None:
-        if not self._locals_stack:
-            raise RuntimeError("locals stack unexpectedly empty")
-        self._locals = self._locals_stack.pop()
-
-    def perform_substitution(self, sub: Substitution) -> str:
+    def perform_substitution(self, sub: Performable[LaunchContext]) -> str:
         """The text of a substitution, here and now."""
         return sub.perform(self)
-
-
-def _replace_environment(variables: Mapping[str, str]) -> None:
-    for name in set(os.environ) - set(variables):
-        del os.environ[name]
-    os.environ.update(variables)

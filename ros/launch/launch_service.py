@@ -7,21 +7,22 @@ import contextlib
 import signal
 import threading
 import traceback
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from launch import logging
-from launch.event_handler import entity_list
+from launch._kernel.run import Run
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
 from launch.utilities.raised_in import raised_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
+    from launch._kernel.protocols import Visitable
     from launch.event import Event
     from launch.launch_description import LaunchDescription
-    from launch.launch_description_entity import LaunchDescriptionEntity
 
 __all__ = ["LaunchService"]
 
@@ -50,14 +51,11 @@ class LaunchService:
         debug: bool = False,
     ) -> None:
         logging.launch_config.level = logging.DEBUG if debug else logging.INFO
-        self._context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self._run: Run[LaunchContext] = Run()
+        self._context = LaunchContext(argv=argv, noninteractive=noninteractive, run=self._run)
         self._logger = logging.get_logger("launch")
-        self._context._on_event = self._wake_loop
-        self._context._on_completion_future = self._add_future
         self._context.register_event_handler(OnIncludeLaunchDescription())
         self._context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
-        self._futures: set[asyncio.Future[Any]] = set()
-        self._wake: asyncio.Event | None = None
         self._running = threading.Lock()
         self._interrupted = False
         self._unseen_interrupts = 0
@@ -71,7 +69,7 @@ class LaunchService:
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
         """The loop it runs on, or None when it does not run."""
-        return self._context.asyncio_loop
+        return self._run.loop
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Visit a description as soon as the launch runs. Safe from any thread."""
@@ -112,71 +110,55 @@ class LaunchService:
         if not self._running.acquire(blocking=False):
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
-            self._context._asyncio_loop = asyncio.get_running_loop()
-            self._context._is_shutdown = False
+            self._run.begin()
             self._return_code = 0
-            self._wake = asyncio.Event()
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve(shutdown_when_idle)
-                await asyncio.to_thread(self._context.end_processes)
+                await self._run.stop_processes()
             return self._return_code
         finally:
-            self._context._asyncio_loop = None
+            self._run.end()
             self._running.release()
 
     async def _serve(self, shutdown_when_idle: bool) -> None:
-        assert self._wake is not None
         while True:
-            self._wake.clear()
-            self._reap_futures()
-            if self._context._events:
-                for _ in range(
-                    len(self._context._events)
-                ):  # those that they emit come after what happened meanwhile
-                    self._process_event(self._context._events.popleft())
+            for error in self._run.take_errors():
+                self._fail(error)
+            events = self._run.take_events()
+            for event in events:
+                self._process_event(event)
+            if events:
                 await asyncio.sleep(0)
-            elif self._futures or not (self._context.is_shutdown or shutdown_when_idle):
-                await self._wake.wait()
-            elif self._context.is_shutdown:
+            elif self._run.is_busy or not (self._run.is_shutdown or shutdown_when_idle):
+                await self._run.wait()
+            elif self._run.is_shutdown:
                 return
             else:
                 await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
 
     def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
-        for handler in tuple(self._context._event_handlers):
+        for handler in self._run.handlers():
             if not handler.matches(event):
                 continue
             self._logger.debug("processing event: '%s' ✓ '%s'", event, handler)
-            self._context._push_locals()
+            self._context.local_scopes.push()
             try:
-                for entity in entity_list(handler.handle(event, self._context) or ()):
+                for entity in _entities(handler.handle(event, self._context)):
                     self._visit(entity)
-            except Exception as error:  # noqa: BLE001  launch files are other people's code
+            except Exception as error:  # noqa: BLE001  launch files may raise anything
                 self._fail(error)
             finally:
-                self._context._pop_locals()
+                self._context.local_scopes.pop()
 
-    def _visit(self, entity: LaunchDescriptionEntity) -> None:
+    def _visit(self, entity: Visitable[LaunchContext]) -> None:
         sub_entities = entity.visit(self._context)
         future = entity.get_asyncio_future()
         if future is not None:
-            self._add_future(future)
+            self._run.keep_running_for(future)
         for sub_entity in sub_entities or ():
             self._visit(sub_entity)
-
-    def _add_future(self, future: asyncio.Future[Any]) -> None:
-        if future not in self._futures:
-            self._futures.add(future)
-            future.add_done_callback(lambda _: self._wake_loop())
-
-    def _reap_futures(self) -> None:
-        for future in [future for future in self._futures if future.done()]:
-            self._futures.discard(future)
-            error = None if future.cancelled() else future.exception()
-            if error is not None:
-                self._fail(error)
 
     def _fail(self, error: BaseException) -> None:
         self._logger.debug(
@@ -193,18 +175,11 @@ class LaunchService:
         )
 
     def _shut_down(self, reason: str, *, due_to_sigint: bool) -> None:
-        if not self._context.is_shutdown:
+        if not self._run.is_shutdown:
             self.emit_event(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
-    def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
-        context._is_shutdown = True
-
-    def _wake_loop(self) -> None:
-        loop, wake = self._context.asyncio_loop, self._wake
-        if loop is None or wake is None:
-            return  # not running: the queue is looked at when it starts
-        with contextlib.suppress(RuntimeError):  # the loop was closed meanwhile
-            loop.call_soon_threadsafe(wake.set)
+    def _on_shutdown(self, _event: Event, _context: LaunchContext) -> None:
+        self._run.is_shutdown = True
 
     # signals
 
@@ -267,3 +242,12 @@ class LaunchService:
         self._logger.error("user interrupted with ctrl-\\ (%s), terminating...", name)
         self._return_code = 1
         self._shut_down(f"ctrl-\\ ({name})", due_to_sigint=False)
+
+
+def _entities(
+    handled: Visitable[LaunchContext] | Iterable[Visitable[LaunchContext]] | None,
+) -> list[Visitable[LaunchContext]]:
+    """What a handler returned, as a list."""
+    if handled is None:
+        return []
+    return list(handled) if isinstance(handled, Iterable) else [handled]

@@ -34,14 +34,21 @@ def run(command: list[str]) -> int:
     Raises:
         OSError: The program cannot be started.
     """
-    with ProcessFamily() as family:
-        environment = family.marked(os.environ)
-        if threading.current_thread() is not threading.main_thread():
-            return _run(command, environment)  # only the main thread gets signals
-        if hasattr(signal, "sigwaitinfo"):
-            return _run_and_pass_on_signals(command, environment)
-        with _passed_on_by_handlers() as children:
-            return _run(command, environment, children)
+    family = ProcessFamily()
+    family.start()
+    try:
+        return _run_in_family(command, family.marked(os.environ))
+    finally:
+        family.stop()
+
+
+def _run_in_family(command: list[str], environment: dict[str, str]) -> int:
+    if threading.current_thread() is not threading.main_thread():
+        return _run(command, environment)  # only the main thread gets signals
+    if hasattr(signal, "sigwaitinfo"):
+        return _run_and_pass_on_signals(command, environment)
+    with _passed_on_by_handlers() as children:
+        return _run(command, environment, children)
 
 
 def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:

@@ -19,16 +19,14 @@ from turtlewire_ros import process_guardian
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from typing_extensions import Self
-
 __all__ = ["ProcessFamily"]
 
 
 class ProcessFamily:
     """The descendants of one command. Not thread-safe.
 
-    A context manager: start children in its block, each with an environment from :meth:`marked`.
-    At the end of the block, what is left of them gets SIGTERM, and SIGKILL five seconds later.
+    Start children between :meth:`start` and :meth:`stop`, each with an environment from
+    :meth:`marked`.
     """
 
     def __init__(self) -> None:
@@ -41,7 +39,8 @@ class ProcessFamily:
         names = self._name if outer is None else f"{outer}:{self._name}"
         return {**environment, process_guardian.FAMILIES: names}
 
-    def __enter__(self) -> Self:
+    def start(self) -> None:
+        """Start the guardian."""
         if sys.platform == "linux":
             self._guardian = subprocess.Popen(  # noqa: S603  our own file
                 [sys.executable, "-I", "-S", process_guardian.__file__, self._name],
@@ -51,8 +50,9 @@ class ProcessFamily:
                 # Ctrl-C, a hang-up and signals to the process group are not meant for it.
                 start_new_session=True,
             )
-        return self
 
-    def __exit__(self, *_: object) -> None:
+    def stop(self) -> None:
+        """Send what is left of the family SIGTERM, and SIGKILL five seconds later; wait for it."""
         if self._guardian is not None:
             self._guardian.communicate()
+            self._guardian = None

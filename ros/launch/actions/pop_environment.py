@@ -19,4 +19,4 @@ class PopEnvironment(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Restore them."""
-        context._pop_environment()
+        context.environment_scopes.pop()

@@ -19,4 +19,4 @@ class PopLaunchConfigurations(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Restore them."""
-        context._pop_launch_configurations()
+        context.configuration_scopes.pop()

@@ -19,4 +19,4 @@ class PushEnvironment(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remember them."""
-        context._push_environment()
+        context.environment_scopes.push()

@@ -19,4 +19,4 @@ class PushLaunchConfigurations(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remember them."""
-        context._push_launch_configurations()
+        context.configuration_scopes.push()

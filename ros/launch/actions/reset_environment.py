@@ -19,4 +19,4 @@ class ResetEnvironment(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Restore them."""
-        context._reset_environment()
+        context.reset_environment()

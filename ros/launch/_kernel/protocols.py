@@ -1,0 +1,65 @@
+"""What the parts of a launch know of each other.
+
+``Context_contra`` is the context that they are handed; it stands above them, so it is a parameter.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from launch.event import Event
+
+__all__ = ["EventHandling", "Performable", "ProcessRunner", "Visitable"]
+
+Context_contra = TypeVar("Context_contra", contravariant=True)
+
+
+class Performable(Protocol[Context_contra]):
+    """A substitution: text that is known only when the launch runs."""
+
+    def perform(self, context: Context_contra) -> str:
+        """Return the text."""
+
+
+class Visitable(Protocol[Context_contra]):
+    """An entity of a launch description."""
+
+    def visit(self, context: Context_contra) -> Sequence[Visitable[Context_contra]] | None:
+        """Take effect; the returned entities are visited next."""
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Return what is done when the entity has completed, or None if a visit is all."""
+
+
+class EventHandling(Protocol[Context_contra]):
+    """An event handler."""
+
+    def matches(self, event: Event) -> bool:
+        """Whether it handles the event."""
+
+    def handle(
+        self, event: Event, context: Context_contra
+    ) -> Visitable[Context_contra] | Iterable[Visitable[Context_contra]] | None:
+        """React to the event; the returned entities are visited."""
+
+
+class ProcessRunner(Protocol):
+    """The action that runs a process, as the events and matchers of processes know it."""
+
+    @property
+    def process_details(self) -> Mapping[str, object] | None:
+        """Name, cmd, cwd, env and pid of the process, or None before its start."""
+
+    @property
+    def return_code(self) -> int | None:
+        """Exit status of the last run, negative for a signal; None if there is none yet."""
+
+    def get_stdout(self) -> bytes:
+        """Return all that the process wrote to stdout, if that is kept."""
+
+    def get_stderr(self) -> bytes:
+        """Return all that the process wrote to stderr, if that is kept."""

@@ -1,0 +1,135 @@
+"""The state of one launch."""
+
+from __future__ import annotations
+
+import asyncio
+import collections
+import contextlib
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from turtlewire_ros.process_family import ProcessFamily
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from launch._kernel.protocols import EventHandling
+    from launch.event import Event
+
+__all__ = ["Run"]
+
+C = TypeVar("C")
+
+
+class Run(Generic[C]):
+    """What the entities of a launch and its loop share.
+
+    Events travel one way: :meth:`emit` queues them, the loop takes them by :meth:`take_events` and
+    hands them to the :meth:`handlers`. All methods are for the loop's thread, except for
+    :meth:`emit`.
+    """
+
+    def __init__(self) -> None:
+        self._events: collections.deque[Event] = collections.deque()
+        self._handlers: collections.deque[EventHandling[C]] = collections.deque()
+        self._futures: set[asyncio.Future[Any]] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._wake: asyncio.Event | None = None
+        self._processes: ProcessFamily | None = None
+        #: Whether the launch is ending.
+        self.is_shutdown = False
+
+    # the loop
+
+    @property
+    def loop(self) -> asyncio.AbstractEventLoop | None:
+        """The event loop of the launch, or None when it does not run."""
+        return self._loop
+
+    def begin(self) -> None:
+        """The launch starts on the running event loop."""
+        self._loop = asyncio.get_running_loop()
+        self._wake = asyncio.Event()
+        self.is_shutdown = False
+
+    def end(self) -> None:
+        """The launch has ended; later events wait for its next start."""
+        self._loop = None
+
+    async def wait(self) -> None:
+        """Wait until there is an event, or a future is done."""
+        assert self._wake is not None
+        while not self._events and not any(future.done() for future in self._futures):
+            self._wake.clear()
+            await self._wake.wait()
+
+    def _wake_loop(self) -> None:
+        loop, wake = self._loop, self._wake
+        if loop is None or wake is None:
+            return  # not running: the queue is looked at when it starts
+        with contextlib.suppress(RuntimeError):  # the loop was closed meanwhile
+            loop.call_soon_threadsafe(wake.set)
+
+    # events
+
+    def emit(self, event: Event) -> None:
+        """Queue an event. Safe from any thread."""
+        self._events.append(event)
+        self._wake_loop()
+
+    def take_events(self) -> list[Event]:
+        """Remove the queued events; those that their handlers emit come after them."""
+        return [self._events.popleft() for _ in range(len(self._events))]
+
+    def register(self, handler: EventHandling[C], *, last: bool) -> None:
+        """Add a handler, after all others or before them."""
+        if last:
+            self._handlers.append(handler)
+        else:
+            self._handlers.appendleft(handler)
+
+    def unregister(self, handler: EventHandling[C]) -> None:
+        """Remove a handler.
+
+        Raises:
+            ValueError: It is not registered.
+        """
+        self._handlers.remove(handler)
+
+    def handlers(self) -> tuple[EventHandling[C], ...]:
+        """The registered handlers, in the order in which they get an event."""
+        return tuple(self._handlers)
+
+    # work that keeps the launch running
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether an event is queued or a future is not done."""
+        return bool(self._events or self._futures)
+
+    def keep_running_for(self, future: asyncio.Future[Any]) -> None:
+        """Keep the launch running until the future is done."""
+        if future not in self._futures:
+            self._futures.add(future)
+            future.add_done_callback(lambda _: self._wake_loop())
+
+    def take_errors(self) -> list[BaseException]:
+        """Forget the futures that are done; returns what they raised."""
+        done = [future for future in self._futures if future.done()]
+        self._futures.difference_update(done)
+        errors = [future.exception() for future in done if not future.cancelled()]
+        return [error for error in errors if error is not None]
+
+    # processes
+
+    def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
+        """The environment for a child process, by which it and its descendants are known."""
+        if self._processes is None:
+            self._processes = ProcessFamily()
+            self._processes.start()
+        return self._processes.marked(environment)
+
+    async def stop_processes(self) -> None:
+        """Stop what the child processes have left behind; returns when it has ended."""
+        if self._processes is not None:
+            await asyncio.to_thread(self._processes.stop)
+            self._processes = None

@@ -1,0 +1,46 @@
+"""Mappings that are remembered and put back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, MutableMapping
+
+__all__ = ["Scopes"]
+
+V = TypeVar("V")
+
+
+class Scopes(Generic[V]):
+    """A stack of copies of one mapping, for changes that end with a scope.
+
+    Args:
+        values: The mapping, which is changed in place.
+        kind: Names it in errors.
+    """
+
+    def __init__(self, values: MutableMapping[str, V], kind: str) -> None:
+        self._values = values
+        self._kind = kind
+        self._copies: list[dict[str, V]] = []
+
+    def push(self) -> None:
+        """Remember the values."""
+        self._copies.append(dict(self._values))
+
+    def pop(self) -> None:
+        """Put the values back that were remembered last.
+
+        Raises:
+            RuntimeError: None are remembered.
+        """
+        if not self._copies:
+            raise RuntimeError(f"{self._kind} stack unexpectedly empty")
+        self.replace(self._copies.pop())
+
+    def replace(self, values: Mapping[str, V]) -> None:
+        """Make the mapping equal to ``values``."""
+        for name in set(self._values) - set(values):
+            del self._values[name]
+        self._values.update(values)
