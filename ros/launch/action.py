@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.conditions import IfCondition, UnlessCondition
+from launch.events import ExecutionComplete
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -27,8 +29,6 @@ class Action(LaunchDescriptionEntity):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """Read the attributes that all actions of XML and YAML files have: ``if`` and ``unless``."""
-        from launch.conditions import IfCondition, UnlessCondition
-
         if_text = entity.get_attr("if", optional=True)
         unless_text = entity.get_attr("unless", optional=True)
         if if_text is not None and unless_text is not None:
@@ -50,6 +50,11 @@ class Action(LaunchDescriptionEntity):
         """The condition, or None."""
         return self._condition
 
+    @property
+    def is_conditional(self) -> bool:
+        """Whether it has a condition."""
+        return self._condition is not None
+
     def describe(self) -> str:
         """How ``ros2 launch --print`` shows it."""
         return self.__repr__()
@@ -68,8 +73,6 @@ class Action(LaunchDescriptionEntity):
         raise NotImplementedError(f"{type(self).__name__} does not define execute()")
 
     def _announce_completion(self, context: LaunchContext) -> None:
-        from launch.events import ExecutionComplete
-
         event = ExecutionComplete(action=self)
         if not context.would_handle_event(event):
             return

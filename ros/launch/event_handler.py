@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.launch_description_entity import LaunchDescriptionEntity
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from launch.event import Event
     from launch.launch_context import LaunchContext
-    from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_entities_type import SomeEntitiesType
 
 __all__ = ["BaseEventHandler", "EventHandler"]
@@ -103,8 +104,6 @@ class EventHandler(BaseEventHandler):
 
 def entity_list(entities: SomeEntitiesType) -> list[LaunchDescriptionEntity]:
     """One entity or several, as a list."""
-    from launch.launch_description_entity import LaunchDescriptionEntity
-
     if isinstance(entities, LaunchDescriptionEntity):
         return [entities]
     items: Iterable[LaunchDescriptionEntity] = entities

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from launch import logging
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from launch.actions import DeclareLaunchArgument
+    from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
 
 __all__ = ["LaunchDescription"]
@@ -58,8 +59,6 @@ class LaunchDescription(LaunchDescriptionEntity):
     def visit(self, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the entities."""
         if self._deprecated_reason is not None:
-            from launch import logging
-
             logging.get_logger().warning(
                 "This LaunchDescription is deprecated: %s",
                 self._deprecated_reason or "no reason given",
@@ -70,9 +69,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         """The entities."""
         return self._entities
 
-    def get_launch_arguments(
-        self, conditional_inclusion: bool = False
-    ) -> list[DeclareLaunchArgument]:
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[LaunchArgument]:
         """The arguments that this description and those it includes declare, without repetitions.
 
         Args:
@@ -88,9 +85,9 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
-    ) -> list[tuple[DeclareLaunchArgument, list[LaunchDescriptionEntity]]]:
+    ) -> list[tuple[LaunchArgument, list[LaunchDescriptionEntity]]]:
         """The declared arguments, each with the chain of inclusions that leads to it."""
-        found: list[tuple[DeclareLaunchArgument, list[LaunchDescriptionEntity]]] = []
+        found: list[tuple[LaunchArgument, list[LaunchDescriptionEntity]]] = []
         _collect_arguments(self._entities, conditional_inclusion, [], found)
         return found
 
@@ -99,23 +96,17 @@ def _collect_arguments(
     entities: Iterable[LaunchDescriptionEntity],
     conditional: bool,
     inclusions: list[LaunchDescriptionEntity],
-    found: list[tuple[DeclareLaunchArgument, list[LaunchDescriptionEntity]]],
+    found: list[tuple[LaunchArgument, list[LaunchDescriptionEntity]]],
 ) -> None:
-    from launch.action import Action
-    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
-
     for entity in entities:
-        entity_conditional = conditional or (
-            isinstance(entity, Action) and entity.condition is not None
-        )
-        if isinstance(entity, DeclareLaunchArgument):
-            if not any(argument.name == entity.name for argument, _ in found):
-                entity._conditionally_included = entity_conditional
-                found.append((entity, inclusions))
+        entity_conditional = conditional or entity.is_conditional
+        argument = entity.launch_argument
+        if argument is not None:
+            if not any(argument.name == known.name for known, _ in found):
+                argument.conditionally_included = entity_conditional
+                found.append((argument, inclusions))
             continue
-        deeper = (
-            [*inclusions, entity] if isinstance(entity, IncludeLaunchDescription) else inclusions
-        )
+        deeper = [*inclusions, entity] if entity.is_inclusion else inclusions
         _collect_arguments(entity.describe_sub_entities(), entity_conditional, deeper, found)
         for _, group in entity.describe_conditional_sub_entities():
             _collect_arguments(group, True, deeper, found)

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     import asyncio
     from collections.abc import Iterable
 
+    from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
 
 __all__ = ["LaunchDescriptionEntity"]
@@ -19,6 +20,21 @@ class LaunchDescriptionEntity:
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Take effect; the returned entities are visited next."""
         raise NotImplementedError(f"{type(self).__name__} does not define visit()")
+
+    @property
+    def launch_argument(self) -> LaunchArgument | None:
+        """The launch argument that it declares, or None."""
+        return None
+
+    @property
+    def is_conditional(self) -> bool:
+        """Whether a condition decides if a visit takes effect."""
+        return False
+
+    @property
+    def is_inclusion(self) -> bool:
+        """Whether it includes another launch description."""
+        return False
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Entities that a visit always returns, for inspection without running."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -44,8 +45,6 @@ class LaunchDescriptionSource:
             Exception: Whatever the loader raises.
         """
         if self._launch_description is None:
-            from launch.substitutions import TextSubstitution
-
             texts = [part.text for part in self._location if isinstance(part, TextSubstitution)]
             if len(texts) != len(self._location):
                 return None

@@ -186,7 +186,7 @@ def test_arguments_of_a_description_and_of_those_it_includes():
         "conditional",
         "grouped",
     ]
-    assert [argument.name for argument in found if argument._conditionally_included] == [
+    assert [argument.name for argument in found if argument.conditionally_included] == [
         "later",
         "conditional",
     ]

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 if TYPE_CHECKING:
     import asyncio
@@ -51,7 +51,7 @@ class ProcessRunner(Protocol):
     """The action that runs a process, as the events and matchers of processes know it."""
 
     @property
-    def process_details(self) -> Mapping[str, object] | None:
+    def process_details(self) -> Mapping[str, Any] | None:
         """Name, cmd, cwd, env and pid of the process, or None before its start."""
 
     @property

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+from launch.conditions import evaluate_condition_expression
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -74,8 +75,6 @@ class AppendEnvironmentVariable(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Add the value."""
-        from launch.conditions import evaluate_condition_expression
-
         name = perform_substitutions(context, self._name)
         value = perform_substitutions(context, self._value)
         if name in context.environment:

@@ -56,7 +56,7 @@ class DeclareLaunchArgument(Action):
                 "Provided choices are empty. Please provide at least one choice or omit them."
             )
         self._description = _described(description, self._choices)
-        self._conditionally_included = False
+        self.conditionally_included = False
 
     @classmethod
     def parse(
@@ -79,6 +79,11 @@ class DeclareLaunchArgument(Action):
             for choice in choices:
                 choice.assert_entity_completely_parsed()
         return cls, kwargs
+
+    @property
+    def launch_argument(self) -> DeclareLaunchArgument:
+        """Itself."""
+        return self
 
     @property
     def name(self) -> str:

@@ -13,9 +13,10 @@ from launch.action import Action
 from launch.child_process import ChildProcess
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
-from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from launch.events import Shutdown
 from launch.events.process import (
     ProcessExited,
+    ProcessIO,
     ProcessStarted,
     ProcessStderr,
     ProcessStdin,
@@ -33,9 +34,6 @@ if TYPE_CHECKING:
 
     from launch.descriptions import Executable
     from launch.event import Event
-    from launch.event_handler import BaseEventHandler
-    from launch.events import Shutdown
-    from launch.events.process import ProcessIO
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -294,19 +292,20 @@ class ExecuteLocal(Action):
 
     def _register_handlers(self, context: LaunchContext) -> None:
         """Register for all events of the process; later ones are asked first."""
-        handlers: list[BaseEventHandler] = [
-            OnProcessExit(
-                target_action=self, on_exit=self._on_exit if self._on_exit is not None else []
-            ),
-            OnProcessExit(target_action=self, on_exit=self._show_end),
-            OnProcessIO(
-                target_action=self, on_stdout=self._show_output, on_stderr=self._show_output
-            ),
-            OnShutdown(on_shutdown=self._on_shutdown),
-            EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
-        ]
-        for handler in handlers:
-            context.register_event_handler(handler)
+        for is_mine, react in (
+            (self._is_my_end, self._on_exit),
+            (self._is_my_end, self._show_end),
+            (self._is_my_output, self._show_output),
+            (lambda event: isinstance(event, Shutdown), self._on_shutdown),
+            (self._is_for_me, self._on_targeted_event),
+        ):
+            context.register_event_handler(EventHandler(matcher=is_mine, entities=react))
+
+    def _is_my_end(self, event: Event) -> bool:
+        return isinstance(event, ProcessExited) and event.action is self
+
+    def _is_my_output(self, event: Event) -> bool:
+        return isinstance(event, ProcessIO) and event.action is self
 
     def _is_for_me(self, event: Event) -> bool:
         return isinstance(event, ProcessTargetedEvent) and event.process_matcher(self)
@@ -331,12 +330,14 @@ class ExecuteLocal(Action):
         event_class = ProcessStdout if fd == 1 else ProcessStderr
         context.emit_event_sync(event_class(text=data, action=self, **self._event_details()))
 
-    def _show_output(self, event: ProcessIO) -> None:
+    def _show_output(self, event: Event, _context: LaunchContext) -> None:
+        assert isinstance(event, ProcessIO)
         fd = 1 if event.from_stdout else 2
         self._log_lines(fd, self._lines[fd].feed(event.text))
 
-    def _show_end(self, event: ProcessExited, _context: LaunchContext) -> None:
+    def _show_end(self, event: Event, _context: LaunchContext) -> None:
         """Show last lines that lack their line end, and how it ended."""
+        assert isinstance(event, ProcessExited)
         assert self._end_was_handled is not None
         for fd, lines in self._lines.items():
             self._log_lines(fd, lines.rest())
@@ -358,7 +359,8 @@ class ExecuteLocal(Action):
 
     # the end
 
-    def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
+    def _on_shutdown(self, event: Event, context: LaunchContext) -> None:
+        assert isinstance(event, Shutdown)
         # At Ctrl-C a terminal has sent SIGINT to its whole process group already.
         self._begin_stop(context, send_sigint=not event.due_to_sigint or context.noninteractive)
 

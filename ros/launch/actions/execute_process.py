@@ -6,6 +6,7 @@ import shlex
 from typing import TYPE_CHECKING, Any
 
 from launch.actions.execute_local import ExecuteLocal
+from launch.actions.shutdown_action import Shutdown
 from launch.descriptions import Executable
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
@@ -167,8 +168,6 @@ def _typed_attributes(entity: Entity, parser: Parser) -> dict[str, Any]:
         kwargs["respawn"] = parser.parse_if_substitutions(respawn)
     on_exit = entity.get_attr("on_exit", optional=True)
     if on_exit is not None:
-        from launch.actions.shutdown_action import Shutdown
-
         if on_exit != "shutdown":
             raise ValueError(
                 f'Attribute on_exit of Entity node expected to be "shutdown" but got `{on_exit}`'

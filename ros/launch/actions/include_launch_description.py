@@ -11,6 +11,9 @@ from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
 from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.any_launch_description_source import (
+    AnyLaunchDescriptionSource,
+)
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -49,8 +52,6 @@ class IncludeLaunchDescription(Action):
     ) -> None:
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
-            from launch.launch_description_sources import AnyLaunchDescriptionSource
-
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
         self._source = launch_description_source
         self._launch_arguments = list(launch_arguments or ())
@@ -74,6 +75,11 @@ class IncludeLaunchDescription(Action):
         for argument in arguments:
             argument.assert_entity_completely_parsed()
         return cls, kwargs
+
+    @property
+    def is_inclusion(self) -> bool:
+        """True: it includes a launch description."""
+        return True
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:
@@ -126,7 +132,7 @@ class IncludeLaunchDescription(Action):
             argument,
             inclusions,
         ) in description.get_launch_arguments_with_include_launch_description_actions():
-            if argument._conditionally_included or argument.default_value is not None or inclusions:
+            if argument.conditionally_included or argument.default_value is not None or inclusions:
                 continue
             if argument.name not in context.launch_configurations and argument.name not in given:
                 raise RuntimeError(

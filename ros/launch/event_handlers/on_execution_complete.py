@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.action import Action
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.action import Action
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
@@ -34,8 +34,6 @@ class OnExecutionComplete(OnActionEventBase):
         | Callable[[ExecutionComplete, LaunchContext], SomeEntitiesType | None],
         **kwargs: Any,
     ) -> None:
-        from launch.action import Action
-
         super().__init__(
             action_matcher=target_action,
             on_event=on_completion,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.actions.execute_local import ExecuteLocal
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessIO
 
@@ -36,8 +37,6 @@ class OnProcessIO(OnActionEventBase):
         on_stderr: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
         **kwargs: Any,
     ) -> None:
-        from launch.actions import ExecuteLocal
-
         def on_event(event: ProcessIO, _context: object) -> SomeEntitiesType | None:
             function = (
                 on_stdout if event.from_stdout else on_stderr if event.from_stderr else on_stdin

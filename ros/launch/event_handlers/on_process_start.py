@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch.actions.execute_local import ExecuteLocal
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessStarted
 
@@ -34,8 +35,6 @@ class OnProcessStart(OnActionEventBase):
         | Callable[[ProcessStarted, LaunchContext], SomeEntitiesType | None],
         **kwargs: Any,
     ) -> None:
-        from launch.actions import ExecuteLocal
-
         super().__init__(
             action_matcher=target_action,
             on_event=on_start,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from launch.action import Action
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 __all__ = ["ExecutionComplete"]
 
@@ -21,10 +21,10 @@ class ExecutionComplete(Event):
 
     name = "launch.events.ExecutionComplete"
 
-    def __init__(self, *, action: Action) -> None:
+    def __init__(self, *, action: LaunchDescriptionEntity) -> None:
         self._action = action
 
     @property
-    def action(self) -> Action:
+    def action(self) -> LaunchDescriptionEntity:
         """The action."""
         return self._action

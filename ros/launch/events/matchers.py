@@ -13,11 +13,11 @@ from launch.events.process.process_targeted_event import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.action import Action
+    from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["matches_action", "matches_executable", "matches_name", "matches_pid"]
 
 
-def matches_action(action: Action) -> Callable[[Action], bool]:
+def matches_action(action: ProcessRunner) -> Callable[[ProcessRunner], bool]:
     """Is run by this action."""
     return lambda other: other is action

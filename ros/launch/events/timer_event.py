@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from launch.actions import TimerAction
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 __all__ = ["TimerEvent"]
 
@@ -21,10 +21,10 @@ class TimerEvent(Event):
 
     name = "launch.events.TimerEvent"
 
-    def __init__(self, *, timer_action: TimerAction) -> None:
+    def __init__(self, *, timer_action: LaunchDescriptionEntity) -> None:
         self._timer_action = timer_action
 
     @property
-    def timer_action(self) -> TimerAction:
+    def timer_action(self) -> LaunchDescriptionEntity:
         """The timer."""
         return self._timer_action

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.frontend.expose import substitution_parse_methods
-from launch.substitutions.text_substitution import TextSubstitution
+from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.substitution import Substitution

@@ -9,14 +9,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import action_parse_methods
+from launch.frontend.parse_substitution import parse_substitution
 from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description import LaunchDescription
 
 if TYPE_CHECKING:
     import io
 
-    from launch.action import Action
     from launch.frontend.entity import Entity
-    from launch.launch_description import LaunchDescription
+    from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.substitution import Substitution
 
 __all__ = ["InvalidFrontendLaunchFileError", "Parser"]
@@ -75,15 +76,13 @@ class Parser:
         Raises:
             RuntimeError: It is no root element, or an element is unknown.
         """
-        from launch.launch_description import LaunchDescription
-
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
         actions = [self.parse_action(child) for child in entity.children]
         entity.assert_entity_completely_parsed()
         return LaunchDescription(actions)
 
-    def parse_action(self, entity: Entity) -> Action:
+    def parse_action(self, entity: Entity) -> LaunchDescriptionEntity:
         """The action of an element. Errors get the line of the innermost element that has one, as ``launch_file_line``.
 
         Raises:
@@ -97,19 +96,17 @@ class Parser:
                 vars(error).setdefault("launch_file_line", entity.line)
             raise
 
-    def _action(self, entity: Entity) -> Action:
+    def _action(self, entity: Entity) -> LaunchDescriptionEntity:
         _load_extensions()
         if entity.type_name not in action_parse_methods:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
         action_class, keywords = action_parse_methods[entity.type_name](entity, self)
         entity.assert_entity_completely_parsed()
-        action: Action = action_class(**keywords)
+        action: LaunchDescriptionEntity = action_class(**keywords)
         return action
 
     def parse_substitution(self, value: str) -> list[Substitution]:
         """The substitutions of a text."""
-        from launch.frontend.parse_substitution import parse_substitution
-
         _load_extensions()
         return parse_substitution(value)
 

@@ -2,37 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from launch.substitution import Substitution
-
-if TYPE_CHECKING:
-    from launch.launch_context import LaunchContext
+from launch.utilities.text import TextSubstitution
 
 __all__ = ["TextSubstitution"]
-
-
-class TextSubstitution(Substitution):
-    """Plain text.
-
-    Args:
-        text: The text.
-    """
-
-    def __init__(self, *, text: str) -> None:
-        if not isinstance(text, str):
-            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
-        self._text = text
-
-    @property
-    def text(self) -> str:
-        """The text."""
-        return self._text
-
-    def describe(self) -> str:
-        """The text in quotes."""
-        return f"'{self._text}'"
-
-    def perform(self, _context: LaunchContext) -> str:
-        """The text."""
-        return self._text

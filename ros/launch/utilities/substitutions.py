@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from launch.substitution import Substitution
+from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -40,8 +41,6 @@ def _substitution(item: object) -> Substitution:
     if isinstance(item, Substitution):
         return item
     if isinstance(item, (str, Path)):
-        from launch.substitutions.text_substitution import TextSubstitution
-
         return TextSubstitution(text=str(item))
     raise TypeError(
         f"Failed to normalize given item of type '{type(item)}', when only 'str', 'Path' or 'launch.Substitution' were expected."

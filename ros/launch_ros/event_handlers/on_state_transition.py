@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
-    from launch_ros.actions import LifecycleNode
+    from launch_ros.events.named_node import NamedNode
 
 __all__ = ["OnStateTransition"]
 
@@ -34,7 +34,7 @@ class OnStateTransition(EventHandler):
         self,
         *,
         entities: SomeEntitiesType | Callable[[Any, LaunchContext], SomeEntitiesType | None],
-        target_lifecycle_node: LifecycleNode | None = None,
+        target_lifecycle_node: NamedNode | None = None,
         transition: str | None = None,
         start_state: str | None = None,
         goal_state: str | None = None,

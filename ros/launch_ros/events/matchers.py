@@ -9,12 +9,12 @@ from launch_ros.utilities.namespace_utils import make_namespace_absolute
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch_ros.actions import Node
+    from launch_ros.events.named_node import NamedNode
 
 __all__ = ["matches_node_name"]
 
 
-def matches_node_name(node_name: str) -> Callable[[Node], bool]:
+def matches_node_name(node_name: str) -> Callable[[NamedNode], bool]:
     """Is the node of this full name."""
     absolute = make_namespace_absolute(node_name)
     return lambda node: node.node_name == absolute

@@ -276,8 +276,8 @@ def _show_arguments(description: LaunchDescription) -> int:
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     conditional = False
     for argument in description.get_launch_arguments():
-        conditional |= argument._conditionally_included
-        star = "*" if argument._conditionally_included else ""
+        conditional |= argument.conditionally_included
+        star = "*" if argument.conditionally_included else ""
         lines += [
             "",
             f"    '{argument.name}'{star}:",

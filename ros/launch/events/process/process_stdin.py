@@ -9,7 +9,7 @@ from launch.events.process.process_targeted_event import ProcessTargetedEvent
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.actions import ExecuteLocal
+    from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["ProcessStdin"]
 
@@ -24,7 +24,7 @@ class ProcessStdin(ProcessTargetedEvent):
 
     name = "launch.events.process.ProcessStdin"
 
-    def __init__(self, *, text: bytes, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+    def __init__(self, *, text: bytes, process_matcher: Callable[[ProcessRunner], bool]) -> None:
         super().__init__(process_matcher=process_matcher)
         self._text = text
 

@@ -9,7 +9,7 @@ from launch.event import Event
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.actions import ExecuteLocal
+    from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["ProcessTargetedEvent", "matches_executable", "matches_name", "matches_pid"]
 
@@ -23,30 +23,30 @@ class ProcessTargetedEvent(Event):
 
     name = "launch.events.process.ProcessTargetedEvent"
 
-    def __init__(self, *, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
+    def __init__(self, *, process_matcher: Callable[[ProcessRunner], bool]) -> None:
         self._process_matcher = process_matcher
 
     @property
-    def process_matcher(self) -> Callable[[ExecuteLocal], bool]:
+    def process_matcher(self) -> Callable[[ProcessRunner], bool]:
         """The predicate."""
         return self._process_matcher
 
 
-def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
+def matches_pid(pid: int) -> Callable[[ProcessRunner], bool]:
     """Is the process with this id."""
     return lambda action: (
         action.process_details is not None and action.process_details["pid"] == pid
     )
 
 
-def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
+def matches_name(name: str) -> Callable[[ProcessRunner], bool]:
     """Is the process with this unique name."""
     return lambda action: (
         action.process_details is not None and action.process_details["name"] == name
     )
 
 
-def matches_executable(exec_name: str) -> Callable[[ExecuteLocal], bool]:
+def matches_executable(exec_name: str) -> Callable[[ProcessRunner], bool]:
     """Runs the executable of this file name."""
     import os
 

@@ -9,7 +9,7 @@ from launch.event import Event
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from launch.actions import ExecuteLocal
+    from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["RunningProcessEvent"]
 
@@ -31,7 +31,7 @@ class RunningProcessEvent(Event):
     def __init__(
         self,
         *,
-        action: ExecuteLocal,
+        action: ProcessRunner,
         name: str,
         cmd: list[str],
         cwd: str | None,
@@ -46,12 +46,12 @@ class RunningProcessEvent(Event):
         self._pid = pid
 
     @property
-    def action(self) -> ExecuteLocal:
+    def action(self) -> ProcessRunner:
         """The action that runs the process."""
         return self._action
 
     @property
-    def execute_process_action(self) -> ExecuteLocal:
+    def execute_process_action(self) -> ProcessRunner:
         """The same, by its older name."""
         return self._action
 

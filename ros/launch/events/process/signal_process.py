@@ -10,7 +10,7 @@ from launch.events.process.process_targeted_event import ProcessTargetedEvent
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch.actions import ExecuteLocal
+    from launch._kernel.protocols import ProcessRunner
 
 __all__ = ["SignalProcess"]
 
@@ -26,7 +26,7 @@ class SignalProcess(ProcessTargetedEvent):
     name = "launch.events.process.SignalProcess"
 
     def __init__(
-        self, *, signal_number: str | int, process_matcher: Callable[[ExecuteLocal], bool]
+        self, *, signal_number: str | int, process_matcher: Callable[[ProcessRunner], bool]
     ) -> None:
         super().__init__(process_matcher=process_matcher)
         named = (

@@ -9,7 +9,7 @@ from launch.event import Event
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from launch_ros.actions import LifecycleNode
+    from launch_ros.events.named_node import NamedNode
 
 __all__ = ["ChangeState"]
 
@@ -26,13 +26,13 @@ class ChangeState(Event):
     name = "launch_ros.events.lifecycle.ChangeState"
 
     def __init__(
-        self, *, lifecycle_node_matcher: Callable[[LifecycleNode], bool], transition_id: int
+        self, *, lifecycle_node_matcher: Callable[[NamedNode], bool], transition_id: int
     ) -> None:
         self._matcher = lifecycle_node_matcher
         self._transition_id = transition_id
 
     @property
-    def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:
+    def lifecycle_node_matcher(self) -> Callable[[NamedNode], bool]:
         """Which nodes."""
         return self._matcher
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from launch.event import Event
 
 if TYPE_CHECKING:
-    from launch_ros.actions import LifecycleNode
+    from launch_ros.events.named_node import NamedNode
 
 __all__ = ["StateTransition"]
 
@@ -22,12 +22,12 @@ class StateTransition(Event):
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
-    def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
+    def __init__(self, *, action: NamedNode, msg: Any) -> None:
         self._action = action
         self._msg = msg
 
     @property
-    def action(self) -> LifecycleNode:
+    def action(self) -> NamedNode:
         """The action that runs the node."""
         return self._action
 

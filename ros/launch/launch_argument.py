@@ -1,0 +1,33 @@
+"""What a launch file tells about one of its arguments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from launch.substitution import Substitution
+
+__all__ = ["LaunchArgument"]
+
+
+class LaunchArgument(Protocol):
+    """A declared argument of a launch file; ``DeclareLaunchArgument`` is one."""
+
+    #: Whether it is declared only under a condition; known once the file was searched for it.
+    conditionally_included: bool
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """Its value when it is not given; None if it must be given."""
+
+    @property
+    def description(self) -> str:
+        """What it is for."""
+
+    @property
+    def choices(self) -> list[str] | None:
+        """The values it may have, or None for any."""
