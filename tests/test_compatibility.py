@@ -220,8 +220,20 @@ colcon builds a package whose `package.xml` cannot be read, as one that ROS does
   turtlewire_ros/test_colcon_interfaces.py test_a_broken_manifest_is_named_with_its_line
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
-`ros2 bag`, `component`, `control`, `security`
+`ros2 bag`, `control`, `security`
   ros2cli/test_suggestions.py test_commands_that_are_not_here
+an unknown option shows the usage of `ros2`
+  ros2cli/test_extensions.py test_unknown_options_show_the_usage_of_the_verb
+a verb waits on when the server that it called has ended
+  ros2cli/test_unanswered.py test_a_killed_server_ends_the_wait
+names and strings of other nodes reach the terminal as they are
+  ros2cli/test_output.py test_every_verb_is_escaped test_topic_info_of_a_hostile_node
+the service of another type, or with a wrong name, is waited for in silence
+  ros2cli/test_unanswered.py test_what_is_wrong_is_said_at_once
+YAML aliases may stand for any number of values
+  ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
+`interface show` prints upstream's comments
+  ros2cli/test_golden_cli.py test_commands_without_nodes
 `static_transform_publisher` listens to `/parameter_events`, as nodes of C++ do
   ros2cli/test_golden_cli.py test_commands_beside_the_demo
 children's `print()` waits in a buffer

@@ -28,10 +28,10 @@ class ComponentManager(Node):
     """
 
     def __init__(self, node_name: str = "ComponentManager", **options: Any) -> None:
-        super().__init__(node_name, **options)
+        super().__init__(node_name, start_parameter_services=False, **options)
         self._components: dict[int, _Component] = {}
         self._last_id = 0
-        self.create_service(LoadNode, "~/_container/load_node", self._on_load)
+        self.create_service(LoadNode, "~/_container/load_node", self.load)
         self.create_service(UnloadNode, "~/_container/unload_node", self._on_unload)
         self.create_service(ListNodes, "~/_container/list_nodes", self._on_list)
 
@@ -41,14 +41,12 @@ class ComponentManager(Node):
             self._components.popitem()[1].unload()
         super().destroy_node()
 
-    def _on_load(self, request: Any, response: Any) -> Any:
+    def load(self, request: Any, response: Any) -> Any:
+        """Load a component, as the service ``load_node`` does; returns the filled response."""
         try:
             node = _construct(request)
         except Exception as error:  # noqa: BLE001  components are other people's code
-            self.get_logger().error(
-                f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
-            )
-            response.error_message = f"{type(error).__name__}: {error}"
+            response.error_message = self._told(error, request)
             return response
         self._last_id += 1
         self._components[self._last_id] = _Component(node, self.context)
@@ -56,6 +54,16 @@ class ComponentManager(Node):
         response.full_node_name = node.get_fully_qualified_name()
         response.unique_id = self._last_id
         return response
+
+    def _told(self, error: Exception, request: Any) -> str:
+        """Log why a component was not loaded; returns what its client is told."""
+        if isinstance(error, ModuleNotFoundError) and "::" in request.plugin_name:
+            self.get_logger().error(f"'{request.plugin_name}' is a component of C++: {error}")
+            return "Could not find requested resource in ament index"
+        self.get_logger().error(
+            f"Component constructor threw an exception: {error}\n{traceback.format_exc()}"
+        )
+        return f"{type(error).__name__}: {error}"
 
     def _on_unload(self, request: Any, response: Any) -> Any:
         component = self._components.pop(request.unique_id, None)

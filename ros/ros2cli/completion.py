@@ -5,21 +5,29 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.interface_names import interface_names
+
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Callable
 
 __all__ = [
     "action_names",
     "action_types",
     "arguments_of_executable",
+    "container_node_names",
     "executables",
+    "files",
     "frame_names",
+    "goal_values",
     "interface_packages",
     "interfaces",
     "managed_node_names",
+    "message_values",
     "node_names",
     "packages",
     "parameter_names",
+    "request_values",
     "service_names",
     "service_types",
     "topic_names",
@@ -53,14 +61,7 @@ def interface_packages(**_: Any) -> list[str]:
 
 def interfaces(**_: Any) -> list[str]:
     """Full names of all interfaces."""
-    from turtlewire import msg
-
-    return sorted(
-        f"{package}/{kind}/{name}"
-        for package, kinds in msg.interface_names().items()
-        for kind, names in kinds.items()
-        for name in names
-    )
+    return interface_names()
 
 
 def topic_names(**_: Any) -> list[str]:
@@ -97,22 +98,61 @@ def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> lis
     return frame_names() if executable in _TAKES_FRAMES else []
 
 
+def files(prefix: str, **_: Any) -> list[str]:
+    """Files and folders."""
+    from argcomplete.completers import FilesCompleter
+
+    return list(FilesCompleter()(prefix))
+
+
+def message_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """The default values of the message type on the command line."""
+    from rosidl_runtime_py.utilities import get_message
+
+    return _prototype(get_message, parsed_args.message_type)
+
+
+def request_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """The default values of a request of the service type on the command line."""
+    from rosidl_runtime_py.utilities import get_service
+
+    return _prototype(lambda name: get_service(name).Request, parsed_args.service_type)
+
+
+def goal_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """The default values of a goal of the action type on the command line."""
+    from rosidl_runtime_py.utilities import get_action
+
+    return _prototype(lambda name: get_action(name).Goal, parsed_args.action_type)
+
+
+def _prototype(find_class: Callable[[str], Any], type_name: str) -> list[str]:
+    from rosidl_runtime_py import message_to_yaml
+
+    try:
+        message = find_class(type_name)()
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        return []
+    fields = message_to_yaml(message, flow_style=True).splitlines()
+    return [f"{{{', '.join(fields)}}}"]
+
+
 def topic_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Type of the topic on the command line, or all messages."""
     types = dict(_ask("topics")).get(getattr(parsed_args, "topic_name", None))
-    return types or [name for name in interfaces() if "/msg/" in name]
+    return types or interface_names("msg")
 
 
 def service_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Type of the service on the command line, or all services."""
     types = dict(_ask("services")).get(getattr(parsed_args, "service_name", None))
-    return types or [name for name in interfaces() if "/srv/" in name]
+    return types or interface_names("srv")
 
 
 def action_types(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Type of the action on the command line, or all actions."""
     types = dict(_ask("actions")).get(getattr(parsed_args, "action_name", None))
-    return types or [name for name in interfaces() if "/action/" in name]
+    return types or interface_names("action")
 
 
 def _ask(question: str) -> Any:
@@ -129,7 +169,16 @@ def parameter_names(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     from ros2cli.parameters import RemoteParameters
 
     with DirectNode(parsed_args) as direct:
-        return RemoteParameters(direct, parsed_args).names([])
+        return RemoteParameters(direct, parsed_args).names()
+
+
+def container_node_names(**_: Any) -> list[str]:
+    """Full names of the containers there are now."""
+    from ros2cli.containers import container_names
+    from ros2cli.discovery import GraphNode
+
+    with GraphNode() as known:
+        return container_names(known)
 
 
 def managed_node_names(**_: Any) -> list[str]:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 __all__ = ["DirectNode"]
 
+#: How long an answer may follow the news that its server has left.
+_LAST_ANSWER_S = 0.5
+
 
 class DirectNode:
     """A hidden node that knows the graph; a context manager.
@@ -78,8 +81,18 @@ class DirectNode:
         except ExternalShutdownException as error:
             raise KeyboardInterrupt from error
 
-    def wait_for(self, predicate: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Handle callbacks until the graph is as wanted; False when it was not within ``timeout`` seconds.
+    def wait_for(
+        self, predicate: Callable[[], bool], timeout: float | None = None, other: Any = None
+    ) -> bool:
+        """Handle callbacks until the graph is as wanted.
+
+        Args:
+            predicate: Asked now and after every change of the graph.
+            timeout: Seconds to wait; None waits without a limit.
+            other: A future whose end also asks the predicate.
+
+        Returns:
+            Whether the predicate was true in time.
 
         Raises:
             KeyboardInterrupt: At Ctrl-C, or another signal that ends this process.
@@ -88,11 +101,13 @@ class DirectNode:
 
         fulfilled: Future = Future()
 
-        def look() -> None:
-            if predicate():
+        def look(_: Any = None) -> None:
+            if not fulfilled.done() and predicate():
                 fulfilled.set_result(True)
 
         remove = self.graph.add_listener(look)
+        if other is not None:
+            other.add_done_callback(look)
         try:
             look()
             self.result(fulfilled, timeout)
@@ -112,6 +127,30 @@ class DirectNode:
 
         with suppress(TimeoutError):
             self.result(Future(), seconds)
+
+    def answer(
+        self, future: Any, server: str, is_served: Callable[[], bool], timeout: float | None = None
+    ) -> Any:
+        """Handle callbacks until a server has answered; its answer.
+
+        Args:
+            future: The answer to come.
+            server: What answers, for the error, for example ``service '/spawn'``.
+            is_served: Whether it is still there; asked at every change of the graph.
+            timeout: Seconds to wait; None waits as long as the server is there.
+
+        Raises:
+            KeyboardInterrupt: At Ctrl-C.
+            RuntimeError: The server left without an answer.
+            TimeoutError: No answer came within ``timeout`` seconds.
+        """
+        if not self.wait_for(lambda: future.done() or not is_served(), timeout, future):
+            raise TimeoutError(f"no answer within {timeout} s")
+        if not future.done():  # its last answer may still be on its way
+            with suppress(TimeoutError):
+                return self.result(future, _LAST_ANSWER_S)
+            raise RuntimeError(f"The server of {server} is gone: it ended before it answered")
+        return future.result()
 
     def result(self, future: Any, timeout: float | None = None) -> Any:
         """Handle callbacks until a future is done; its result.

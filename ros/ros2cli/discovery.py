@@ -111,8 +111,9 @@ class GraphNode:
         from turtlewire.wire.qos import Durability, QoS
 
         self._context = open_context()
-        self.name = f"_ros2cli_{os.getpid()}"
-        node = self._context.create_node(self.name)
+        name = f"_ros2cli_{os.getpid()}"
+        self.full_name = f"/{name}"
+        node = self._context.create_node(name)
         # Every node has these; without them the lists of an empty domain would differ from those of
         # ROS 2.
         for topic, type_name, type_hash, lifespan in _NODE_TOPICS:

@@ -18,10 +18,12 @@ __all__ = [
     "action_servers",
     "actions",
     "endpoints_of_topic",
+    "full_node_name",
     "is_hidden_node",
     "node_exists",
     "node_names",
     "publishers",
+    "require_node",
     "service_clients",
     "service_servers",
     "services",
@@ -56,6 +58,11 @@ def node_names(graph: Graph, *, hidden: bool = False) -> list[str]:
     return sorted(name for name in found if hidden or not is_hidden_node(name))
 
 
+def full_node_name(name: str) -> str:
+    """The name of a node with a slash in front."""
+    return name if name.startswith("/") else f"/{name}"
+
+
 def is_hidden_node(full_name: str) -> bool:
     """Whether the last part of the name begins with an underscore."""
     return full_name.rpartition("/")[2].startswith("_")
@@ -64,6 +71,20 @@ def is_hidden_node(full_name: str) -> bool:
 def node_exists(graph: Graph, full_name: str) -> bool:
     """Whether a node of the name is known."""
     return full_name in node_names(graph, hidden=True)
+
+
+def require_node(graph: Graph, name: str) -> str:
+    """The full name of a node.
+
+    Raises:
+        RuntimeError: There is none of that name.
+    """
+    from ros2cli.suggestion import did_you_mean
+
+    full_name = full_node_name(name)
+    if not node_exists(graph, full_name):
+        raise RuntimeError(f"Node not found{did_you_mean(full_name, node_names(graph))}")
+    return full_name
 
 
 def endpoints_of_topic(graph: Graph, topic: str, kind: str) -> list[EndpointInfo]:

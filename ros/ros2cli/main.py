@@ -7,10 +7,12 @@ import argparse
 import os
 import re
 import sys
+from contextlib import nullcontext
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 from ros2cli.commands import COMMANDS
+from ros2cli.output import escaped_output, tell
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -23,10 +25,12 @@ _EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a cl
 _INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _OPTION = re.compile(r"(?<![\w-])--?[a-z][\w-]*")
 
+#: Commands that have another's module.
+_ALIASES = {"wtf": "doctor"}
+
 #: Commands of ROS 2 that are not here, and what does their work.
 _NOT_HERE = {
     "bag": "There are no bags here yet; `pip install rosbags` reads and writes them without ROS.",
-    "component": "Containers of nodes are for launch files here: ComposableNodeContainer and LoadComposableNodes.",
     "control": "ros2_control is C++, and not part of this distribution.",
     "plugin": "Plugins of C++ are not part of this distribution.",
     "security": "Encrypted communication is not part of this distribution.",
@@ -72,12 +76,15 @@ def _run(words: list[str]) -> int:
     parser = make_parser(_words_to_complete() or words)
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
+        from argcomplete.completers import SuppressCompleter
 
-        argcomplete.autocomplete(parser, exclude=["-h", "--help"])
+        no_files = SuppressCompleter()  # the arguments that are files say so
+        argcomplete.autocomplete(parser, exclude=["-h", "--help"], default_completer=no_files)
     args, unknown = parser.parse_known_args(words)
     if unknown:
-        options = _OPTION.findall(getattr(args, "parser", parser).format_usage())
-        parser.error(f"unrecognized arguments: {' '.join(unknown)}{_hint(unknown[0], options)}")
+        chosen = getattr(args, "parser", parser)
+        hint = _hint(unknown[0], _OPTION.findall(chosen.format_usage()))
+        chosen.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
     if (
         not args.use_python_default_buffering and sys.stdout is not None
     ):  # None: whoever started this has closed it
@@ -113,9 +120,9 @@ def _add_choices(
 ) -> None:
     """Add commands or verbs; the one that the words name is loaded."""
     title = "Verbs" if " " in prog else "Commands"
-    rest = "<command>" if prog == "ros2" else "<verb>"
+    what = "<command>" if prog == "ros2" else "<verb>"
     group = parser.add_subparsers(
-        title=title, metavar=f"Call `{prog} {rest} -h` for more detailed usage."
+        title=title, metavar=f"Call `{prog} {what} -h` for more detailed usage."
     )
     chosen = next((word for word in words if not word.startswith("-")), None)
     for name, summary in choices.items():
@@ -123,18 +130,20 @@ def _add_choices(
             name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False
         )
         if name == chosen:
-            _load(sub, f"{prog} {name}", words[words.index(name) + 1 :], f"{package}.{name}")
+            rest = words[words.index(name) + 1 :]
+            _load(sub, f"{prog} {name}", rest, f"{package}.{_ALIASES.get(name, name)}")
 
 
 def _load(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
     module = import_module(module_name)
     if hasattr(module, "add_arguments"):
         module.add_arguments(parser)
-    if hasattr(module, "VERBS"):
-        parser.set_defaults(show_help=parser.print_help)
-        _add_choices(parser, prog, module.VERBS, words, module_name)
-    else:
+    if hasattr(module, "main"):
         parser.set_defaults(module=module, parser=parser)
+    else:
+        parser.set_defaults(show_help=parser.print_help)
+    if hasattr(module, "VERBS"):
+        _add_choices(parser, prog, module.VERBS, words, module_name)
 
 
 def _status(args: argparse.Namespace) -> int:
@@ -142,8 +151,11 @@ def _status(args: argparse.Namespace) -> int:
     if module is None:
         args.show_help()
         return 0
+    # launch passes on the colours of its processes, and escapes nothing that it did not write
+    escaped = nullcontext() if getattr(module, "PASSES_COLOURS_ON", False) else escaped_output()
     try:
-        status: int | str | None = module.main(args)
+        with escaped:
+            status: int | str | None = module.main(args)
     except BrokenPipeError:  # the reader of a pipe has enough
         sys.stdout = None
         return _EXIT_READER_GONE
@@ -155,7 +167,7 @@ def _status(args: argparse.Namespace) -> int:
         status = "".join(traceback.format_exception_only(type(error), error)).rstrip("\n")
         status += f"\n{error.hint}" if hasattr(error, "hint") else ""
     if isinstance(status, str):
-        print(status, file=sys.stderr)
+        tell(status)
         return 1
     return status or 0
 

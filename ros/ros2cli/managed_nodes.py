@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import argparse
+
     from ros2cli.direct_node import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["ask", "managed_nodes", "require_managed_node"]
+__all__ = ["add_hidden_argument", "ask", "managed_nodes", "require_managed_node"]
 
 _SERVICE = "/get_state"
 _TYPE = "lifecycle_msgs/srv/GetState"
@@ -27,17 +29,26 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
     return sorted(name for name in names if hidden or not is_hidden_node(name))
 
 
-def require_managed_node(graph: Graph, name: str) -> str:
-    """The full name of a managed node.
+def add_hidden_argument(parser: argparse.ArgumentParser) -> None:
+    """Define the option that admits hidden nodes."""
+    parser.add_argument(
+        "--include-hidden-nodes",
+        action="store_true",
+        help="Also nodes whose name begins with an underscore",
+    )
+
+
+def require_managed_node(graph: Graph, args: argparse.Namespace) -> str:
+    """The full name of the managed node on the command line.
 
     Raises:
         RuntimeError: There is none of that name.
     """
-    from ros2cli.parameters import full_node_name
+    from ros2cli.graph import full_node_name
     from ros2cli.suggestion import did_you_mean
 
-    full_name = full_node_name(name)
-    known = managed_nodes(graph, hidden=True)
+    full_name = full_node_name(args.node_name)
+    known = managed_nodes(graph, hidden=args.include_hidden_nodes)
     if full_name not in known:
         raise RuntimeError(f"Node not found{did_you_mean(full_name, known)}")
     return full_name

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
-
-from ros2cli.completion import node_names, parameter_names
-from ros2cli.discovery import add_strategy_arguments
 
 if TYPE_CHECKING:
     import argparse
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = [
-    "TYPE_NAMES",
-    "RemoteParameters",
-    "add_name_argument",
-    "add_node_arguments",
-    "full_node_name",
-]
+__all__ = ["TYPE_NAMES", "Question", "RemoteParameters"]
 
 #: By the numbers of ``rcl_interfaces/msg/ParameterType``.
 TYPE_NAMES = {
@@ -34,41 +26,66 @@ TYPE_NAMES = {
     9: "string array",
 }
 
-_TIMEOUT_S = 5.0
 
+class Question:
+    """A call of one of a node's parameter services.
 
-def add_node_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
-    """Define what all verbs share."""
-    add_strategy_arguments(parser)
-    node = parser.add_argument(
-        "node_name",
-        nargs="?" if optional else None,
-        help="Full name of the node, for example /turtlesim",
-    )
-    node.completer = node_names  # type: ignore[attr-defined]
-    parser.add_argument(
-        "--include-hidden-nodes",
-        action="store_true",
-        help="Also nodes whose name begins with an underscore",
-    )
-    parser.add_argument(
-        "--timeout",
-        metavar="N",
-        type=float,
-        default=_TIMEOUT_S,
-        help="Wait at most N seconds for the node's answer",
-    )
+    The client is made at once and :meth:`send` waits for its service, so that the services of
+    many nodes are discovered side by side.
 
+    Args:
+        direct: The node that asks.
+        node_name: Full name of the node that is asked.
+        service: Name of the service, for example ``list_parameters``.
+        timeout: Seconds to wait for the service, and again for its answer.
+        **fields: The fields of the request.
+    """
 
-def add_name_argument(parser: argparse.ArgumentParser) -> None:
-    """Define the name of one parameter."""
-    name = parser.add_argument("parameter_name", help="Name of the parameter")
-    name.completer = parameter_names  # type: ignore[attr-defined]
+    def __init__(
+        self, direct: DirectNode, node_name: str, service: str, timeout: float, **fields: Any
+    ) -> None:
+        from rcl_interfaces import srv
 
+        service_class = getattr(srv, service.title().replace("_", ""))
+        self._node_name = node_name
+        self._direct = direct
+        self._timeout = timeout
+        self._request = service_class.Request(**fields)
+        self._client = direct.node.create_client(service_class, f"{node_name}/{service}")
+        self._answer: Any = None
+        self._deadline = 0.0
 
-def full_node_name(name: str) -> str:
-    """The name with a slash in front."""
-    return name if name.startswith("/") else f"/{name}"
+    def send(self) -> Question:
+        """Send the request as soon as the service is there.
+
+        Raises:
+            RuntimeError: It does not appear.
+        """
+        if not self._client.wait_for_service(self._timeout):
+            raise RuntimeError(
+                f"Wait for service timed out: the node '{self._node_name}' has no parameter services"
+            )
+        self._answer = self._client.call_async(self._request)
+        self._deadline = time.monotonic() + self._timeout
+        return self
+
+    def answer(self) -> Any:
+        """Wait for the response.
+
+        Raises:
+            RuntimeError: The node does not answer, or it has left.
+        """
+        server, rest = f"service '{self._client.srv_name}'", self._deadline - time.monotonic()
+        try:
+            return self._direct.answer(
+                self._answer, server, self._client.service_is_ready, max(rest, 0.0)
+            )
+        except TimeoutError as error:
+            raise RuntimeError(
+                f"The node '{self._node_name}' did not answer within {self._timeout} s"
+            ) from error
+        finally:
+            self._direct.node.destroy_client(self._client)
 
 
 class RemoteParameters:
@@ -77,68 +94,48 @@ class RemoteParameters:
     Args:
         direct: The node that asks.
         args: The command line.
-        node_name: Full name of the node that is asked; by default that of the command line.
 
     Raises:
         RuntimeError: There is no such node.
     """
 
-    def __init__(
-        self, direct: DirectNode, args: argparse.Namespace, node_name: str | None = None
-    ) -> None:
-        from rclpy.parameter_client import AsyncParameterClient
-        from ros2cli.graph import node_exists
+    def __init__(self, direct: DirectNode, args: argparse.Namespace) -> None:
+        from ros2cli.graph import require_node
 
-        name = full_node_name(args.node_name) if node_name is None else node_name
-        if not node_exists(direct.graph, name):
-            from ros2cli.graph import node_names as known
-            from ros2cli.suggestion import did_you_mean
-
-            raise RuntimeError(f"Node not found{did_you_mean(name, known(direct.graph))}")
-        self.node_name = name
+        self.node_name = require_node(direct.graph, args.node_name)
         self._direct = direct
         self._timeout: float = args.timeout
-        self._client = AsyncParameterClient(direct.node, name)
 
-    def _ask(self, method: str, *args: Any) -> Any:
-        if not self._client.wait_for_services(self._timeout):
-            raise RuntimeError(
-                f"Wait for service timed out: the node '{self.node_name}' has no parameter services"
-            )
-        try:
-            return self._direct.result(getattr(self._client, method)(*args), self._timeout)
-        except TimeoutError as error:
-            raise RuntimeError(
-                f"The node '{self.node_name}' did not answer within {self._timeout} s"
-            ) from error
+    def _ask(self, service: str, **fields: Any) -> Any:
+        return (
+            Question(self._direct, self.node_name, service, self._timeout, **fields).send().answer()
+        )
 
     def meant(self, name: str) -> str:
-        """A line with the nearest parameters, to be put behind a message; empty when there is one of this name, or none is near."""
+        """A line with the nearest parameters; empty if there is one of this name, or none is near."""
         from ros2cli.suggestion import did_you_mean
 
-        known = self.names([])
+        known = self.names()
         return "" if name in known else did_you_mean(name, known)
 
-    def names(self, prefixes: list[str]) -> list[str]:
-        """Names of all parameters below the prefixes, sorted."""
-        return sorted(self._ask("list_parameters", prefixes).result.names)
-
-    def types(self, names: list[str]) -> list[int]:
-        """Numbers of the types."""
-        return list(self._ask("get_parameter_types", names).types)
+    def names(self) -> list[str]:
+        """Names of all parameters, sorted."""
+        return sorted(self._ask("list_parameters").result.names)
 
     def values(self, names: list[str]) -> list[Any]:
         """``rcl_interfaces/msg/ParameterValue`` messages."""
-        return list(self._ask("get_parameters", names).values)
+        return list(self._ask("get_parameters", names=names).values)
 
     def descriptors(self, names: list[str]) -> list[Any]:
         """``rcl_interfaces/msg/ParameterDescriptor`` messages."""
-        return list(self._ask("describe_parameters", names).descriptors)
+        return list(self._ask("describe_parameters", names=names).descriptors)
 
     def set(self, parameters: list[Any]) -> list[Any]:
         """Set ``rcl_interfaces/msg/Parameter`` messages; the results."""
-        return list(self._ask("set_parameters", parameters).results)
+        return list(self._ask("set_parameters", parameters=parameters).results)
 
     def delete(self, names: list[str]) -> list[Any]:
-        """Delete parameters; the results."""
-        return list(self._ask("delete_parameters", names).results)
+        """Delete parameters: a value without a type stands for none. Returns the results."""
+        from rcl_interfaces.msg import Parameter
+
+        return self.set([Parameter(name=name) for name in names])

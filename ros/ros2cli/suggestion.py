@@ -2,46 +2,104 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
+from ros2cli.output import tell
 from turtlewire_ros import suggestion
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable, Mapping
 
-__all__ = ["did_you_mean", "field_meant", "interface_meant", "package_meant", "say_what_was_meant"]
+__all__ = [
+    "did_you_mean",
+    "field_meant",
+    "interface_meant",
+    "package_meant",
+    "say_what_was_meant",
+    "say_why_to_wait",
+    "warn_of_other_type",
+]
+
+_MOST_NAMES = 12
+#: Packages of the services that every node has.
+_OF_EVERY_NODE = ("rcl_interfaces/", "type_description_interfaces/")
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A line with the nearest known names, to be put behind a message; empty when none is near."""
+    """A line with the nearest known names, to append to a message; empty if none is near."""
     line = suggestion.did_you_mean(name, known)
     return f"\n{line}" if line else ""
 
 
 def field_meant(error: BaseException | None) -> str:
-    """As `did_you_mean`, for a field that a message does not have; empty for other errors."""
+    """`did_you_mean` for a field that a message does not have; empty for other errors."""
     fields = getattr(getattr(error, "obj", None), "get_fields_and_field_types", None)
     return did_you_mean(str(getattr(error, "name", "")), fields()) if fields is not None else ""
 
 
 def package_meant(name: str) -> str:
-    """As `did_you_mean`, for the name of a package."""
+    """`did_you_mean` for the name of a package."""
     from turtlewire_ros.prefix import package_names
 
     return did_you_mean(name, package_names())
 
 
 def interface_meant(name: str, kind: str = "") -> str:
-    """As `did_you_mean`, for the name of an interface; ``kind`` is msg, srv or action when only those will do."""
-    from ros2cli.completion import interfaces
+    """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action."""
+    from ros2cli.interface_names import interface_names
 
-    return did_you_mean(name, (known for known in interfaces() if f"/{kind}/" in known or not kind))
+    return did_you_mean(name, interface_names(kind))
 
 
 def say_what_was_meant(name: str, known: Iterable[str]) -> None:
-    """Print the nearest names to stderr, unless the name is one of them or none is near."""
+    """Print the nearest names to stderr, unless the name is known or none is near."""
     names = list(known)
-    line = "" if name in names else did_you_mean(name, names)
-    if line:
-        print(line.lstrip("\n"), file=sys.stderr)
+    near = "" if name in names else did_you_mean(name, names)
+    if near:
+        tell(near.lstrip("\n"))
+
+
+def warn_of_other_type(
+    kind: str, name: str, asked: str, known: Mapping[str, Collection[str]]
+) -> None:
+    """Print to stderr that a topic, service or action has another type than was asked for.
+
+    Args:
+        kind: ``topic``, ``service`` or ``action``.
+        name: Its full name.
+        asked: The type on the command line.
+        known: The types of all that exist, by name.
+    """
+    types = known.get(name, ())
+    if types and asked not in types:
+        tell(f"The {kind} '{name}' has the type {' and '.join(sorted(types))}, not {asked}")
+
+
+def say_why_to_wait(
+    kind: str, name: str, interface: type, known: Iterable[tuple[str, list[str]]]
+) -> None:
+    """Print to stderr why no server is there: another type, or another name.
+
+    Args:
+        kind: ``service`` or ``action``.
+        name: Its full name.
+        interface: The class on the command line.
+        known: Names and types of all that exist.
+    """
+    from turtlewire.msg import type_name
+
+    types = dict(known)
+    if name in types:
+        warn_of_other_type(kind, name, type_name(interface), types)
+        return
+    near = did_you_mean(name, types).lstrip("\n")
+    tell(near or _all_that_exist(kind, types))
+
+
+def _all_that_exist(kind: str, types: Mapping[str, list[str]]) -> str:
+    names = sorted(name for name in types if not types[name][0].startswith(_OF_EVERY_NODE))
+    if not names:
+        return f"No node offers any {kind} now"
+    rest = len(names) - _MOST_NAMES
+    more = f" and {rest} more" if rest > 0 else ""
+    return f"Known {kind}s: {', '.join(names[:_MOST_NAMES])}{more}"

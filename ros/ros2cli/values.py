@@ -5,19 +5,36 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-__all__ = ["positive_float", "positive_int", "read_values", "unsigned_int"]
+__all__ = [
+    "assignment",
+    "positive_float",
+    "positive_int",
+    "read_values",
+    "shortened",
+    "unsigned_int",
+]
+
+#: How many values YAML aliases may add to those that are written out.
+_MOST_COPIES = 100_000
+_LONGEST_ERROR = 1000
 
 
 def read_values(text: str) -> dict[str, Any]:
     """The mapping that a YAML text is; an empty text is an empty one.
 
     Raises:
-        RuntimeError: It is no mapping.
+        RuntimeError: It is no mapping, or one that aliases or nesting make too large.
         yaml.YAMLError: It is no YAML.
     """
     import yaml
 
-    values = yaml.safe_load(text)
+    try:
+        values = yaml.safe_load(text)
+        size = _size(values, {})
+    except RecursionError:
+        raise RuntimeError("The passed value is nested too deeply") from None
+    if size > len(text) + _MOST_COPIES:  # each value that is written out has a character of its own
+        raise RuntimeError("The aliases of the passed value stand for too many values")
     if values is None:
         return {}
     if not isinstance(values, dict):
@@ -25,6 +42,31 @@ def read_values(text: str) -> dict[str, Any]:
             "The passed value needs to be a dictionary in YAML format"
         )
     return values
+
+
+def _size(value: Any, known: dict[int, float]) -> float:
+    """How many values there are in ``value`` when its YAML aliases are written out."""
+    parts = value.values() if isinstance(value, dict) else value
+    if not isinstance(value, (dict, list)):
+        return 1
+    if id(value) not in known:
+        known[id(value)] = float("inf")  # what contains itself has no end
+        known[id(value)] = 1 + sum(_size(part, known) for part in parts)
+    return known[id(value)]
+
+
+def shortened(error: object) -> str:
+    """The text of an error, cut where it quotes a value of any length."""
+    text = str(error)
+    return text if len(text) <= _LONGEST_ERROR else f"{text[:_LONGEST_ERROR]}..."
+
+
+def assignment(text: str) -> tuple[str, str]:
+    """Name and value of ``name:=value``, for argparse."""
+    name, separator, value = text.partition(":=")
+    if not separator or not name:
+        raise argparse.ArgumentTypeError(f"'{text}' is not of the form name:=value")
+    return name, value
 
 
 def positive_float(text: str) -> float:

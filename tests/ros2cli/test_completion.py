@@ -74,3 +74,29 @@ def test_names_of_parameters(run):
     for verb in ("get", "set", "delete", "describe"):
         assert offered(f"ros2 param {verb} /some_node sp") == {"speed"}
     assert offered("ros2 param get /nobody sp") == set()
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("ros2 topic pub /x geometry_msgs/msg/Vector3 '", "{x: 0.0, y: 0.0, z: 0.0}"),
+        ("ros2 service call /x std_srvs/srv/SetBool '", "{data: false}"),
+        ("ros2 action send_goal /x turtlesim/action/RotateAbsolute '", "{theta: 0.0}"),
+    ],
+)
+def test_prototypes_of_values(line, expected):
+    assert expected in {word.lstrip("'").rstrip("'") for word in offered(line)}
+
+
+@pytest.mark.parametrize("line", ["ros2 topic pub /x no/such/Type '", "ros2 topic echo /x y z"])
+def test_nothing_is_offered_where_nothing_fits(line, tmp_path, monkeypatch):
+    (tmp_path / "some_file").touch()
+    monkeypatch.chdir(tmp_path)
+    assert {word for word in offered(line) if not word.startswith("-")} == set()
+
+
+@pytest.mark.parametrize("line", ["ros2 param load /x so", "ros2 launch ./so"])
+def test_files_are_offered_where_they_fit(line, tmp_path, monkeypatch):
+    (tmp_path / "some_file.launch.py").touch()
+    monkeypatch.chdir(tmp_path)
+    assert {os.path.basename(word) for word in offered(line)} == {"some_file.launch.py"}

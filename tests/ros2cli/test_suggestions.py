@@ -31,7 +31,7 @@ def errors(capsys, *words):
     [
         ("lauch", "ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: invalid choice: 'lauch'", "launch"),
         ("topic eco", "ros2 topic: error: argument Call `ros2 topic <verb> -h` for more detailed usage.: invalid choice: 'eco'", "echo"),
-        ("topic list --includ-hidden", "ros2: error: unrecognized arguments: --includ-hidden", "--include-hidden-topics"),
+        ("topic list --includ-hidden", "ros2 topic list: error: unrecognized arguments: --includ-hidden", "--include-hidden-topics"),
         ("run turtlesm turtlesim_node", "Package 'turtlesm' not found", "turtlesim"),
         ("launch turtlesm x.launch.py", "Package 'turtlesm' not found: \"package 'turtlesm' not found, searching: ", "turtlesim"),
         ("pkg prefix turtlesm", "Package not found", "turtlesim"),
@@ -53,12 +53,12 @@ def test_names_that_are_known_without_nodes(capsys, line, message, near):
     assert hint.removeprefix("Did you mean: ").split(", ")[0] == near
 
 
-@pytest.mark.parametrize("command", ["bag", "component"])
+@pytest.mark.parametrize("command", ["bag", "security"])
 def test_commands_that_are_not_here(capsys, command):
     told, hint = errors(capsys, command, "list")
     assert f"invalid choice: '{command}'" in told
     assert hint.startswith(
-        ("There are no bags here yet", "Containers of nodes are for launch files here")
+        ("There are no bags here yet", "Encrypted communication is not part")
     )
 
 

@@ -8,7 +8,14 @@ import pytest
 import yaml
 
 from ros2cli.suggestion import did_you_mean
-from ros2cli.values import positive_float, positive_int, read_values, unsigned_int
+from ros2cli.values import (
+    assignment,
+    positive_float,
+    positive_int,
+    read_values,
+    shortened,
+    unsigned_int,
+)
 
 
 def test_yaml_values():
@@ -42,3 +49,36 @@ def test_near_names_are_suggested():
         did_you_mean("/turtel1/pose", ["/turtle1/pose", "/tf"]) == "\nDid you mean: /turtle1/pose"
     )
     assert did_you_mean("/zzz", ["/turtle1/pose"]) == ""
+
+
+BOMB = "\n".join(
+    ["a0: &a0 [lol, lol]", *(f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]" for i in range(1, 9))]
+)
+
+
+@pytest.mark.parametrize("text", [BOMB, "{data: &a [*a]}"])
+def test_aliases_that_stand_for_too_much_are_refused(text):
+    with pytest.raises(RuntimeError, match=r"^The aliases of the passed value .* too many values$"):
+        read_values(text)
+
+
+def test_aliases_of_ordinary_size_are_taken():
+    assert read_values("{a: &x [1, 2], b: *x}") == {"a": [1, 2], "b": [1, 2]}
+    assert len(read_values(f"{{data: [{'1, ' * 200_000}]}}")["data"]) == 200_000
+
+
+def test_deep_nesting_is_refused_in_one_line():
+    with pytest.raises(RuntimeError, match=r"^The passed value is nested too deeply$"):
+        read_values(f"{{data: {'[' * 5000}{']' * 5000}}}")
+
+
+def test_errors_that_quote_a_value_are_cut():
+    assert shortened(ValueError("short")) == "short"
+    assert len(shortened(ValueError("x" * 10_000_000))) < 2000
+
+
+def test_assignments():
+    assert assignment("a:=b:=c") == ("a", "b:=c")
+    for bad in ("a", ":=b"):
+        with pytest.raises(argparse.ArgumentTypeError, match="not of the form name:=value"):
+            assignment(bad)

@@ -94,11 +94,14 @@ _REPORTED = (
 
 
 def _all_transitions() -> list[Transition]:
-    transitions = [
-        Transition(number, label, STATES[start], STATES[goal])
-        for number, label, start, goal in _REQUESTED
-    ]
+    """In the order of ROS 2: those that lead into a state come before those that leave it."""
+    transitions: list[Transition] = []
     for start, first, *goals in _REPORTED:
+        transitions += [
+            Transition(number, label, STATES[origin], STATES[start])
+            for number, label, origin, goal in _REQUESTED
+            if goal == start
+        ]
         for offset, (outcome, goal) in enumerate(zip(TransitionCallbackReturn, goals, strict=True)):
             transitions.append(
                 Transition(first + offset, outcome.to_label(), STATES[start], STATES[goal])

@@ -6,8 +6,11 @@ __all__ = ["COMMANDS"]
 
 COMMANDS = {
     "action": "Goals that take time: list them, send one",
+    "component": "Containers of nodes: list them, load and unload nodes",
     "daemon": "Status of the daemon (there is none, and none is needed)",
     "doctor": "Look for what is wrong with the setup and the traffic",
+    "extension_points": "List the kinds of commands and verbs",
+    "extensions": "List all commands and verbs",
     "interface": "Show the definitions of messages, services and actions",
     "launch": "Run a launch file",
     "lifecycle": "Show and change the states of managed nodes",

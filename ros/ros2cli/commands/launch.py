@@ -8,7 +8,7 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.completion import packages
+from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
     import argparse
@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 
     from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["PASSES_COLOURS_ON", "add_arguments", "main"]
 
+PASSES_COLOURS_ON = True
 _SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 
 
@@ -64,7 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     package = parser.add_argument(
         "package_name", help="Name of the package, or path of a launch file"
     )
-    package.completer = packages  # type: ignore[attr-defined]
+    package.completer = _packages_and_files  # type: ignore[attr-defined]
     file = parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
     file.completer = _launch_files  # type: ignore[attr-defined]
     parser.add_argument(
@@ -227,6 +228,10 @@ def _files_in(share: str) -> list[str]:
     return sorted(
         file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES)
     )
+
+
+def _packages_and_files(prefix: str, **_: Any) -> list[str]:
+    return packages() + files(prefix)
 
 
 def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

@@ -9,5 +9,5 @@ case "$_turtlewire_root" in
 esac
 unset _turtlewire_root
 if [ -n "${PS1:-}" ] && command -v register-python-argcomplete > /dev/null; then
-    eval "$(register-python-argcomplete ros2 turtlewire)" # completion by TAB, in interactive shells
+    eval "$(register-python-argcomplete --no-defaults ros2 turtlewire)" # completion by TAB, in interactive shells
 fi

@@ -7,5 +7,5 @@ fi
 unset _turtlewire_root
 if [[ -o interactive ]] && command -v register-python-argcomplete > /dev/null; then
     (( $+functions[compdef] )) || { autoload -U compinit && compinit -u }
-    eval "$(register-python-argcomplete ros2 turtlewire)" # completion by TAB
+    eval "$(register-python-argcomplete --no-defaults ros2 turtlewire)" # completion by TAB
 fi

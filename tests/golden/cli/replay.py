@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 HERE = Path(__file__).parent
+MORE = HERE.parent / "cli2"
 ROOT = HERE.parents[2]
 #: Exit codes that the real tool gives for a verb ended by Ctrl-C, depending on which thread is faster.
 INTERRUPTED = {0, 1, 2, 15, 124}
@@ -61,7 +62,26 @@ class Result:
 
 
 def load_cases() -> list[Case]:
-    return [_parse(path) for path in sorted(HERE.glob("[0-9]*.txt"))]
+    """All captures, those of ``cli2`` last."""
+    cases = [_parse(path) for path in sorted(HERE.glob("[0-9]*.txt"))]
+    return cases + [_parse_short(path) for path in sorted(MORE.glob("[0-9]*.txt"))]
+
+
+def _parse_short(path: Path) -> Case:
+    """A capture of ``cli2``: its command, exit code and streams."""
+    text = path.read_text(encoding="utf-8")
+    header, _, rest = text.partition("--- stdout\n")
+    stdout, _, stderr = rest.rpartition("--- stderr\n")
+    fields = re.fullmatch(r"\$ (.*)\n--- exit (\d+)(?: \(stopped after (\d+) s\))?\n", header)
+    return Case(
+        name=path.stem,
+        command=fields[1],
+        exit_code=int(fields[2]),
+        interrupt_after=float(fields[3]) if fields[3] else None,
+        stdout=stdout,
+        stderr=stderr,
+        cut_to=None,
+    )
 
 
 def _parse(path: Path) -> Case:
@@ -88,7 +108,8 @@ def run(case: Case, timeout: float = 30.0) -> Result:
     env = os.environ | {"LANG": "C.UTF-8", "COLUMNS": "80", "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     env.pop("PYTHONDONTWRITEBYTECODE", None)
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    process = subprocess.Popen(shlex.split(case.command), cwd=HERE / "inputs", env=env, start_new_session=True, **pipes)
+    words = ["bash", "-c", case.command] if "|" in case.command else shlex.split(case.command)
+    process = subprocess.Popen(words, cwd=HERE / "inputs", env=env, start_new_session=True, **pipes)
     stdout, stderr = _Reader(process.stdout), _Reader(process.stderr)
     suffix = b""
     try:
@@ -191,14 +212,18 @@ _MASKS = [
     (r"(/home/user/ros2_ws/install/\w+|/opt/ros/jazzy)", "PREFIX"),
     (r"\(choose from .*\)", "(choose from THESE)"),
     (r", at /\S+/\w+\.c:\d+", ""),
+    (r"static_transform_publisher_\w+", "static_transform_publisher_N"),
+    (r"\b\d{19}\b", "NANOSECONDS"),
     (r"(?m)^([rgb]): \d+$", r"\1: N"),  # what the sensor sees depends on the way of the turtle
 ]
 # Values that depend on the moment: positions, rates, progress of actions, the order of log lines of several processes.
-_NUMBERS_VARY = re.compile(r"topic_(hz|bw|delay)|echo_pose|echo_csv|echo_cmd_vel|echo_continuous|send_goal|echo_field_list")
+_NUMBERS_VARY = re.compile(r"topic_(hz|bw|delay)|echo_pose|echo_csv|echo_i_|echo_cmd_vel|echo_continuous|send_goal|echo_field_list")
 _ORDER_VARIES = re.compile(r"info_v|launch|interface_package|rosargs_rclcpp|param_load")
 _INSTALLED_PACKAGES = re.compile(r"interface_list|interface_packages|pkg_list")
 #: How many there are depends on how fast the reader of the topic is.
 _FEEDBACK = re.compile(r"(Feedback:\n    remaining: F\n\n)+")
+#: Lines of ours that help, and one of the capture's environment.
+_OUR_HINTS = ("QStandardPaths", "Did you mean:", "  raised in ", "The topic '", "The service '", "The action '", "Known ", "No node offers ")
 _AFTER_INTERRUPT = re.compile(r"^Canceling goal|Process exited")
 _FLOAT = re.compile(r"-?\d+\.\d+(e-?\d+)?")
 
@@ -215,7 +240,7 @@ def masked(case: Case, text: str) -> list[str]:
     text = _FEEDBACK.sub(r"\1", text)
     if "topic_bw" in case.name:  # the unit depends on the rate, and that on how busy the machine is; test_topic_statistics.py has the units
         text = re.sub(r"\S+ K?B\b", "N B", text)
-    lines = [line for line in text.splitlines() if not line.startswith(("QStandardPaths", "Did you mean:", "  raised in "))]
+    lines = [line for line in text.splitlines() if not line.startswith(_OUR_HINTS)]
     if case.interrupt_after is not None:  # how often something happened until then
         lines = sorted({re.sub(r"#\d+", "#N", line) for line in lines})
     return sorted(lines) if _ORDER_VARIES.search(case.name) else lines
@@ -333,7 +358,17 @@ def surroundings(number: int) -> Iterator[None]:
             remaps = ["-r", "__node:=sim2", "-r", "__ns:=/robot1", "-r", "turtle1/cmd_vel:=cmd"]
             stack.enter_context(process(_ros2("run", "turtlesim", "turtlesim_node", "--ros-args", *remaps)))
             _wait_for("node", "/robot1/sim2")
-        if number >= 345:
+        if number >= 500:
+            for words in (
+                ("run", "turtlesim", "turtlesim_node"),
+                ("run", "rclpy_components", "component_container"),
+                ("run", "tf2_ros", "static_transform_publisher", "--x", "1", "--frame-id", "world", "--child-frame-id", "cam"),
+            ):
+                stack.enter_context(process(_ros2(*words)))
+            stack.enter_context(process([sys.executable, str(MORE / "nodes.py")]))
+            _wait_for("node", "/turtlesim", "/ComponentManager", "/minimal_action_server", "/lc_talker")
+            _wait_for("topic", "/tf_static", "/hidden_chatter")
+        elif number >= 345:
             stack.enter_context(process([sys.executable, str(HERE / "wire_talker.py")]))
             _wait_for("topic", "/w/wstring_empty")  # the last one that it makes
         yield
@@ -341,7 +376,7 @@ def surroundings(number: int) -> Iterator[None]:
 
 def blocks(cases: list[Case]) -> list[list[Case]]:
     """Cases that share their surroundings, in order."""
-    bounds = [0, 174, 327, 333, 339, 341, 345, 1000]
+    bounds = [0, 174, 327, 333, 339, 341, 345, 500, 1000]
     return [[case for case in cases if low <= case.number < high] for low, high in itertools.pairwise(bounds)]
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.completion import action_names, action_types
-from ros2cli.values import read_values
+from ros2cli.completion import action_names, action_types, goal_values
+from ros2cli.values import read_values, shortened
 
 if TYPE_CHECKING:
     import argparse
@@ -29,19 +29,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     kind.completer = action_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group(required=True)
-    values.add_argument(
+    prototype = values.add_argument(
         "goal",
         nargs="?",
         default="{}",
         help="Values of the goal as YAML, for example '{theta: 1.57}'",
     )
+    prototype.completer = goal_values  # type: ignore[attr-defined]
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
     parser.add_argument("-f", "--feedback", action="store_true", help="Show the feedback")
 
 
 def main(args: argparse.Namespace) -> str | None:
     """Send the goal, and print what becomes of it; Ctrl-C cancels it."""
-    from ros2cli.suggestion import field_meant, interface_meant, say_what_was_meant
+    from ros2cli.suggestion import field_meant, interface_meant, say_why_to_wait
     from rosidl_runtime_py import set_message_fields
     from rosidl_runtime_py.utilities import get_action
 
@@ -56,25 +57,28 @@ def main(args: argparse.Namespace) -> str | None:
     try:
         set_message_fields(goal, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate message fields: {error!r}{field_meant(error)}"
+        return f"Failed to populate message fields: {shortened(repr(error))}{field_meant(error)}"
     from rclpy.action import ActionClient
     from ros2cli.direct_node import DirectNode
     from ros2cli.graph import actions
 
     with DirectNode(args) as direct:
+        known = actions(direct.graph)  # our own client is not among them
         client = ActionClient(direct.node, action_class, args.action_name)
         try:
             print("Waiting for an action server to become available...")
-            say_what_was_meant(
-                args.action_name, dict(actions(direct.graph)).keys() - {args.action_name}
-            )
-            client.wait_for_server()
-            return _run(direct, client, goal, feedback=args.feedback)
+            if not client.server_is_ready():
+                action = direct.node.resolve_topic_name(args.action_name)
+                say_why_to_wait("action", action, action_class, known)
+            if not client.wait_for_server():
+                raise KeyboardInterrupt
+            _run(direct, client, goal, args)
         finally:
             client.destroy()
+    return None
 
 
-def _run(direct: DirectNode, client: Any, goal: Any, *, feedback: bool) -> str | None:
+def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -> None:
     from rosidl_runtime_py import message_to_yaml
 
     accepted = False
@@ -89,22 +93,27 @@ def _run(direct: DirectNode, client: Any, goal: Any, *, feedback: bool) -> str |
             early.append(message)
 
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
-    handle = direct.result(client.send_goal_async(goal, show if feedback else None))
+    server = f"action '{args.action_name}'"
+    handle = direct.answer(
+        client.send_goal_async(goal, show if args.feedback else None),
+        server,
+        client.server_is_ready,
+    )
     if not handle.accepted:
-        return "Goal was rejected."
+        print("Goal was rejected.")
+        return
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
     accepted = True
     for message in early:
         show(message)
     result_future = handle.get_result_async()
     try:
-        result = direct.result(result_future)
+        result = direct.answer(result_future, server, client.server_is_ready)
     except KeyboardInterrupt:
         _cancel(direct, handle)
         raise
     print(f"Result:\n    {message_to_yaml(result.result)}")
     print(f"Goal finished with status: {_status_name(result.status)}")
-    return None
 
 
 def _cancel(direct: DirectNode, handle: Any) -> None:

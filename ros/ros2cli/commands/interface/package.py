@@ -16,9 +16,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     package = parser.add_argument("package_name", help="Name of the package")
     package.completer = interface_packages  # type: ignore[attr-defined]
-    parser.add_argument("--only-msgs", action="store_true", help="Only messages")
-    parser.add_argument("--only-srvs", action="store_true", help="Only services")
-    parser.add_argument("--only-actions", action="store_true", help="Only actions")
+    parser.add_argument("-m", "--only-msgs", action="store_true", help="Only messages")
+    parser.add_argument("-s", "--only-srvs", action="store_true", help="Only services")
+    parser.add_argument("-a", "--only-actions", action="store_true", help="Only actions")
 
 
 def main(args: argparse.Namespace) -> str | None:

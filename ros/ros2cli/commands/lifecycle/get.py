@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.completion import managed_node_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import add_strategy_arguments
+from ros2cli.managed_nodes import add_hidden_argument
 
 if TYPE_CHECKING:
     import argparse
@@ -17,6 +18,7 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
+    add_hidden_argument(parser)
     node = parser.add_argument(
         "node_name", nargs="?", help="Full name of the node; all when it is not given"
     )
@@ -29,7 +31,9 @@ def main(args: argparse.Namespace) -> None:
     from ros2cli.managed_nodes import ask, managed_nodes, require_managed_node
 
     with DirectNode(args) as direct:
-        one = None if args.node_name is None else require_managed_node(direct.graph, args.node_name)
-        for name in managed_nodes(direct.graph) if one is None else [one]:
+        one = None if args.node_name is None else require_managed_node(direct.graph, args)
+        for name in (
+            managed_nodes(direct.graph, hidden=args.include_hidden_nodes) if one is None else [one]
+        ):
             state = ask(direct, GetState, f"{name}/get_state", GetState.Request()).current_state
             print(f"{'' if one else f'{name}: '}{state.label} [{state.id}]")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ros2cli.completion import managed_node_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import add_strategy_arguments
+from ros2cli.managed_nodes import add_hidden_argument
 
 if TYPE_CHECKING:
     import argparse
@@ -17,6 +18,7 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
+    add_hidden_argument(parser)
     node = parser.add_argument("node_name", help="Full name of the node")
     node.completer = managed_node_names  # type: ignore[attr-defined]
     parser.add_argument(
@@ -34,7 +36,7 @@ def main(args: argparse.Namespace) -> None:
 
     service = "get_transition_graph" if args.all else "get_available_transitions"
     with DirectNode(args) as direct:
-        name = require_managed_node(direct.graph, args.node_name)
+        name = require_managed_node(direct.graph, args)
         answer = ask(
             direct, GetAvailableTransitions, f"{name}/{service}", GetAvailableTransitions.Request()
         )

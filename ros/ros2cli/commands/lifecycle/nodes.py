@@ -16,7 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
     parser.add_argument(
-        "-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore"
+        "-a",
+        "--all",
+        "--include-hidden-nodes",
+        action="store_true",
+        help="Also nodes whose name begins with an underscore",
     )
     parser.add_argument(
         "-c", "--count-nodes", action="store_true", help="Only show how many there are"

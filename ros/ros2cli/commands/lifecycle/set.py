@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from ros2cli.completion import managed_node_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import add_strategy_arguments
+from ros2cli.managed_nodes import add_hidden_argument
+from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
@@ -17,6 +19,7 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_strategy_arguments(parser)
+    add_hidden_argument(parser)
     node = parser.add_argument("node_name", help="Full name of the node")
     node.completer = managed_node_names  # type: ignore[attr-defined]
     parser.add_argument(
@@ -32,7 +35,7 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.managed_nodes import ask, require_managed_node
 
     with DirectNode(args) as direct:
-        name = require_managed_node(direct.graph, args.node_name)
+        name = require_managed_node(direct.graph, args)
         answer = ask(
             direct,
             GetAvailableTransitions,
@@ -48,6 +51,7 @@ def main(args: argparse.Namespace) -> str | None:
             return f"Unknown transition requested, available ones are:{known}"
         request = ChangeState.Request(transition=Transition(id=chosen.id, label=chosen.label))
         if not ask(direct, ChangeState, f"{name}/change_state", request).success:
-            return "Transitioning failed"
+            tell("Transitioning failed")
+            return None
     print("Transitioning successful")
     return None

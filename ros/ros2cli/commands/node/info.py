@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 from ros2cli.completion import node_names
 from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
@@ -33,14 +33,13 @@ def main(args: argparse.Namespace) -> str | None:
 
     name, hidden = args.node_name, args.include_hidden
     with GraphNode(args.spin_time) as graph:
-        known = ask.node_names(graph, hidden=True)
+        known = ask.node_names(graph, hidden=hidden)
         if name not in known:
             return f"Unable to find node '{name}'{did_you_mean(name, known)}"
         if known.count(name) > 1:
-            print(
+            tell(
                 f'There are {known.count(name)} nodes in the graph with the exact name "{name}". '
-                "You are seeing information about only one of them.",
-                file=sys.stderr,
+                "You are seeing information about only one of them."
             )
         print(name)
         _print_section("Subscribers", ask.subscribers(graph, name, hidden=hidden))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
@@ -28,13 +28,16 @@ def main(args: argparse.Namespace) -> None:
     """Print the full names."""
     from ros2cli.graph import node_names
 
-    with GraphNode(args.spin_time) as graph:
+    helper = GraphNode(args.spin_time)
+    with helper as graph:
         names = node_names(graph, hidden=args.all)
+    if not args.no_daemon:  # ROS 2 asks its daemon then, where the command has no node
+        names = [name for name in names if name != helper.full_name]
     if args.count_nodes:
         print(len(names))
         return
     if len(set(names)) < len(names):
-        warning = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
-        print(warning, file=sys.stderr)
+        warning = "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have unintended side effects."
+        tell(warning)
     for name in names:
         print(name)

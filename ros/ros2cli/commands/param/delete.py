@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_name_argument, add_node_arguments
+from ros2cli.output import tell
+from ros2cli.parameter_options import add_name_argument, add_node_arguments
+from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
@@ -30,4 +31,4 @@ def main(args: argparse.Namespace) -> None:
     if result.successful:
         print(f"Deleted parameter successfully{reason}")
     else:
-        print(f"Deleting parameter failed{reason}{meant}", file=sys.stderr)
+        tell(f"Deleting parameter failed{reason}{meant}")

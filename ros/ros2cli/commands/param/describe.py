@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.completion import parameter_names
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import TYPE_NAMES, RemoteParameters, add_node_arguments
+from ros2cli.output import tell
+from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameters import TYPE_NAMES, RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
@@ -22,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     names.completer = parameter_names  # type: ignore[attr-defined]
 
 
-def main(args: argparse.Namespace) -> str | None:
+def main(args: argparse.Namespace) -> None:
     """Print what the node says of them."""
     with DirectNode(args) as direct:
         parameters = RemoteParameters(direct, args)
@@ -33,11 +34,8 @@ def main(args: argparse.Namespace) -> str | None:
         )
     for descriptor in descriptors:
         _print(descriptor)
-    if not descriptors:
-        return f"Parameter not set{meant}"
     if meant:
-        print(meant.lstrip("\n"), file=sys.stderr)
-    return None
+        tell(meant.lstrip("\n"))
 
 
 def _print(descriptor: Any) -> None:

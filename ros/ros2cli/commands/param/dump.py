@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_node_arguments
+from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
@@ -26,7 +27,7 @@ def main(args: argparse.Namespace) -> None:
 
     with DirectNode(args) as direct:
         remote = RemoteParameters(direct, args)
-        names = remote.names([])
+        names = remote.names()
         values = remote.values(names)
     tree: dict[str, Any] = {}
     for name, message in zip(names, values, strict=True):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_name_argument, add_node_arguments
+from ros2cli.parameter_options import add_name_argument, add_node_arguments
+from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import TYPE_NAMES, RemoteParameters, add_node_arguments
+from ros2cli.output import tell
+from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameters import TYPE_NAMES, Question
 
 if TYPE_CHECKING:
     import argparse
@@ -28,37 +29,73 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> None:
-    """Print the names, below the nodes when none was given."""
-    from ros2cli.graph import node_names
+    """Print the names, below the nodes if none was given."""
+    from ros2cli.graph import node_names, require_node
 
     with DirectNode(args) as direct:
-        if args.node_name is not None:
-            _print(RemoteParameters(direct, args), args)
-            return
-        for name in dict.fromkeys(node_names(direct.graph, hidden=args.include_hidden_nodes)):
-            try:
-                remote = RemoteParameters(direct, args, name)
-                names = remote.names(args.param_prefixes)
-            except RuntimeError as error:
-                print(
-                    f"Exception while calling list_parameters service of node '{name}': {error}",
-                    file=sys.stderr,
-                )
-                continue
+        chosen = args.node_name
+        nodes = (
+            [require_node(direct.graph, chosen)]
+            if chosen
+            else dict.fromkeys(node_names(direct.graph, hidden=args.include_hidden_nodes))
+        )
+        answers = _ask_all(
+            direct, args, {name: {"prefixes": args.param_prefixes} for name in nodes}, "list"
+        )
+        found = {name: _wanted(answer.result.names, args) for name, answer in answers.items()}
+        questions = {name: {"names": names} for name, names in found.items()}
+        types = _ask_all(direct, args, questions, "types") if args.param_type else {}
+    for name, names in found.items():
+        if names and not chosen:
             print(f"{name}:")
-            _print(remote, args, names)
+        numbers = types[name].types if name in types else ()
+        for index, parameter in enumerate(names):
+            print(f"  {parameter}{f' (type: {TYPE_NAMES[numbers[index]]})' if numbers else ''}")
 
 
-def _print(
-    remote: RemoteParameters, args: argparse.Namespace, names: list[str] | None = None
-) -> None:
-    names = remote.names(args.param_prefixes) if names is None else names
-    if args.filter:
-        names = [name for name in names if re.match(args.filter, name)]
-    types = (
-        [f" (type: {TYPE_NAMES[number]})" for number in remote.types(names)]
-        if args.param_type
-        else [""] * len(names)
-    )
-    for name, kind in zip(names, types, strict=True):
-        print(f"  {name}{kind}")
+def _wanted(names: list[str], args: argparse.Namespace) -> list[str]:
+    return sorted(name for name in names if not args.filter or re.match(args.filter, name))
+
+
+def _ask_all(
+    direct: DirectNode, args: argparse.Namespace, fields: dict[str, dict[str, Any]], what: str
+) -> dict[str, Any]:
+    """Ask all nodes at the same time.
+
+    Args:
+        direct: The node that asks.
+        args: The command line.
+        fields: The fields of the requests, by the names of the nodes that are asked.
+        what: ``list`` or ``types``.
+
+    Returns:
+        The answers; that a node does not answer is printed.
+    """
+    from ros2cli.graph import services
+
+    service = {"list": "list_parameters", "types": "get_parameter_types"}[what]
+    known = dict(services(direct.graph, hidden=True))
+    questions, answers = {}, {}
+    for name, request in fields.items():
+        if f"{name}/{service}" in known:
+            questions[name] = Question(direct, name, service, args.timeout, **request)
+        else:
+            _say_that_it_has_none(name)
+    for step in ("send", "answer"):
+        for name, question in list(questions.items()):
+            try:
+                answers[name] = getattr(question, step)()
+            except RuntimeError as error:  # noqa: PERF203  each node may fail on its own
+                if args.node_name:
+                    raise
+                del questions[name]
+                answers.pop(name, None)
+                tell(f"Exception while calling {service} service of node '{name}': {error}")
+    return answers
+
+
+def _say_that_it_has_none(node_name: str) -> None:
+    """ROS 2's line for a node without parameter services, for which it waits five seconds."""
+    namespace, _, name = node_name.rpartition("/")
+    shown = f"NodeName(name='{name}', namespace='{namespace or '/'}', full_name='{node_name}')"
+    print(f"Wait for service timed out waiting for parameter services for node {shown}")

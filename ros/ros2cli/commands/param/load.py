@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.completion import files
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameters import RemoteParameters, add_node_arguments
+from ros2cli.output import tell
+from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
@@ -17,7 +19,8 @@ __all__ = ["add_arguments", "main"]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     add_node_arguments(parser)
-    parser.add_argument("parameter_file", help="Path of the parameter file")
+    file = parser.add_argument("parameter_file", help="Path of the parameter file")
+    file.completer = files  # type: ignore[attr-defined]
     parser.add_argument(
         "--no-use-wildcard",
         action="store_true",
@@ -40,4 +43,4 @@ def main(args: argparse.Namespace) -> None:
         if result.successful:
             print(f"Set parameter {parameter.name} successful{reason}")
         else:
-            print(f"Set parameter {parameter.name} failed{reason}", file=sys.stderr)
+            tell(f"Set parameter {parameter.name} failed{reason}")

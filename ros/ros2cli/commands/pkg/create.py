@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ros2cli import package_template
+from ros2cli.completion import files
 
 if TYPE_CHECKING:
     import argparse
@@ -35,11 +36,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--license", default="TODO: License declaration", help="Its licence, for example Apache-2.0"
     )
-    parser.add_argument(
+    folder = parser.add_argument(
         "--destination-directory",
         default=os.curdir,
         help="Folder in which the package's folder is made",
     )
+    folder.completer = files  # type: ignore[attr-defined]
     parser.add_argument(
         "--build-type",
         default="ament_python",

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.completion import service_names, service_types
-from ros2cli.values import positive_float, read_values
+from ros2cli.completion import request_values, service_names, service_types
+from ros2cli.values import positive_float, read_values, shortened
 
 if TYPE_CHECKING:
     import argparse
@@ -25,12 +26,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     kind.completer = service_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group()
-    values.add_argument(
+    prototype = values.add_argument(
         "values",
         nargs="?",
         default="{}",
         help="Values of the request as YAML, for example '{x: 1.0}'",
     )
+    prototype.completer = request_values  # type: ignore[attr-defined]
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
     parser.add_argument(
         "-r",
@@ -43,32 +45,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> str | None:
     """Call, and print the response."""
-    from ros2cli.suggestion import field_meant, interface_meant, say_what_was_meant
+    from ros2cli.suggestion import field_meant
     from rosidl_runtime_py import set_message_fields
-    from rosidl_runtime_py.utilities import get_service
 
     values = read_values(sys.stdin.read() if args.stdin else args.values)
-    try:
-        service_class = get_service(args.service_type)
-    except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(
-            f"The passed service type is invalid{interface_meant(args.service_type, 'srv')}"
-        ) from None
+    service_class = _service_class(args.service_type)
     request = service_class.Request()
     try:
         set_message_fields(request, values)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate field: {error}{field_meant(error)}"
+        return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
     from ros2cli.direct_node import DirectNode
     from ros2cli.graph import services
+    from ros2cli.suggestion import say_why_to_wait
 
     with DirectNode(args) as direct:
+        known = services(direct.graph)  # our own client is not among them
         client = direct.node.create_client(service_class, args.service_name)
         if not client.service_is_ready():
             print("waiting for service to become available...")
-            say_what_was_meant(
-                client.srv_name, dict(services(direct.graph)).keys() - {client.srv_name}
-            )
+            service = direct.node.resolve_service_name(args.service_name)
+            say_why_to_wait("service", service, service_class, known)
             if not client.wait_for_service():
                 raise KeyboardInterrupt
         while True:
@@ -78,7 +75,22 @@ def main(args: argparse.Namespace) -> str | None:
             direct.pause(1.0 / args.rate)
 
 
+def _service_class(name: str) -> Any:
+    from rclpy.type_support import check_is_valid_srv_type
+    from ros2cli.suggestion import interface_meant
+    from rosidl_runtime_py.utilities import get_interface, get_service
+
+    try:
+        return get_service(name)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        with suppress(AttributeError, ModuleNotFoundError, ValueError):
+            check_is_valid_srv_type(get_interface(name))
+        meant = interface_meant(name, "srv")
+        raise RuntimeError(f"The passed service type is invalid{meant}") from None
+
+
 def _call(direct: DirectNode, client: Any, request: Any) -> None:
     print(f"requester: making request: {request!r}\n")
-    response = direct.result(client.call_async(request))
+    server = f"service '{client.srv_name}'"
+    response = direct.answer(client.call_async(request), server, client.service_is_ready)
     print(f"response:\n{response!r}\n")

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from ros2cli.commands.topic.statistics import Sizes
 from ros2cli.completion import topic_names
 from ros2cli.discovery import add_spin_arguments
-from ros2cli.qos_options import matching_publishers
 from ros2cli.values import positive_int
 
 if TYPE_CHECKING:
@@ -34,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> None:
     """Print the bandwidth every second, while messages come."""
+    from rclpy.qos import qos_profile_sensor_data
     from ros2cli.direct_node import DirectNode
     from ros2cli.topic_type import type_of_topic
 
@@ -41,10 +41,13 @@ def main(args: argparse.Namespace) -> None:
         topic = direct.node.resolve_topic_name(args.topic_name)
         kind = type_of_topic(direct, topic, blocking=True)
         sizes = Sizes(args.window)
-        qos = matching_publishers(direct.graph, topic)
         print(f"Subscribed to [{topic}]")
         direct.node.create_subscription(
-            kind, topic, lambda cdr: sizes.add(time.monotonic(), len(cdr)), qos, raw=True
+            kind,
+            topic,
+            lambda cdr: sizes.add(time.monotonic(), len(cdr)),
+            qos_profile_sensor_data,
+            raw=True,
         )
         direct.node.create_timer(1.0, lambda: print(end=sizes.report(time.monotonic())))
         direct.spin()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 from ros2cli.commands.topic.statistics import Delays
 from ros2cli.completion import topic_names
 from ros2cli.discovery import add_spin_arguments
-from ros2cli.qos_options import matching_publishers
 from ros2cli.values import positive_int
 
 if TYPE_CHECKING:
@@ -33,6 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> None:
     """Print the delay every second, while messages come."""
+    from rclpy.qos import qos_profile_sensor_data
     from ros2cli.direct_node import DirectNode
     from ros2cli.topic_type import type_of_topic
 
@@ -50,6 +50,6 @@ def main(args: argparse.Namespace) -> None:
                 (clock.now().nanoseconds - (stamp.sec * 1_000_000_000 + stamp.nanosec)) / 1e9
             )
 
-        direct.node.create_subscription(kind, topic, note, matching_publishers(direct.graph, topic))
+        direct.node.create_subscription(kind, topic, note, qos_profile_sensor_data)
         direct.node.create_timer(1.0, lambda: print(end=delays.report()))
         direct.spin()

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.completion import topic_names, topic_types
-from ros2cli.discovery import add_spin_arguments
+from ros2cli.discovery import add_strategy_arguments
 from ros2cli.qos_options import add_qos_arguments, asked_for, matching_publishers, with_options
 from ros2cli.values import positive_float, unsigned_int
 
@@ -21,7 +21,7 @@ __all__ = ["add_arguments", "main", "make_filter"]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
-    add_spin_arguments(parser)
+    add_strategy_arguments(parser)
     topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
     topic.completer = topic_names  # type: ignore[attr-defined]
     kind = parser.add_argument(
@@ -79,7 +79,9 @@ def main(args: argparse.Namespace) -> str | None:
     """Print the messages until there is an end."""
     from rclpy.task import Future
     from ros2cli.direct_node import DirectNode
+    from ros2cli.suggestion import warn_of_other_type
     from ros2cli.topic_type import message_class, type_of_topic
+    from turtlewire.msg import type_name
 
     if args.message_type is not None:
         message_class(args.message_type)  # refused before anything is started
@@ -93,6 +95,7 @@ def main(args: argparse.Namespace) -> str | None:
         )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
+        warn_of_other_type("topic", topic, type_name(kind), direct.graph.topic_names_and_types())
         _check_field(kind, args.field)
         qos = (
             with_options(args, "sensor_data")
@@ -135,27 +138,29 @@ class _Printer:
             return
         if self._timer is not None:
             self._timer.reset()
-        if self._args.include_message_info:
-            print(info)
         value = _field(message, self._args.field)
-        self._print(value)
+        self._print(value, info if self._args.include_message_info else {})
         if self._args.once:
             self._finish()
 
-    def _print(self, value: Any) -> None:
+    def _print(self, value: Any, info: dict[str, Any]) -> None:
+        """Print a value and, if there is any, what is known of its message."""
         args = self._args
         length = None if args.full_length else args.truncate_length
         if args.raw or not hasattr(value, "SLOT_TYPES"):
+            if info:
+                print(f"---Got new message, message info:---\n{info}\n---Message data:---")
             print(value, end="\n" if args.csv else "\n---\n")
         elif args.csv:
             from rosidl_runtime_py import message_to_csv
 
-            print(
-                message_to_csv(
-                    value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str
-                )
+            text = message_to_csv(
+                value, truncate_length=length, no_arr=args.no_arr, no_str=args.no_str
             )
+            print(",".join([*map(str, info.values()), text]))
         else:
+            import yaml
+
             from rosidl_runtime_py import message_to_yaml
 
             text = message_to_yaml(
@@ -165,6 +170,8 @@ class _Printer:
                 no_str=args.no_str,
                 flow_style=args.flow_style,
             )
+            if info:
+                print(yaml.dump(info), end="---\n")
             print(text, end="---\n")
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from ros2cli.commands.topic.statistics import Intervals
 from ros2cli.completion import topic_names
 from ros2cli.discovery import add_spin_arguments
-from ros2cli.qos_options import matching_publishers
 from ros2cli.values import positive_int
 
 if TYPE_CHECKING:
@@ -43,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> None:
     """Print the rate every second, while messages come."""
+    from rclpy.qos import qos_profile_sensor_data
     from ros2cli.commands.topic.echo import make_filter
     from ros2cli.direct_node import DirectNode
     from ros2cli.topic_type import type_of_topic
@@ -62,7 +62,8 @@ def main(args: argparse.Namespace) -> None:
                     else clock.now().nanoseconds
                 )
 
-        qos = matching_publishers(direct.graph, topic)
-        direct.node.create_subscription(kind, topic, note, qos, raw=keep is None)
+        direct.node.create_subscription(
+            kind, topic, note, qos_profile_sensor_data, raw=keep is None
+        )
         direct.node.create_timer(1.0, lambda: print(end=intervals.report()))
         direct.spin()

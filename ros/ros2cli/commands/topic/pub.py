@@ -6,10 +6,10 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.completion import topic_names, topic_types
+from ros2cli.completion import message_values, topic_names, topic_types
 from ros2cli.discovery import add_spin_arguments
 from ros2cli.qos_options import add_qos_arguments, with_options
-from ros2cli.values import positive_float, positive_int, read_values, unsigned_int
+from ros2cli.values import positive_float, positive_int, read_values, shortened, unsigned_int
 
 if TYPE_CHECKING:
     import argparse
@@ -32,12 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     kind.completer = topic_types  # type: ignore[attr-defined]
     values = parser.add_mutually_exclusive_group()
-    values.add_argument(
+    prototype = values.add_argument(
         "values",
         nargs="?",
         default="{}",
         help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'",
     )
+    prototype.completer = message_values  # type: ignore[attr-defined]
     values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
     parser.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second"
@@ -75,18 +76,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> str | None:
     """Publish."""
     from ros2cli.direct_node import DirectNode
-    from ros2cli.suggestion import field_meant
+    from ros2cli.suggestion import field_meant, warn_of_other_type
     from ros2cli.topic_type import message_class
     from rosidl_runtime_py import set_message_fields
+    from turtlewire.msg import type_name
 
     message = message_class(args.message_type)()
     values = read_values(sys.stdin.read() if args.stdin else args.values)
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
-        return f"Failed to populate field: {error}{field_meant(error)}"
+        return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
     times = 1 if args.once else args.times
     with DirectNode(args, name=args.node_name) as direct:
+        topic = direct.node.resolve_topic_name(args.topic_name)
+        known = direct.graph.topic_names_and_types()
+        warn_of_other_type("topic", topic, type_name(type(message)), known)
         publisher = direct.node.create_publisher(
             type(message), args.topic_name, with_options(args, "default")
         )

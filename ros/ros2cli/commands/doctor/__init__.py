@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["VERBS", "add_arguments", "main"]
+
+VERBS = {"hello": "Find out which hosts can hear each other"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,6 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--include-warnings",
         action="store_true",
         help="Count what is only worth knowing as a failure too",
+    )
+    parser.add_argument(
+        "-ep",
+        "--exclude-packages",
+        action="store_true",
+        help="Accepted for compatibility: versions of packages are not compared",
     )
     parser.add_argument(
         "--listen",

@@ -1,0 +1,45 @@
+"""``ros2 component list``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import container_node_names
+from ros2cli.direct_node import DirectNode
+from ros2cli.discovery import add_strategy_arguments
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    add_strategy_arguments(parser)
+    container = parser.add_argument(
+        "container_node_name", nargs="?", help="Full name of a container; all if it is left out"
+    )
+    container.completer = container_node_names  # type: ignore[attr-defined]
+    parser.add_argument(
+        "--containers-only", action="store_true", help="Show the containers without their nodes"
+    )
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the containers, and the number and name of each node in them."""
+    from composition_interfaces.srv import ListNodes
+    from ros2cli.containers import ask, container_names, require_container
+
+    with DirectNode(args) as direct:
+        chosen = args.container_node_name
+        names = [require_container(direct.graph, chosen)] if chosen else []
+        for name in names or container_names(direct.graph):
+            if not chosen:
+                print(name)
+            if args.containers_only:
+                continue
+            answer = ask(direct, name, "list_nodes", ListNodes, ListNodes.Request())
+            indent = "" if chosen else "  "
+            for number, node in zip(answer.unique_ids, answer.full_node_names, strict=True):
+                print(f"{indent}{number}  {node}")

@@ -1,0 +1,39 @@
+"""``ros2 component types``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.completion import packages
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+_RESOURCE = "rclcpp_components"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    package = parser.add_argument(
+        "package_name", nargs="?", help="Name of a package; all if it is left out"
+    )
+    package.completer = packages  # type: ignore[attr-defined]
+
+
+def main(args: argparse.Namespace) -> str | None:
+    """Print the components below their packages."""
+    from ament_index_python import get_resource, get_resources
+
+    registered = get_resources(_RESOURCE)
+    if args.package_name is not None and args.package_name not in registered:
+        return f"No components registered for package '{args.package_name}'"
+    for package in registered if args.package_name is None else [args.package_name]:
+        lines = get_resource(_RESOURCE, package)[0].splitlines()
+        if args.package_name is None:
+            print(package)
+        for line in lines:
+            indent = "  " if args.package_name is None else ""
+            print(f"{indent}{line.partition(';')[0]}")
+    return None

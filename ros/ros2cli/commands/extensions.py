@@ -1,0 +1,38 @@
+"""``ros2 extensions``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.extension_points import EXTENSION_POINTS, extensions
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    parser.add_argument(
+        "-a",
+        "--all",
+        action="store_true",
+        help="Accepted for compatibility: no extension fails to load",
+    )
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Show the modules of the extensions"
+    )
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the commands and verbs below their extension points."""
+    for point, command, _ in EXTENSION_POINTS:
+        found = extensions(command)
+        if found:
+            print(point)
+        for name, summary in found.items():
+            print(f"  {name}: {summary}")
+            if args.verbose:
+                path = f"{command}.{name}" if command else name
+                print(f"    module: ros2cli.commands.{path}")

@@ -1,0 +1,65 @@
+"""Talking to containers of nodes (components)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ros2cli.direct_node import DirectNode
+    from turtlewire.wire.base import Graph
+
+__all__ = ["ask", "container_names", "require_container"]
+
+_SERVICE = "/_container/load_node"
+_TYPE = "composition_interfaces/srv/LoadNode"
+_TIMEOUT_S = 30.0  # a component may import and open a great deal before it answers
+
+
+def container_names(graph: Graph) -> list[str]:
+    """Full names of the nodes that load components, sorted."""
+    from ros2cli.graph import services
+
+    return [
+        name.removesuffix(_SERVICE)
+        for name, types in services(graph, hidden=True)
+        if name.endswith(_SERVICE) and _TYPE in types
+    ]
+
+
+def require_container(graph: Graph, name: str) -> str:
+    """The full name of a container.
+
+    Raises:
+        RuntimeError: There is none of that name.
+    """
+    from ros2cli.graph import full_node_name
+    from ros2cli.suggestion import did_you_mean
+
+    full_name, known = full_node_name(name), container_names(graph)
+    if full_name not in known:
+        raise RuntimeError(f"Unable to find container node '{name}'{did_you_mean(name, known)}")
+    return full_name
+
+
+def ask(direct: DirectNode, container: str, verb: str, service_class: Any, request: Any) -> Any:
+    """Call one of a container's services.
+
+    Args:
+        direct: The node that asks.
+        container: Full name of the container.
+        verb: ``load_node``, ``unload_node`` or ``list_nodes``.
+        service_class: Class of the service.
+        request: The request.
+
+    Raises:
+        RuntimeError: The container does not answer.
+    """
+    client = direct.node.create_client(service_class, f"{container}/_container/{verb}")
+    if not client.wait_for_service(_TIMEOUT_S):
+        raise RuntimeError(f"The service {client.srv_name} is not available")
+    server = f"service '{client.srv_name}'"
+    try:
+        future = client.call_async(request)
+        return direct.answer(future, server, client.service_is_ready, _TIMEOUT_S)
+    except TimeoutError as error:
+        raise RuntimeError(f"'{container}' did not answer within {_TIMEOUT_S} s") from error

@@ -1,0 +1,105 @@
+"""Datagrams to and from a multicast group."""
+
+from __future__ import annotations
+
+import ipaddress
+import socket
+from argparse import ArgumentTypeError
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from ros2cli.values import unsigned_int
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator
+    from types import TracebackType
+
+__all__ = ["MulticastSocket", "add_group_arguments"]
+
+_LONGEST = 4096
+
+
+def add_group_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the options that sender and receiver have to agree on."""
+    parser.add_argument(
+        "--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)"
+    )
+    parser.add_argument("--port", type=_port, default=49150, help="UDP port (default: 49150)")
+
+
+class MulticastSocket:
+    """Sends to a group and receives from it; a context manager.
+
+    Args:
+        group: Address of the group.
+        port: UDP port.
+        ttl: How many routers a datagram may pass; None leaves it to the system.
+    """
+
+    def __init__(self, group: str, port: int, ttl: int | None = None) -> None:
+        self._target = (group, port)
+        self._ttl = ttl
+
+    def __enter__(self) -> MulticastSocket:  # noqa: PYI034  Self is not in Python 3.10
+        """Open the sockets; those that receive share the port."""
+        group, port = self._target
+        self._sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP)
+        self._receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP)
+        try:
+            if self._ttl is not None:
+                self._sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, self._ttl)
+            self._receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            self._receiver.bind(("", port))
+            every_interface = socket.inet_aton("0.0.0.0")  # noqa: S104  it comes from the network
+            membership = socket.inet_aton(group) + every_interface
+            self._receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        except OSError:
+            self.__exit__(None, None, None)
+            raise
+        return self
+
+    def __exit__(
+        self,
+        _type: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: TracebackType | None,
+    ) -> None:
+        """Leave the group."""
+        self._sender.close()
+        self._receiver.close()
+
+    def send(self, data: bytes) -> None:
+        """Send a datagram to the group."""
+        self._sender.sendto(data, self._target)
+
+    def receive(self) -> tuple[bytes, tuple[str, int]]:
+        """Wait for a datagram; its bytes, and the address of its sender."""
+        self._receiver.setblocking(True)
+        return self._receiver.recvfrom(_LONGEST)
+
+    def received(self) -> Iterator[tuple[bytes, tuple[str, int]]]:
+        """The datagrams that have arrived."""
+        self._receiver.setblocking(False)
+        with suppress(BlockingIOError):
+            while True:
+                yield self._receiver.recvfrom(_LONGEST)
+
+
+def _group(text: str) -> str:
+    try:
+        is_group = ipaddress.IPv4Address(text).is_multicast
+    except ValueError:
+        is_group = False
+    if not is_group:
+        raise ArgumentTypeError(
+            f"'{text}' is no IPv4 multicast group; those are 224.0.0.0 to 239.255.255.255"
+        )
+    return text
+
+
+def _port(text: str) -> int:
+    port = unsigned_int(text)
+    if not 0 < port < 1 << 16:
+        raise ArgumentTypeError(f"'{text}' is no UDP port; those are 1 to 65535")
+    return port

@@ -1,0 +1,78 @@
+"""Servers that end while a command waits for them, and names and types that are not there."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
+
+SERVER = """
+import threading
+import rclpy
+from example_interfaces.action import Fibonacci
+from rclpy.action import ActionServer
+from std_srvs.srv import Empty
+rclpy.init()
+node = rclpy.create_node("sleeper")
+def sleep(*_):
+    print("called", flush=True)
+    threading.Event().wait()
+service = node.create_service(Empty, "/sleep", sleep)
+action = ActionServer(node, Fibonacci, "/count", sleep)
+print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+
+def ros2(run, *words):
+    return run(sys.executable, "-c", ROS2, *words)
+
+
+@pytest.fixture
+def server(run):
+    started = run(sys.executable, "-c", SERVER)
+    started.wait_for("ready")
+    return started
+
+
+@pytest.mark.parametrize(
+    ("words", "server_name"),
+    [
+        (("service", "call", "/sleep", "std_srvs/srv/Empty"), "service '/sleep'"),
+        (("action", "send_goal", "/count", "example_interfaces/action/Fibonacci", "{}"), "action '/count'"),
+    ],
+)  # fmt: skip
+def test_a_killed_server_ends_the_wait(run, server, words, server_name):
+    verb = ros2(run, *words)
+    server.wait_for("called")
+    server.process.kill()
+    assert verb.wait() == 1
+    assert verb.text.endswith(f"The server of {server_name} is gone: it ended before it answered")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("service call /sleep std_srvs/srv/SetBool", "The service '/sleep' has the type std_srvs/srv/Empty, not std_srvs/srv/SetBool"),
+        ("service call /slep std_srvs/srv/Empty", "Did you mean: /sleep"),
+        ("service call /qqqq std_srvs/srv/Empty", "Known services: /sleep"),
+        ("action send_goal /qqqq example_interfaces/action/Fibonacci {}", "Known actions: /count"),
+        ("action send_goal /count turtlesim/action/RotateAbsolute {}", "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
+        ("topic echo /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
+        ("topic pub /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_at_once(run, server, words, told):
+    ros2(run, *words.split()).wait_for(f"^{told}$")
+
+
+def test_that_there_is_nothing_at_all_is_said(run):
+    ros2(run, "service", "call", "/x", "std_srvs/srv/Empty").wait_for("^No node offers any service")
+
+
+def test_a_class_that_is_no_service(run):
+    verb = ros2(run, "service", "call", "/x", "std_msgs/msg/String")
+    assert verb.wait() == 1
+    assert verb.text == "The service type provided is not valid, this might be a message or action"
