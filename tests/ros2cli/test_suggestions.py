@@ -57,9 +57,7 @@ def test_names_that_are_known_without_nodes(capsys, line, message, near):
 def test_commands_that_are_not_here(capsys, command):
     told, hint = errors(capsys, command, "list")
     assert f"invalid choice: '{command}'" in told
-    assert hint.startswith(
-        ("There are no bags here yet", "Encrypted communication is not part")
-    )
+    assert hint.startswith(("There are no bags here yet", "Encrypted communication is not part"))
 
 
 def test_what_is_like_nothing_gets_no_hint(capsys):
