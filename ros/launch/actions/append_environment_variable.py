@@ -5,22 +5,23 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from launch.action import Action
+from launch.actions.variable_action import SetVariableAction
 from launch.conditions import evaluate_condition_expression
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from collections.abc import MutableMapping
+
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitution import Substitution
 
 __all__ = ["AppendEnvironmentVariable"]
 
 
 @expose_action("append_env")
-class AppendEnvironmentVariable(Action):
+class AppendEnvironmentVariable(SetVariableAction):
     """Adds a value to an environment variable such as ``PATH``; sets it when it is not there.
 
     Args:
@@ -39,9 +40,7 @@ class AppendEnvironmentVariable(Action):
         separator: SomeSubstitutionsType = os.pathsep,
         **kwargs: Any,
     ) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-        self._value = normalize_to_list_of_substitutions(value)
+        super().__init__(name, value, **kwargs)
         self._prepend = normalize_to_list_of_substitutions(
             str(prepend) if isinstance(prepend, bool) else prepend
         )
@@ -53,8 +52,6 @@ class AppendEnvironmentVariable(Action):
     ) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
         """Read an ``append_env`` element."""
         _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
         if prepend is not None:
             kwargs["prepend"] = parser.parse_if_substitutions(prepend)
@@ -63,23 +60,18 @@ class AppendEnvironmentVariable(Action):
             kwargs["separator"] = parser.parse_substitution(separator)
         return cls, kwargs
 
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self._name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """The value."""
-        return self._value
+    def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """The environment of this process, which its children inherit."""
+        return context.environment
 
     def execute(self, context: LaunchContext) -> None:
         """Add the value."""
         name = perform_substitutions(context, self._name)
         value = perform_substitutions(context, self._value)
-        if name in context.environment:
-            parts = [context.environment[name], value]
+        variables = self.variables(context)
+        if name in variables:
+            parts = [variables[name], value]
             if evaluate_condition_expression(context, self._prepend):
                 parts.reverse()
             value = perform_substitutions(context, self._separator).join(parts)
-        context.environment[name] = value
+        variables[name] = value

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from launch.action import Action
+from launch.actions.variable_action import SetVariableAction
 from launch.frontend.expose import expose_action
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.frontend import Entity, Parser
+    from collections.abc import MutableMapping
+
     from launch.launch_context import LaunchContext
-    from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitution import Substitution
 
 __all__ = ["SetEnvironmentVariable"]
 
 
 @expose_action("set_env")
-class SetEnvironmentVariable(Action):
+class SetEnvironmentVariable(SetVariableAction):
     """Sets an environment variable for the processes that are started afterwards.
 
     Args:
@@ -27,35 +25,6 @@ class SetEnvironmentVariable(Action):
         **kwargs: See :class:`Action`.
     """
 
-    def __init__(
-        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any
-    ) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-        self._value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(
-        cls, entity: Entity, parser: Parser
-    ) -> tuple[type[SetEnvironmentVariable], dict[str, Any]]:
-        """Read a ``set_env`` element."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self._name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """Its value."""
-        return self._value
-
-    def execute(self, context: LaunchContext) -> None:
-        """Set it."""
-        context.environment[perform_substitutions(context, self._name)] = perform_substitutions(
-            context, self._value
-        )
+    def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """The environment of this process, which its children inherit."""
+        return context.environment

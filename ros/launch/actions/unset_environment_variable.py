@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from launch.action import Action
+from launch.actions.variable_action import UnsetVariableAction
 from launch.frontend.expose import expose_action
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.frontend import Entity, Parser
+    from collections.abc import MutableMapping
+
     from launch.launch_context import LaunchContext
-    from launch.some_substitutions_type import SomeSubstitutionsType
-    from launch.substitution import Substitution
 
 __all__ = ["UnsetEnvironmentVariable"]
 
 
 @expose_action("unset_env")
-class UnsetEnvironmentVariable(Action):
+class UnsetEnvironmentVariable(UnsetVariableAction):
     """Unsets an environment variable for the processes that are started afterwards.
 
     Args:
@@ -26,24 +24,6 @@ class UnsetEnvironmentVariable(Action):
         **kwargs: See :class:`Action`.
     """
 
-    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self._name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(
-        cls, entity: Entity, parser: Parser
-    ) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
-        """Read an ``unset_env`` element."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self._name
-
-    def execute(self, context: LaunchContext) -> None:
-        """Unset it, if it is set."""
-        context.environment.pop(perform_substitutions(context, self._name), None)
+    def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """The environment of this process, which its children inherit."""
+        return context.environment
