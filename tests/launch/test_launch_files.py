@@ -272,6 +272,30 @@ def test_errors_in_files_are_named_with_their_lines(launch, file, name, content,
     assert outcome.lines[-1] == f"  raised in {path}:{line}"
 
 
+def test_the_innermost_line_of_a_file_is_named(launch, file):
+    """Not the line that called the function in which the error was raised."""
+    content = (
+        "def outer():\n    inner()\n\ndef inner():\n    int('seven')\n\n"
+        "def generate_launch_description():\n    outer()\n"
+    )
+    path = file("x.launch.py", content)
+    assert launch(IncludeLaunchDescription(path)).lines[-1] == f"  raised in {path}:5"
+
+
+def test_the_innermost_of_files_that_include_each_other_is_named(launch, file):
+    inner = file("inner.launch.py", "def generate_launch_description():\n    int('seven')\n")
+    outer = file(
+        "outer.launch.py",
+        "from launch import LaunchDescription\n"
+        "from launch.actions import IncludeLaunchDescription, OpaqueFunction\n\n"
+        "def include(context):\n"
+        f"    return IncludeLaunchDescription({inner!r}).visit(context)\n\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([OpaqueFunction(function=include)])\n",
+    )
+    assert launch(IncludeLaunchDescription(outer)).lines[-1] == f"  raised in {inner}:2"
+
+
 def test_errors_of_a_file_that_is_only_shown_are_named_with_their_lines(tmp_path, capsys):
     from ros2cli.main import main
 

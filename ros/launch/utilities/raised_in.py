@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 __all__ = ["MODULE_NAME", "raised_in"]
 
 #: Name under which Python launch files are run.
@@ -21,21 +16,16 @@ def raised_in(error: BaseException) -> str:
 
     Returns:
         A line break and ``raised in <file>:<line>``: the innermost line of a Python launch file, or
-        the element of one in another language; empty when neither was on the way.
+        the element of a file in another language; empty if the error comes from no launch file.
     """
-    for one in _errors(error):
-        found = f"\n  raised in {one.launch_file_line}" if hasattr(one, "launch_file_line") else ""
-        trace = one.__traceback__
-        while trace is not None:
-            if trace.tb_frame.f_globals.get("__name__") == MODULE_NAME:
-                found = f"\n  raised in {trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
-            trace = trace.tb_next
-        if found:
+    # An error that several loaders had keeps theirs; the first is the likely one, and further in.
+    for inner in getattr(error, "likely_errors", ())[:1]:
+        if found := raised_in(inner):
             return found
-    return ""
-
-
-def _errors(error: BaseException) -> Iterator[BaseException]:
-    """The error, and the first of those that the loaders of a launch file had."""
-    yield error
-    yield from getattr(error, "likely_errors", ())[:1]
+    place = getattr(error, "launch_file_line", None)
+    trace = error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_globals.get("__name__") == MODULE_NAME:
+            place = f"{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}"
+        trace = trace.tb_next
+    return "" if place is None else f"\n  raised in {place}"

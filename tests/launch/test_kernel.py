@@ -1,0 +1,215 @@
+"""The parts under entities and loop: the state of one launch, scopes, and what they promise."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import threading
+
+import pytest
+
+from launch import BaseEventHandler, Event, LaunchContext, LaunchService
+from launch._kernel.run import Run
+from launch._kernel.scopes import Scopes
+from launch.events import Shutdown
+
+
+def running(coroutine_function):
+    """Runs a coroutine function with a launch that has begun."""
+
+    async def main():
+        run = Run()
+        run.begin()
+        try:
+            return await asyncio.wait_for(coroutine_function(run), 60)
+        finally:
+            run.end()
+
+    return asyncio.run(main())
+
+
+def test_events_come_in_their_order_and_later_ones_later():
+    run = Run()
+    first, second, third = Event(), Event(), Event()
+    run.emit(first)
+    run.emit(second)
+    taken = run.take_events()
+    run.emit(third)
+    assert taken == [first, second]
+    assert run.take_events() == [third]
+    assert run.take_events() == []
+
+
+def test_an_event_from_another_thread_ends_the_wait():
+    async def wait(run):
+        event = Event()
+        thread = threading.Thread(target=run.emit, args=(event,))
+        thread.start()
+        await run.wait()
+        thread.join()
+        assert run.take_events() == [event]
+
+    running(wait)
+
+
+def test_an_event_that_came_before_the_wait_is_not_waited_for():
+    async def wait(run):
+        run.emit(Event())
+        await run.wait()
+
+    running(wait)
+
+
+def test_events_before_the_start_and_after_the_end_are_kept():
+    run = Run()
+    early, late = Event(), Event()
+    run.emit(early)
+
+    async def main():
+        run.begin()
+        await run.wait()
+        assert run.take_events() == [early]
+        run.end()
+        run.emit(late)
+        run.begin()
+        await run.wait()
+        assert run.take_events() == [late]
+
+    asyncio.run(main())
+
+
+def test_a_future_that_is_done_ends_the_wait_and_gives_its_error():
+    async def wait(run):
+        future = run.loop.create_future()
+        cancelled = run.loop.create_future()
+        run.keep_running_for(future)
+        run.keep_running_for(future)
+        run.keep_running_for(cancelled)
+        assert run.is_busy
+        assert run.take_errors() == []
+        cancelled.cancel()
+        error = ValueError("broken")
+        run.loop.call_soon(future.set_exception, error)
+        await run.wait()
+        while run.is_busy:
+            found = run.take_errors()
+            if found:
+                assert found == [error]
+            else:
+                await run.wait()
+        assert run.take_errors() == []
+
+    running(wait)
+
+
+def test_an_end_is_forgotten_at_the_next_start():
+    async def look(run):
+        run.is_shutdown = True
+        run.end()
+        run.begin()
+        assert not run.is_shutdown
+
+    running(look)
+
+
+def handler(name, log=None):
+    made = BaseEventHandler(matcher=lambda event: event.name == name)
+    if log is not None:
+        made.handle = lambda event, context: log.append(name)
+    return made
+
+
+def test_handlers_are_asked_newest_first_or_last():
+    run = Run()
+    context = LaunchContext(run=run)
+    first, second, last = handler("a"), handler("b"), handler("c")
+    context.register_event_handler(first)
+    context.register_event_handler(second)
+    context.register_event_handler(last, append=True)
+    assert run.handlers() == (second, first, last)
+    context.unregister_event_handler(first)
+    assert run.handlers() == (second, last)
+    with pytest.raises(ValueError, match="not in deque"):
+        context.unregister_event_handler(first)
+
+
+def test_a_context_tells_whether_an_event_would_be_handled():
+    context = LaunchContext()
+    assert not context.would_handle_event(Shutdown())
+    context.register_event_handler(handler(Shutdown.name))
+    assert context.would_handle_event(Shutdown())
+    assert not context.would_handle_event(Event())
+
+
+def test_a_handler_needs_no_base_class():
+    """The kernel knows handlers and entities by what they do."""
+
+    class Entity:
+        def visit(self, context):
+            seen.append(context.get_locals_as_dict()["number"])
+
+        def get_asyncio_future(self):
+            return None
+
+    class Handler:
+        def matches(self, event):
+            return isinstance(event, Shutdown)
+
+        def handle(self, event, context):
+            context.extend_locals({"number": 7})
+            return Entity()
+
+    seen = []
+    service = LaunchService(noninteractive=True)
+    service.context.register_event_handler(Handler())
+    assert service.run() == 0
+    assert seen == [7]
+    assert service.context.get_locals_as_dict() == {}  # they end with the event
+
+
+def test_two_launches_share_nothing():
+    one, other = LaunchService(noninteractive=True), LaunchService(noninteractive=True)
+    one.context.register_event_handler(handler("x"))
+    one.context.launch_configurations["x"] = "1"
+    assert not other.context.would_handle_event(type("X", (Event,), {"name": "x"})())
+    assert other.context.launch_configurations == {}
+    one.emit_event(Shutdown())
+    assert one.run() == other.run() == 0
+
+
+def test_scopes_put_a_mapping_back_in_place():
+    values = {"kept": 1, "changed": 2, "removed": 3}
+    scopes = Scopes(values, "values")
+    scopes.push()
+    values["changed"] = 4
+    del values["removed"]
+    scopes.push()
+    values["added"] = 5
+    scopes.pop()
+    assert values == {"kept": 1, "changed": 4}
+    scopes.pop()
+    assert values == {"kept": 1, "changed": 2, "removed": 3}
+    with pytest.raises(RuntimeError, match=r"^values stack unexpectedly empty$"):
+        scopes.pop()
+
+
+def test_a_context_resets_the_environment_to_that_of_its_beginning(monkeypatch):
+    monkeypatch.setenv("TEST_BEFORE", "1")
+    context = LaunchContext()
+    monkeypatch.setenv("TEST_AFTER", "2")
+    monkeypatch.delenv("TEST_BEFORE")
+    context.reset_environment()
+    assert os.environ["TEST_BEFORE"] == "1"
+    assert "TEST_AFTER" not in os.environ
+
+
+def test_locals_are_attributes_and_globals_stay():
+    context = LaunchContext()
+    context.extend_globals({"always": 1, "hidden": 2})
+    context.local_scopes.push()
+    context.extend_locals({"now": 3, "hidden": 4})
+    assert (context.locals.always, context.locals.now, context.locals.hidden) == (1, 3, 4)
+    context.local_scopes.pop()
+    assert context.locals.hidden == 2
+    with pytest.raises(AttributeError, match=r"no attribute 'now', available .*: \['always', 'h"):
+        _ = context.locals.now
