@@ -13,7 +13,7 @@ import tracemalloc
 import pytest
 from tests.bag.conftest import START, contents, write_bag
 
-from turtlewire.bag import open_bag
+from turtlewire.bag import open_bag, reindex
 from turtlewire.errors import BagError
 
 
@@ -134,6 +134,10 @@ def test_what_was_flushed_survives_kill_9(tmp_path, storage, compression):
         assert [m.log_time_ns for m in bag] == [1000 + i for i in range(1000)]
         assert bag.topics["/a"].type == "std_msgs/msg/String"
         assert bag.metadata.message_count == 1000
+    reindex(folder)
+    with open_bag(folder) as bag:
+        assert bag.metadata.storage == storage
+        assert len(list(bag)) == 1000
 
 
 def test_nothing_is_lost_of_an_unfinished_file_with_bare_messages(tmp_path):

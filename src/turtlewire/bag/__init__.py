@@ -12,7 +12,7 @@
 =================  ==================================================================
 module             what it holds
 =================  ==================================================================
-`reader`           `Bag` and `open_bag`: messages in order of time over all files
+`reader`           `Bag`, `open_bag`: messages in order of time over all files; `reindex`
 `transforms`       `load_transforms`: the TF of a bag in a buffer, and what is wrong with it
 `message`          `BagMessage`
 `writer`           `BagWriter`
@@ -33,7 +33,7 @@ from __future__ import annotations
 
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
-from turtlewire.bag.reader import Bag, open_bag
+from turtlewire.bag.reader import Bag, open_bag, reindex
 from turtlewire.bag.transforms import TransformReport, load_transforms
 from turtlewire.bag.writer import BagWriter
 
@@ -47,4 +47,5 @@ __all__ = [
     "TransformReport",
     "load_transforms",
     "open_bag",
+    "reindex",
 ]

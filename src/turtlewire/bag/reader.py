@@ -11,7 +11,13 @@ from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress, read_zstd_file
 from turtlewire.bag.definitions import learn_types
-from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo, read_metadata
+from turtlewire.bag.metadata import (
+    BagMetadata,
+    FileInfo,
+    TopicInfo,
+    read_metadata,
+    write_metadata,
+)
 from turtlewire.bag.storage import StorageFile, open_storage
 from turtlewire.errors import BagError
 
@@ -23,7 +29,7 @@ if TYPE_CHECKING:
 
     from turtlewire.bag.message import BagMessage
 
-__all__ = ["Bag", "open_bag"]
+__all__ = ["Bag", "open_bag", "reindex"]
 
 _FOREVER = (1 << 64) - 1
 
@@ -39,6 +45,11 @@ class Bag:
 
     Not thread-safe; open a bag twice to read it in two threads.
 
+    Args:
+        path: The folder or file; see `open_bag`.
+        trust_metadata: Whether ``metadata.yaml`` is read where it is; False takes what the files
+            themselves tell.
+
     Attributes:
         path: The folder or file.
         metadata: What it holds; computed from the files where ``metadata.yaml`` is missing.
@@ -47,7 +58,7 @@ class Bag:
             middle was damaged.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    def __init__(self, path: str | os.PathLike[str], *, trust_metadata: bool = True) -> None:
         self.path = os.fspath(path)
         self.problems: list[str] = []
         self._files: dict[str, StorageFile] = {}
@@ -56,7 +67,8 @@ class Bag:
             raise FileNotFoundError(f"there is no bag at {self.path}")
         if os.path.isdir(self.path):
             self._folder = self.path
-            self.metadata = read_metadata(self.path) or self._metadata_of(_storage_files(self.path))
+            told = read_metadata(self.path) if trust_metadata else None
+            self.metadata = told or self._metadata_of(_storage_files(self.path))
         else:
             self._folder = os.path.dirname(self.path)
             self.metadata = self._metadata_of([os.path.basename(self.path)])
@@ -236,6 +248,18 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
     return Bag(path)
 
 
+def reindex(path: str | os.PathLike[str]) -> BagMetadata:
+    """Write ``metadata.yaml`` of a folder anew from the files in it.
+
+    Raises:
+        FileNotFoundError: There is no such folder.
+        BagError: It holds no file of a bag, or one that is none.
+    """
+    with Bag(path, trust_metadata=False) as bag:
+        write_metadata(bag.path, bag.metadata)
+        return bag.metadata
+
+
 def _names(names: str | Iterable[str] | None) -> set[str] | None:
     return None if names is None else {names} if isinstance(names, str) else set(names)
 
@@ -287,7 +311,7 @@ def _overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
 def _joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
     """The metadata of a bag that consists of these files."""
     files = [
-        FileInfo(path, part.start_ns, part.duration_ns, part.message_count)
+        FileInfo(path.removesuffix(".zstd"), part.start_ns, part.duration_ns, part.message_count)
         for path, part in zip(paths, parts, strict=True)
     ]
     topics: dict[str, TopicInfo] = {}
@@ -295,6 +319,7 @@ def _joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
         known = topics.setdefault(topic.name, topic)
         if known is not topic:
             known.message_count += topic.message_count
+    whole_files = paths[0].endswith(".zstd")
     filled = [part for part in parts if part.message_count]
     start = min((part.start_ns for part in filled), default=0)
     end = max((part.start_ns + part.duration_ns for part in filled), default=0)
@@ -306,8 +331,8 @@ def _joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
         start_ns=start,
         duration_ns=end - start,
         message_count=sum(part.message_count for part in parts),
-        compression_format=parts[0].compression_format,
-        compression_mode=parts[0].compression_mode,
+        compression_format="zstd" if whole_files else parts[0].compression_format,
+        compression_mode="FILE" if whole_files else parts[0].compression_mode,
         custom_data=parts[0].custom_data,
         ros_distro=parts[0].ros_distro,
     )

@@ -160,6 +160,16 @@ class BagWriter:
         self._topics[name] = topic
         self._ids[name] = self._define(self._open(), topic)
 
+    def remove_topic(self, name: str) -> None:
+        """Take a topic without messages out of the bag's metadata.
+
+        Raises:
+            BagError: The topic was not added.
+        """
+        if self._topics.pop(name, None) is None:
+            raise BagError(f"the topic '{name}' was not added")
+        del self._ids[name]
+
     def write(
         self,
         topic: str,

@@ -1,0 +1,55 @@
+"""How a bag is compressed by rosbag2, beside what its storage does."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+__all__ = [
+    "CompressionMode",
+    "CompressionOptions",
+    "compression_mode_from_string",
+    "compression_mode_to_string",
+]
+
+
+class CompressionMode(enum.Enum):
+    """What is compressed as one piece."""
+
+    NONE = 0
+    FILE = 1
+    MESSAGE = 2
+
+
+@dataclass
+class CompressionOptions:
+    """Compression of a writer.
+
+    Attributes:
+        compression_format: ``zstd``.
+        compression_mode: What is compressed.
+        compression_queue_size: Messages that may wait for compression.
+        compression_threads: Threads that compress; 0 for one for each core.
+    """
+
+    compression_format: str = ""
+    compression_mode: CompressionMode = CompressionMode.NONE
+    compression_queue_size: int = 0
+    compression_threads: int = 0
+
+
+def compression_mode_from_string(compression_mode: str) -> CompressionMode:
+    """A mode from its name in any case; empty means NONE.
+
+    Raises:
+        RuntimeError: There is no such mode.
+    """
+    name = compression_mode.upper() or "NONE"
+    if name not in CompressionMode.__members__:
+        raise RuntimeError(f'CompressionMode "{compression_mode}" is not valid')
+    return CompressionMode[name]
+
+
+def compression_mode_to_string(compression_mode: CompressionMode) -> str:
+    """The name of a mode."""
+    return compression_mode.name

@@ -1,0 +1,68 @@
+"""What ``ros2 bag info`` tells."""
+
+from __future__ import annotations
+
+import os
+
+from rosbag2_py import _text
+from rosbag2_py._storage import BagMetadata, folder_size, from_engine
+from turtlewire.bag import Bag, open_bag
+from turtlewire.errors import BagError
+
+__all__ = ["Info"]
+
+_REQUEST_SENT, _REQUEST_RECEIVED, _RESPONSE_SENT, _RESPONSE_RECEIVED = range(4)
+
+
+class Info:
+    """Reads what a bag holds."""
+
+    def read_metadata(self, uri: str, _storage_id: str = "") -> BagMetadata:
+        """Metadata of a bag, from ``metadata.yaml`` or from its files.
+
+        Raises:
+            RuntimeError: There is no such bag, or it cannot be read.
+        """
+        with _opened(uri) as bag:
+            metadata = from_engine(bag.metadata, folder_size(uri))
+        if not os.path.isdir(uri):
+            metadata.relative_file_paths = [uri]
+        return metadata
+
+    def read_metadata_and_output_service_verbose(self, uri: str, storage_id: str = "") -> None:
+        """Print the text of ``ros2 bag info --verbose``, which counts requests and responses.
+
+        Raises:
+            RuntimeError: There is no such bag, or it cannot be read.
+        """
+        metadata = self.read_metadata(uri, storage_id)
+        with _opened(uri) as bag:
+            counts = service_counts(bag)
+        print(_text.info(metadata, counts))  # noqa: T201 - its purpose
+
+
+def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
+    """Numbers of requests and responses of each service whose events a bag holds.
+
+    An exchange that client and server both report counts once, as in rosbag2.
+    """
+    events = [
+        topic for topic in bag.topics.values() if _text.is_service_event(topic.name, topic.type)
+    ]
+    counts = {}
+    for topic in events:
+        kinds = [0, 0, 0, 0]
+        for message in bag.messages(topic.name):
+            # The info field comes first, and its event_type is the first byte behind the header.
+            kinds[message.data[4] & 3] += 1
+        requests = max(kinds[_REQUEST_SENT], kinds[_REQUEST_RECEIVED])
+        responses = max(kinds[_RESPONSE_SENT], kinds[_RESPONSE_RECEIVED])
+        counts[_text.service_of(topic.name, topic.type)[0]] = (requests, responses)
+    return counts
+
+
+def _opened(uri: str) -> Bag:
+    try:
+        return open_bag(uri)
+    except (BagError, OSError) as error:
+        raise RuntimeError(str(error)) from error

@@ -1,0 +1,349 @@
+"""Options and descriptions of bags, as the C++ classes that rosbag2_py exposes."""
+
+from __future__ import annotations
+
+import enum
+import os
+from dataclasses import dataclass, field
+from datetime import timedelta
+from typing import TYPE_CHECKING
+
+from rclpy.duration import Duration
+from rclpy.qos import QoSProfile
+from rclpy.time import Time
+from rosbag2_py import _text
+from turtlewire.bag import metadata as engine
+from turtlewire.bag.qos_yaml import profiles_from_yaml
+from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from turtlewire.wire.qos import QoS
+
+__all__ = [
+    "BagMetadata",
+    "ConverterOptions",
+    "FileInformation",
+    "MessageDefinition",
+    "MetadataIo",
+    "ReadOrder",
+    "ReadOrderSortBy",
+    "StorageFilter",
+    "StorageOptions",
+    "TopicInformation",
+    "TopicMetadata",
+    "convert_rclcpp_qos_to_rclpy_qos",
+    "get_default_storage_id",
+    "to_rclcpp_qos_vector",
+]
+
+
+def get_default_storage_id() -> str:
+    """The storage of new bags: ``mcap``."""
+    return "mcap"
+
+
+@dataclass
+class StorageOptions:
+    """Which bag, and how it is written.
+
+    Attributes:
+        uri: Folder of the bag, or one of its files.
+        storage_id: ``mcap`` or ``sqlite3``; empty to find out when reading.
+        max_bagfile_size: Size in bytes at which a new file begins; 0 for never.
+        max_bagfile_duration: Seconds after which a new file begins; 0 for never.
+        max_cache_size: Bytes kept back before writing; 0 writes at once.
+        storage_preset_profile: For MCAP ``fastwrite``, ``zstd_fast`` or ``zstd_small``.
+        storage_config_uri: A YAML file with options of the storage.
+        snapshot_mode: Whether only snapshots are written.
+        start_time_ns: Log time of the first message that is converted; negative for all.
+        end_time_ns: Log time of the last message that is converted; negative for all.
+        custom_data: Texts kept in the metadata.
+    """
+
+    uri: str
+    storage_id: str = ""
+    max_bagfile_size: int = 0
+    max_bagfile_duration: int = 0
+    max_cache_size: int = 0
+    storage_preset_profile: str = ""
+    storage_config_uri: str = ""
+    snapshot_mode: bool = False
+    start_time_ns: int = -1
+    end_time_ns: int = -1
+    custom_data: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class ConverterOptions:
+    """Serialization formats; only ``cdr`` is known, which is also what an empty text means."""
+
+    input_serialization_format: str = ""
+    output_serialization_format: str = ""
+
+
+@dataclass
+class StorageFilter:
+    """Which messages a reader returns; an empty field does not restrict.
+
+    Attributes:
+        topics: Names of topics. Service events pass as long as ``services_events`` is empty.
+        services_events: Names of service event topics.
+        regex: A pattern that matches whole names.
+        exclude_topics: Names of topics that are left out.
+        exclude_service_events: Names of service event topics that are left out.
+        regex_to_exclude: A pattern that matches whole names that are left out.
+    """
+
+    topics: list[str] = field(default_factory=list)
+    services_events: list[str] = field(default_factory=list)
+    regex: str = ""
+    exclude_topics: list[str] = field(default_factory=list)
+    exclude_service_events: list[str] = field(default_factory=list)
+    regex_to_exclude: str = ""
+
+
+class ReadOrderSortBy(enum.Enum):
+    """What messages are sorted by."""
+
+    ReceivedTimestamp = 0
+    PublishedTimestamp = 1
+    File = 2
+
+
+@dataclass
+class ReadOrder:
+    """In which order a reader returns messages."""
+
+    sort_by: ReadOrderSortBy = ReadOrderSortBy.ReceivedTimestamp
+    reverse: bool = False
+
+
+@dataclass
+class TopicMetadata:
+    """A topic.
+
+    Attributes:
+        id: A number of the caller's choice.
+        name: ``/tf``.
+        type: ``tf2_msgs/msg/TFMessage``.
+        serialization_format: ``cdr``.
+        offered_qos_profiles: What each publisher offers.
+        type_description_hash: ``RIHS01_…`` or empty.
+    """
+
+    id: int
+    name: str
+    type: str
+    serialization_format: str
+    offered_qos_profiles: list[QoSProfile] = field(default_factory=list)
+    type_description_hash: str = ""
+
+    def equals(self, other: TopicMetadata) -> bool:
+        """Whether both describe the same topic; the number does not count."""
+        return (self.name, self.type, self.serialization_format, self.offered_qos_profiles) == (
+            other.name,
+            other.type,
+            other.serialization_format,
+            other.offered_qos_profiles,
+        )
+
+
+@dataclass
+class TopicInformation:
+    """A topic and how many messages of it a bag holds."""
+
+    topic_metadata: TopicMetadata
+    message_count: int
+
+
+@dataclass
+class FileInformation:
+    """A file of a bag.
+
+    Attributes:
+        path: Relative to the bag's folder.
+        starting_time: Log time of its first message.
+        duration: From its first to its last message, cut to microseconds as in ROS 2.
+        message_count: Number of its messages.
+    """
+
+    path: str
+    starting_time: Time
+    duration: timedelta
+    message_count: int
+
+
+@dataclass
+class MessageDefinition:
+    """The definition of a type, as a bag carries it."""
+
+    topic_type: str
+    encoding: str
+    encoded_message_definition: str
+    type_hash: str
+
+
+@dataclass
+class BagMetadata:
+    """What a bag holds; ``str()`` gives the text of ``ros2 bag info``."""
+
+    version: int = engine.NEWEST_VERSION
+    bag_size: int = 0
+    storage_identifier: str = ""
+    relative_file_paths: list[str] = field(default_factory=list)
+    files: list[FileInformation] = field(default_factory=list)
+    duration: Duration = field(default_factory=Duration)
+    starting_time: Time = field(default_factory=Time)
+    message_count: int = 0
+    topics_with_message_count: list[TopicInformation] = field(default_factory=list)
+    compression_format: str = ""
+    compression_mode: str = ""
+    custom_data: dict[str, str] = field(default_factory=dict)
+    ros_distro: str = ""
+
+    def __str__(self) -> str:
+        return _text.info(self)
+
+
+class MetadataIo:
+    """Reads and writes ``metadata.yaml``."""
+
+    def read_metadata(self, uri: str) -> BagMetadata:
+        """Metadata of a bag's folder.
+
+        Raises:
+            RuntimeError: There is none, or it cannot be understood.
+        """
+        try:
+            found = engine.read_metadata(uri)
+        except BagError as error:
+            raise RuntimeError(f"Exception on parsing info file: {error}") from error
+        if found is None:
+            raise RuntimeError(f"Could not read metadata for {uri}: there is no metadata.yaml")
+        return from_engine(found, folder_size(uri))
+
+    def write_metadata(self, uri: str, metadata: BagMetadata) -> None:
+        """Write the metadata into a bag's folder."""
+        engine.write_metadata(uri, to_engine(metadata))
+
+    def metadata_file_exists(self, uri: str) -> bool:
+        """Whether a folder has metadata."""
+        return os.path.exists(os.path.join(uri, engine.METADATA_FILE))
+
+    def serialize_metadata(self, metadata: BagMetadata) -> str:
+        """The metadata as YAML."""
+        return engine.dump_metadata(to_engine(metadata))
+
+    def deserialize_metadata(self, serialized_metadata: str) -> BagMetadata:
+        """Metadata from YAML.
+
+        Raises:
+            RuntimeError: It cannot be understood.
+        """
+        from turtlewire.bag.qos_yaml import load_yaml
+
+        try:
+            content = load_yaml(serialized_metadata, "the metadata")
+            return from_engine(engine.parse_metadata(content, "the metadata"), 0)
+        except BagError as error:
+            raise RuntimeError(str(error)) from error
+
+
+def to_rclcpp_qos_vector(qos_profiles: str, _version: int) -> list[QoSProfile]:
+    """Profiles from the YAML that bags hold; the words of each version are told apart."""
+    return [profile_of(qos) for qos in profiles_from_yaml(qos_profiles, "the QoS profiles")]
+
+
+def convert_rclcpp_qos_to_rclpy_qos(qos: QoSProfile) -> QoSProfile:
+    """The profile itself: there is no second class for C++ here."""
+    return qos
+
+
+def profile_of(qos: QoS) -> QoSProfile:
+    """A recorded QoS as rclpy's class."""
+    return QoSProfile.from_wire(qos)
+
+
+def folder_size(path: str) -> int:
+    """Bytes of a file, or of all files in a folder."""
+    if not os.path.isdir(path):
+        return os.path.getsize(path)
+    return sum(entry.stat().st_size for entry in os.scandir(path) if entry.is_file())
+
+
+def from_engine(metadata: engine.BagMetadata, size: int) -> BagMetadata:
+    """The engine's metadata as rosbag2's class."""
+    return BagMetadata(
+        version=metadata.version,
+        bag_size=size,
+        storage_identifier=metadata.storage,
+        relative_file_paths=list(metadata.paths),
+        files=[
+            FileInformation(
+                file.path,
+                Time(nanoseconds=file.start_ns),
+                timedelta(microseconds=file.duration_ns // 1000),
+                file.message_count,
+            )
+            for file in metadata.files
+        ],
+        duration=Duration(nanoseconds=metadata.duration_ns),
+        starting_time=Time(nanoseconds=metadata.start_ns),
+        message_count=metadata.message_count,
+        topics_with_message_count=[
+            TopicInformation(topic_of(number, topic), topic.message_count)
+            for number, topic in enumerate(metadata.topics)
+        ],
+        compression_format=metadata.compression_format,
+        compression_mode=metadata.compression_mode,
+        custom_data=dict(metadata.custom_data),
+        ros_distro=metadata.ros_distro,
+    )
+
+
+def topic_of(number: int, topic: engine.TopicInfo) -> TopicMetadata:
+    """The engine's topic as rosbag2's class."""
+    return TopicMetadata(
+        number,
+        topic.name,
+        topic.type,
+        topic.serialization_format,
+        [profile_of(qos) for qos in topic.qos],
+        topic.type_hash,
+    )
+
+
+def to_engine(metadata: BagMetadata) -> engine.BagMetadata:
+    """rosbag2's metadata as the engine's class."""
+    return engine.BagMetadata(
+        storage=metadata.storage_identifier,
+        paths=list(metadata.relative_file_paths),
+        files=[
+            engine.FileInfo(
+                file.path,
+                file.starting_time.nanoseconds,
+                file.duration // timedelta(microseconds=1) * 1000,
+                file.message_count,
+            )
+            for file in metadata.files
+        ],
+        topics=[
+            engine.TopicInfo(
+                item.topic_metadata.name,
+                item.topic_metadata.type,
+                item.topic_metadata.serialization_format,
+                [profile.to_wire() for profile in item.topic_metadata.offered_qos_profiles],
+                item.topic_metadata.type_description_hash,
+                item.message_count,
+            )
+            for item in metadata.topics_with_message_count
+        ],
+        start_ns=metadata.starting_time.nanoseconds,
+        duration_ns=metadata.duration.nanoseconds,
+        message_count=metadata.message_count,
+        version=metadata.version,
+        compression_format=metadata.compression_format,
+        compression_mode=metadata.compression_mode,
+        custom_data=dict(metadata.custom_data),
+        ros_distro=metadata.ros_distro,
+    )
