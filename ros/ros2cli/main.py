@@ -30,7 +30,6 @@ _ALIASES = {"wtf": "doctor"}
 
 #: Commands of ROS 2 that are not here, and what does their work.
 _NOT_HERE = {
-    "bag": "There are no bags here yet; `pip install rosbags` reads and writes them without ROS.",
     "control": "ros2_control is C++, and not part of this distribution.",
     "plugin": "Plugins of C++ are not part of this distribution.",
     "security": "Encrypted communication is not part of this distribution.",

@@ -44,7 +44,7 @@ class Info:
 def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
     """Numbers of requests and responses of each service whose events a bag holds.
 
-    An exchange that client and server both report counts once, as in rosbag2.
+    What client and server both report counts twice, as in rosbag2.
     """
     events = [
         topic for topic in bag.topics.values() if _text.is_service_event(topic.name, topic.type)
@@ -55,8 +55,8 @@ def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
         for message in bag.messages(topic.name):
             # The info field comes first, and its event_type is the first byte behind the header.
             kinds[message.data[4] & 3] += 1
-        requests = max(kinds[_REQUEST_SENT], kinds[_REQUEST_RECEIVED])
-        responses = max(kinds[_RESPONSE_SENT], kinds[_RESPONSE_RECEIVED])
+        requests = kinds[_REQUEST_SENT] + kinds[_REQUEST_RECEIVED]
+        responses = kinds[_RESPONSE_SENT] + kinds[_RESPONSE_RECEIVED]
         counts[_text.service_of(topic.name, topic.type)[0]] = (requests, responses)
     return counts
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from rosbag2_py._storage import (
@@ -48,6 +49,7 @@ class SequentialReader:
         self._messages: Iterator[BagMessage] = iter(())
         self._next: BagMessage | None = None
         self._position_ns = 0
+        self._last: BagMessage | None = None
 
     def open(
         self, storage_options: StorageOptions, _converter_options: ConverterOptions | None = None
@@ -126,7 +128,7 @@ class SequentialReader:
         message = self._next
         if message is None:
             raise RuntimeError("Bag is at end. No next message.")
-        self._position_ns = message.log_time_ns
+        self._last = message
         self._advance()
         return message.topic, message.data, message.log_time_ns
 
@@ -158,7 +160,21 @@ class SequentialReader:
         self.set_filter(StorageFilter())
 
     def _continue(self) -> None:
-        self._start(self._next.log_time_ns if self._next is not None else self._position_ns)
+        """Go on behind the message that was read last."""
+        last = self._last
+        if last is None:
+            self._start(self._position_ns)
+            return
+        self._start(last.log_time_ns)
+        passed: list[BagMessage] = []
+        while self._next is not None and self._next.log_time_ns == last.log_time_ns:
+            passed.append(self._next)
+            self._advance()
+        behind = passed[passed.index(last) + 1 :] if last in passed else []
+        if behind:
+            rest = self._messages if self._next is None else chain((self._next,), self._messages)
+            self._messages = chain(behind, rest)
+            self._advance()
 
     def set_read_order(self, order: ReadOrder) -> bool:
         """Choose the order of the messages.
@@ -183,6 +199,7 @@ class SequentialReader:
 
     def seek(self, timestamp: int) -> None:
         """Go on with the first message at or after a log time [ns]; reversed, at or before it."""
+        self._last = None
         self._start(max(0, min(timestamp, _FOREVER)))
 
 

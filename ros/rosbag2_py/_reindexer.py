@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
-from rosbag2_py._storage import StorageOptions
 from turtlewire.bag import reindex
 from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from rosbag2_py._storage import StorageOptions
 
 __all__ = ["Reindexer"]
 

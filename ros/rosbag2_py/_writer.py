@@ -6,12 +6,13 @@ import os
 from typing import TYPE_CHECKING
 
 from rosbag2_py._compression_options import CompressionMode, CompressionOptions
-from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
 from turtlewire.bag import BagWriter
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from typing import Any
+
+    from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
 
 __all__ = [
     "SequentialCompressionWriter",

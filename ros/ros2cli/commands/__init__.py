@@ -6,6 +6,7 @@ __all__ = ["COMMANDS"]
 
 COMMANDS = {
     "action": "Goals that take time: list them, send one",
+    "bag": "Look at recorded messages",
     "component": "Containers of nodes: list them, load and unload nodes",
     "daemon": "Status of the daemon (there is none, and none is needed)",
     "doctor": "Look for what is wrong with the setup and the traffic",

@@ -128,12 +128,15 @@ class SqliteFile:
             where += f" AND topic_id IN ({', '.join(map(str, topic_ids))})"
         limit = (1 << 63) - 1
         try:
-            yield from self._database.execute(
+            rows = self._database.execute(
                 "SELECT CAST(timestamp AS INTEGER), topic_id, CAST(data AS BLOB) "  # noqa: S608
                 f"FROM messages WHERE {where} "  # of the arguments only numbers are in the text
                 "ORDER BY timestamp, id",
                 (min(start_ns, limit), min(end_ns, limit)),
             )
+            # `yield from` would close the cursor at its end, which fails after close().
+            for row in rows:  # noqa: UP028
+                yield row
         except _DAMAGE as error:
             raise BagError(f"{self.path}: {error}; the messages before it were read") from None
 

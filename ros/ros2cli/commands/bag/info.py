@@ -1,0 +1,57 @@
+"""``ros2 bag info``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+__all__ = ["add_arguments", "main"]
+
+
+def bag_path(text: str) -> str:
+    """An existing path.
+
+    Raises:
+        argparse.ArgumentTypeError: There is nothing.
+    """
+    if not os.path.exists(text):
+        raise argparse.ArgumentTypeError(f"Bag path '{text}' does not exist!")
+    return text
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    from argcomplete.completers import FilesCompleter
+
+    path = parser.add_argument("bag_path", type=bag_path, help="Folder of the bag, or one file")
+    path.completer = FilesCompleter()  # type: ignore[attr-defined]
+    parser.add_argument(
+        "-s",
+        "--storage",
+        choices=("sqlite3", "mcap"),
+        default="",
+        help="Accepted as in ROS 2; the storage is found out from the files",
+    )
+    parser.add_argument(
+        "-t", "--topic-name", action="store_true", help="Only print the names of the topics"
+    )
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Count requests and responses of services"
+    )
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print what the bag holds."""
+    from rosbag2_py import Info
+    from rosbag2_py._text import is_service_event
+
+    if args.verbose and not args.topic_name:
+        Info().read_metadata_and_output_service_verbose(args.bag_path, args.storage)
+        return
+    metadata = Info().read_metadata(args.bag_path, args.storage)
+    if not args.topic_name:
+        print(metadata)
+        return
+    for item in metadata.topics_with_message_count:
+        if not is_service_event(item.topic_metadata.name, item.topic_metadata.type):
+            print(item.topic_metadata.name)

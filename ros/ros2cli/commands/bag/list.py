@@ -1,0 +1,34 @@
+"""``ros2 bag list``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_arguments", "main"]
+
+_PLUGINS = {
+    "storage": {
+        "mcap": "the default: a file in chunks, compressed or not, with an index",
+        "sqlite3": "a database",
+    },
+    "converter": {},
+    "compressor": {"zstd": "whole files or single messages"},
+    "decompressor": {"zstd": "whole files or single messages"},
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the command line."""
+    parser.add_argument("plugin_type", choices=tuple(_PLUGINS), help="What to list")
+    parser.add_argument("-v", "--verbose", action="store_true", help="Say what each is")
+
+
+def main(args: argparse.Namespace) -> None:
+    """Print the names."""
+    for name, what in _PLUGINS[args.plugin_type].items():
+        print(name)
+        if args.verbose:
+            print(f"\t{what}")

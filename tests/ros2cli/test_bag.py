@@ -1,0 +1,99 @@
+"""``ros2 bag``: texts and exit codes of the real one."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+import ros2cli.main
+
+GOLDEN = Path(__file__).parent.parent / "golden" / "bag"
+BAGS = ["d_mcap", "d_split_file_zstd", "d_sqlite3_message_zstd"]
+
+#: The real one cannot count in compressed bags: it fails, or finds no requests. We count.
+COUNTED_HERE = {"d_split_file_zstd", "d_sqlite3_message_zstd"}
+
+
+@pytest.fixture(autouse=True)
+def utc(monkeypatch):
+    import time
+
+    monkeypatch.setenv("TZ", "UTC")
+    time.tzset()
+    yield
+    monkeypatch.undo()
+    time.tzset()
+
+
+def run(capfd, *words):
+    try:
+        status = ros2cli.main.main(["bag", *words])
+    except SystemExit as end:
+        status = end.code
+    out, err = capfd.readouterr()
+    return status, out, err
+
+
+@pytest.mark.parametrize("bag", BAGS)
+@pytest.mark.parametrize(("key", "options"), [("info", []), ("info_v", ["-v"]), ("info_t", ["-t"])])
+def test_info(capfd, bag, key, options):
+    expected = json.loads((GOLDEN / f"{bag}.reads.json").read_text())["texts"][key]
+    status, out, err = run(capfd, "info", *options, str(GOLDEN / bag))
+    if key == "info_v" and bag in COUNTED_HERE:
+        assert status == 0
+        assert "Request Count: 0" not in out
+        assert "| Request Count: " in out
+        return
+    assert (status, err) == (expected["exit"], expected["stderr"])
+    assert sorted(out.splitlines()) == sorted(expected["stdout"].splitlines())
+
+
+def test_info_of_a_single_file(capfd):
+    path = GOLDEN / "p_small" / "p_small_0.mcap"
+    _, out, _ = run(capfd, "info", str(path))
+    assert f"Files:             {path}\n" in out
+    assert "Messages:          41\n" in out
+
+
+def test_reindex(capfd, tmp_path):
+    shutil.copytree(GOLDEN / "p_small", tmp_path / "again")
+    (tmp_path / "again" / "metadata.yaml").unlink()
+    status, _, err = run(capfd, "reindex", str(tmp_path / "again"))
+    assert status == 0
+    assert f'Beginning reindexing bag in directory: "{tmp_path / "again"}"' in err
+    assert err.splitlines()[-1].endswith("[rosbag2_cpp]: Reindexing complete.")
+    status, out, _ = run(capfd, "info", str(tmp_path / "again"))
+    assert (status, "Messages:          41\n" in out) == (0, True)
+
+
+def test_wrong_words(capfd):
+    status, out, err = run(capfd, "info", "nothing_here")
+    assert (status, out) == (2, "")
+    assert err.endswith(
+        "ros2 bag info: error: argument bag_path: Bag path 'nothing_here' does not exist!\n"
+    )
+    file = str(GOLDEN / "p_small" / "p_small_0.mcap")
+    assert run(capfd, "reindex", file) == (
+        1,
+        "",
+        "[ERROR] [ros2bag]: Must specify a bag directory\n",
+    )
+    assert run(capfd, "list", "storage") == (0, "mcap\nsqlite3\n", "")
+    assert run(capfd, "info", __file__)[0] == 1
+
+
+def test_info_is_quick_to_start():
+    """No NumPy and no middleware for a look at a file."""
+    import subprocess
+
+    code = (
+        "import sys, ros2cli.main\n"
+        f"ros2cli.main.main(['bag', 'info', {str(GOLDEN / 'p_small')!r}])\n"
+        "print([m for m in ('numpy', 'turtlewire.wire.cyclone') if m in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
