@@ -34,7 +34,8 @@ def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = N
         metadata: What the bag holds.
         counts: Numbers of requests and responses by service; None tells only how many events.
     """
-    topics, services = [], []
+    topics: list[TopicInformation] = []
+    services: list[TopicInformation] = []
     for item in metadata.topics_with_message_count:
         is_event = is_service_event(item.topic_metadata.name, item.topic_metadata.type)
         (services if is_event else topics).append(item)

@@ -53,11 +53,11 @@ def test_names_that_are_known_without_nodes(capsys, line, message, near):
     assert hint.removeprefix("Did you mean: ").split(", ")[0] == near
 
 
-@pytest.mark.parametrize("command", ["bag", "security"])
+@pytest.mark.parametrize("command", ["control", "security"])
 def test_commands_that_are_not_here(capsys, command):
     told, hint = errors(capsys, command, "list")
     assert f"invalid choice: '{command}'" in told
-    assert hint.startswith(("There are no bags here yet", "Encrypted communication is not part"))
+    assert hint.startswith(("ros2_control is C++", "Encrypted communication is not part"))
 
 
 def test_what_is_like_nothing_gets_no_hint(capsys):

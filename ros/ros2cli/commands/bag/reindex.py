@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from argcomplete.completers import DirectoriesCompleter
 
     path = parser.add_argument("bag_path", type=bag_path, help="Folder of the bag")
-    path.completer = DirectoriesCompleter()  # type: ignore[attr-defined, no-untyped-call]
+    path.completer = DirectoriesCompleter()  # type: ignore[attr-defined]
     parser.add_argument(
         "-s",
         "--storage",
