@@ -14,8 +14,12 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.cli import doctor
+from turtlewire.cli.finding import Finding
+from turtlewire.cli.graph_findings import graph_findings
 from turtlewire.cli.main import main
 from turtlewire.cli.network import domains_of, multicast_works, udp_ports
+from turtlewire.cli.setup_findings import network_findings, setup_findings
+from turtlewire.cli.tf_findings import tf_findings
 from turtlewire.cli.tf_traffic import TfListener, TfTraffic, frame_names
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
@@ -38,7 +42,7 @@ def texts(findings):
 
 
 def test_an_empty_domain(context):
-    (finding,) = doctor.graph_findings(context.graph)
+    (finding,) = graph_findings(context.graph)
     assert finding.is_problem
     assert finding.text == f"No node is seen on domain {os.environ['ROS_DOMAIN_ID']} of this host."
     assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET" in finding.remedy
@@ -47,13 +51,13 @@ def test_an_empty_domain(context):
 def test_a_sound_graph_has_no_findings(context):
     context.create_node("talker").create_publisher("/chatter", STRING, QoS())
     context.create_node("listener").create_subscription("/chatter", STRING, QoS())
-    assert doctor.graph_findings(context.graph) == []
+    assert graph_findings(context.graph) == []
 
 
 def test_nodes_of_one_name(context):
     context.create_node("a")
     context.create_node("a")
-    assert texts(doctor.graph_findings(context.graph)) == ["2 nodes have the same name /a."]
+    assert texts(graph_findings(context.graph)) == ["2 nodes have the same name /a."]
 
 
 @pytest.mark.parametrize(
@@ -74,8 +78,8 @@ def test_nodes_of_one_name(context):
 def test_qos_that_cannot_match_names_both_ends(context, offered, asked, reason):
     context.create_node("talker").create_publisher("/x", STRING, offered)
     context.create_node("listener").create_subscription("/x", STRING, asked)
-    assert texts(doctor.graph_findings(context.graph)) == [
-        f"/x: /listener gets nothing from /talker: {reason}."
+    assert texts(graph_findings(context.graph)) == [
+        f"/x: /listener receives nothing from /talker: {reason}."
     ]
 
 
@@ -86,7 +90,7 @@ def test_weaker_requests_match(context):
     context.create_node("listener").create_subscription(
         "/x", STRING, QoS(reliability=Reliability.BEST_EFFORT)
     )
-    assert doctor.graph_findings(context.graph) == []
+    assert graph_findings(context.graph) == []
 
 
 def test_types_and_definitions_that_differ(context):
@@ -94,8 +98,8 @@ def test_types_and_definitions_that_differ(context):
     context.create_node("listener").create_subscription(
         "/x", TypeId("std_msgs/msg/Int32", ""), QoS()
     )
-    assert texts(doctor.graph_findings(context.graph)) == [
-        "/x has ends of different types: std_msgs/msg/Int32, std_msgs/msg/String."
+    assert texts(graph_findings(context.graph)) == [
+        "/x has endpoints of different types: std_msgs/msg/Int32, std_msgs/msg/String."
     ]
 
 
@@ -104,8 +108,8 @@ def test_definitions_that_differ(context):
     context.create_node("listener").create_subscription(
         "/x", STRING._replace(type_hash="RIHS01_" + "2" * 64), QoS()
     )
-    assert texts(doctor.graph_findings(context.graph)) == [
-        "/x: /listener gets nothing from /talker: their definitions of the type differ."
+    assert texts(graph_findings(context.graph)) == [
+        "/x: /listener receives nothing from /talker: their definitions of the type differ."
     ]
 
 
@@ -139,11 +143,11 @@ def test_transforms_without_fault(context, broadcasters):
         (transform("world", "b"), two, False),
         (transform("a", "c", 0), one, True),
     )
-    assert doctor.tf_findings(context.graph, traffic) == []
+    assert tf_findings(context.graph, traffic) == []
 
 
 def test_nobody_publishes(context):
-    assert texts(doctor.tf_findings(context.graph, TfTraffic())) == ["Nobody publishes transforms."]
+    assert texts(tf_findings(context.graph, TfTraffic())) == ["No node publishes transforms."]
 
 
 def test_two_publishers_of_one_frame(context, broadcasters):
@@ -151,7 +155,7 @@ def test_two_publishers_of_one_frame(context, broadcasters):
     traffic = traffic_of(
         (transform("world", "a"), one, False), (transform("world", "a"), two, False)
     )
-    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+    assert texts(tf_findings(context.graph, traffic)) == [
         "The frame 'a' is published by /one and /two."
     ]
 
@@ -163,7 +167,7 @@ def test_two_parents(context, broadcasters):
         (transform("map", "a"), one, False),
         (transform("world", "map"), one, True),
     )
-    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+    assert texts(tf_findings(context.graph, traffic)) == [
         "The frame 'a' has several parents: map, world."
     ]
 
@@ -173,7 +177,7 @@ def test_separate_trees(context, broadcasters):
     traffic = traffic_of(
         (transform("world", "a"), one, False), (transform("odom", "b"), one, False)
     )
-    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+    assert texts(tf_findings(context.graph, traffic)) == [
         "The frames form 2 separate trees, with the roots odom, world."
     ]
 
@@ -185,7 +189,7 @@ def test_mixed_and_stale_times(context, broadcasters):
         (transform("world", "a", old), one, False),
         (transform("world", "b", 3_000_000_000), one, False),
     )
-    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+    assert texts(tf_findings(context.graph, traffic)) == [
         "Wall time and simulated time are mixed: a and b.",
         "The newest transform of 'a' is 5.0 s old.",
     ]
@@ -267,20 +271,20 @@ def test_a_real_ros_mixed_into_the_path(tmp_path):
         (tmp_path / name / "rclpy").mkdir(parents=True)
         (tmp_path / name / "rclpy/__init__.py").touch()
     path = [str(tmp_path / "ours"), str(tmp_path / "theirs"), str(tmp_path / "ours")]
-    found = [finding for finding in doctor.setup_findings({}, path) if finding.is_problem]
+    found = [finding for finding in setup_findings({}, path) if finding.is_problem]
     assert len(found) == 1
     assert found[0].text.startswith("Two ROS installations are mixed: rclpy is in ")
-    assert not any(finding.is_problem for finding in doctor.setup_findings({}, path[:1]))
+    assert not any(finding.is_problem for finding in setup_findings({}, path[:1]))
 
 
 def test_another_distribution_is_named():
     assert "ROS_DISTRO is 'humble', but the names and texts here are those of jazzy." in texts(
-        doctor.setup_findings({"ROS_DISTRO": "humble"}, [])
+        setup_findings({"ROS_DISTRO": "humble"}, [])
     )
 
 
 def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
-    findings = [doctor.Finding(False, "small", "do a"), doctor.Finding(True, "big", "do b")]
+    findings = [Finding(False, "small", "do a"), Finding(True, "big", "do b")]
     monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
     assert main(["doctor"]) == 1
     assert capsys.readouterr().out == "PROBLEM: big\n    do b\nnote: small\n    do a\n"
@@ -288,11 +292,11 @@ def test_the_command_says_problems_first_and_fails(monkeypatch, capsys):
     assert main(["doctor"]) == 0
     findings.clear()
     assert main(["doctor"]) == 0
-    assert capsys.readouterr().out.endswith("Nothing is wrong as far as can be seen.\n")
+    assert capsys.readouterr().out.endswith("No problems found.\n")
 
 
 def test_findings_as_json(monkeypatch, capsys):
-    findings = [doctor.Finding(False, "small", "do a"), doctor.Finding(True, "big", "do b")]
+    findings = [Finding(False, "small", "do a"), Finding(True, "big", "do b")]
     monkeypatch.setattr(doctor, "examine", lambda _seconds: findings)
     assert main(["doctor", "--json"]) == 1
     assert json.loads(capsys.readouterr().out) == {
@@ -304,7 +308,7 @@ def test_findings_as_json(monkeypatch, capsys):
 
 
 def test_names_from_the_wire_do_not_steer_the_terminal():
-    text = doctor.report([doctor.Finding(True, "node /a\x1b[2J", "rename /a\x1b[2J")])
+    text = doctor.report([Finding(True, "node /a\x1b[2J", "rename /a\x1b[2J")])
     assert text == "PROBLEM: node /a\\x1b[2J\n    rename /a\\x1b[2J"
 
 
@@ -318,9 +322,9 @@ def test_stamps_that_jump_back_and_frames_that_leap(context, broadcasters):
     there = transform("world", "a", NOW_NS - 40_000_000)
     there.transforms[0].transform.translation.x = 7.0
     traffic = traffic_of((transform("world", "a"), one, False), (there, one, False))
-    assert texts(doctor.tf_findings(context.graph, traffic)) == [
+    assert texts(tf_findings(context.graph, traffic)) == [
         "The stamps of 'a' jump back, by up to 0.040 s.",
-        "The frame 'a' leaps by up to 7.0 m from one transform to the next.",
+        "The frame 'a' leaps by up to 7.0 m between transforms.",
     ]
 
 
@@ -332,7 +336,7 @@ def test_motion_and_a_change_of_parents_are_no_leaps(context, broadcasters):
     traffic = traffic_of(
         (transform("world", "a"), one, False), (moved, one, False), (elsewhere, one, False)
     )
-    assert not any("leaps" in text for text in texts(doctor.tf_findings(context.graph, traffic)))
+    assert not any("leaps" in text for text in texts(tf_findings(context.graph, traffic)))
 
 
 def test_the_domains_of_ports():
@@ -344,11 +348,10 @@ def test_the_domains_of_ports():
 
 def test_nodes_on_another_domain_of_this_host_are_named(context, monkeypatch):
     monkeypatch.setattr(
-        doctor,
-        "udp_ports",
+        "turtlewire.cli.graph_findings.udp_ports",
         lambda: {7410 + 250 * 100, 7410 + 250 * int(os.environ["ROS_DOMAIN_ID"])},
     )
-    (finding,) = doctor.graph_findings(context.graph)
+    (finding,) = graph_findings(context.graph)
     assert (
         "This host has nodes on domain 100: export ROS_DOMAIN_ID=100 to see them." in finding.remedy
     )
@@ -362,10 +365,10 @@ def test_the_ports_of_a_context_are_seen():
 
 
 def test_multicast_matters_only_where_others_are_looked_for(monkeypatch):
-    monkeypatch.setattr(doctor, "multicast_works", lambda: False)
-    assert doctor.network_findings() == []
+    monkeypatch.setattr("turtlewire.cli.setup_findings.multicast_works", lambda: False)
+    assert network_findings() == []
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
-    (finding,) = doctor.network_findings()
+    (finding,) = network_findings()
     assert finding.is_problem
     assert "ROS_STATIC_PEERS" in finding.remedy
 
@@ -411,7 +414,7 @@ def test_the_multicast_of_a_real_network(run, network, problems):
 
 def test_an_empty_domain_costs_no_listening(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    assert "Nobody publishes transforms." in texts(doctor.examine(1000.0))
+    assert "No node publishes transforms." in texts(doctor.examine(1000.0))
 
 
 def test_everything_at_once_on_the_wire(run):
@@ -446,13 +449,13 @@ def test_everything_at_once_on_the_wire(run):
         thread.join()
         opened.close()
     for text in (
-        "PROBLEM: /x: /two gets nothing from /one: it asks for RELIABLE, and BEST_EFFORT is offered.",
+        "PROBLEM: /x: /two receives nothing from /one: it asks for RELIABLE, and BEST_EFFORT is offered.",
         "PROBLEM: The frame 'shared' is published by /one and /two.",
         "PROBLEM: The frames form 2 separate trees, with the roots odom, world.",
         "PROBLEM: Wall time and simulated time are mixed: leaping and simulated.",
         "PROBLEM: The stamps of 'leaping' jump back, by up to 0.0",
         "note: The newest transform of 'old' is 10.",
-        "note: The frame 'leaping' leaps by up to 50.0 m from one transform to the next.",
+        "note: The frame 'leaping' leaps by up to 50.0 m between transforms.",
     ):
         assert text in program.text, program.text
     remedies = program.text.splitlines()[1::2]

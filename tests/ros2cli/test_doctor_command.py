@@ -28,7 +28,7 @@ def test_what_is_only_worth_knowing_fails_when_asked(capsys):
     try:
         context.create_node("alone")
         assert main(["doctor"]) == 0
-        assert capsys.readouterr().out.startswith("note: Nobody publishes transforms.")
+        assert capsys.readouterr().out.startswith("note: No node publishes transforms.")
         assert main(["doctor", "--include-warnings"]) == 1
     finally:
         context.close()

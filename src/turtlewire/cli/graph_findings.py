@@ -1,0 +1,95 @@
+"""Faults among nodes and topics."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from turtlewire.cli.finding import Finding, problem
+from turtlewire.cli.network import domains_of, udp_ports
+from turtlewire.cli.setup_findings import only_this_host
+from turtlewire.wire.environment import discovery, domain_id
+from turtlewire.wire.names import fully_qualified_node_name, is_hidden
+from turtlewire.wire.qos import Durability, Reliability
+
+if TYPE_CHECKING:
+    from turtlewire.wire.base import EndpointInfo, Graph
+
+__all__ = ["graph_findings", "owner_of"]
+
+_RENAME = "Rename all but one: --ros-args -r __node:=NAME"
+_ONE_TYPE = "Messages pass only between endpoints of one type: remap one of the topics."
+_ONE_QOS = "Give both the same QoS profile, or the subscription the weaker one."
+
+
+def graph_findings(graph: Graph) -> list[Finding]:
+    """Faults among the nodes and topics of a graph."""
+    names = [fully_qualified_node_name(node.name, node.namespace) for node in graph.nodes()]
+    visible = [name for name in names if not is_hidden(name)]
+    if not visible:
+        return [_no_nodes()]
+    found = [
+        problem(f"{count} nodes have the same name {name}.", _RENAME)
+        for name, count in sorted(Counter(visible).items())
+        if count > 1
+    ]
+    topics: dict[str, list[EndpointInfo]] = {}
+    for endpoint in graph.endpoints():
+        if endpoint.topic.startswith("/"):
+            topics.setdefault(endpoint.topic, []).append(endpoint)
+    for topic, endpoints in sorted(topics.items()):
+        found += _topic_findings(topic, endpoints)
+    return found
+
+
+def owner_of(endpoint: EndpointInfo) -> str:
+    """Full name of the node that owns an endpoint."""
+    if endpoint.node is None:
+        return "an unknown node"
+    return fully_qualified_node_name(endpoint.node.name, endpoint.node.namespace)
+
+
+def _no_nodes() -> Finding:
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    reach = "this host" if only_this_host() else "this network"
+    remedy = ["Start one."]
+    others = sorted(domains_of(udp_ports()) - {domain_id()})
+    if others:
+        remedy.append(
+            f"This host has nodes on domain {', '.join(map(str, others))}: "
+            f"export ROS_DOMAIN_ID={others[0]} to see them."
+        )
+    remedy.append(
+        f"Nodes that talk to each other need the same ROS_DOMAIN_ID (here {domain}); for those on "
+        "other hosts, set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET on both sides "
+        f"(here {discovery().range.value})."
+    )
+    return problem(f"No node is seen on domain {domain} of {reach}.", " ".join(remedy))
+
+
+def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:
+    types = sorted({endpoint.type_name for endpoint in endpoints})
+    if len(types) > 1:
+        text = f"{topic} has endpoints of different types: {', '.join(types)}."
+        return [problem(text, _ONE_TYPE)]
+    found = []
+    for publisher in (end for end in endpoints if end.kind == "publisher"):
+        for subscription in (end for end in endpoints if end.kind == "subscription"):
+            reason = _mismatch(publisher, subscription)
+            if reason:
+                receiver, sender = owner_of(subscription), owner_of(publisher)
+                text = f"{topic}: {receiver} receives nothing from {sender}: {reason}."
+                found.append(problem(text, _ONE_QOS))
+    return found
+
+
+def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
+    """Why DDS does not connect the two; empty if it does."""
+    offered, asked = publisher.qos, subscription.qos
+    if (offered.reliability, asked.reliability) == (Reliability.BEST_EFFORT, Reliability.RELIABLE):
+        return "it asks for RELIABLE, and BEST_EFFORT is offered"
+    if (offered.durability, asked.durability) == (Durability.VOLATILE, Durability.TRANSIENT_LOCAL):
+        return "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"
+    hashes = {publisher.type_hash, subscription.type_hash} - {""}
+    return "their definitions of the type differ" if len(hashes) > 1 else ""

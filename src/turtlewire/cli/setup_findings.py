@@ -1,0 +1,67 @@
+"""Faults of the installation, the environment variables and the network."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from turtlewire.cli.finding import Finding, note, problem
+from turtlewire.cli.network import multicast_works
+from turtlewire.wire.environment import Range, discovery
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+__all__ = ["network_findings", "only_this_host", "setup_findings"]
+
+_PLAIN_CORE = "The plain-Python core is in use; lookups take many times as long."
+_INSTALL_COMPILER = (
+    "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
+)
+_OTHER_DISTRO = (
+    "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces of "
+    "turtlesim_msgs."
+)
+_MIXED = "Leave out one of them: do not source a real ROS in a shell that uses turtlewire-ros."
+_NO_MULTICAST = "A multicast datagram does not come back: nodes on other hosts will not be found."
+_ALLOW_MULTICAST = (
+    "Allow UDP to 239.255.0.1 (firewall, VPN, container network), or name the other hosts: "
+    "ROS_STATIC_PEERS='HOST1;HOST2'."
+)
+
+
+def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[Finding]:
+    """Faults of the installation.
+
+    Args:
+        environment: The environment variables.
+        path: The folders that Python imports from.
+    """
+    from turtlewire.tf.buffer import CORE
+
+    found = [note(_PLAIN_CORE, _INSTALL_COMPILER)] if CORE == "python" else []
+    distro = environment.get("ROS_DISTRO", "jazzy")
+    if distro != "jazzy":
+        text = f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy."
+        found.append(note(text, _OTHER_DISTRO))
+    homes = {
+        os.path.realpath(folder)
+        for folder in path
+        if os.path.isfile(os.path.join(folder, "rclpy", "__init__.py"))
+    }
+    if len(homes) > 1:
+        places = " and in ".join(sorted(homes))
+        found.append(problem(f"Two ROS installations are mixed: rclpy is in {places}.", _MIXED))
+    return found
+
+
+def network_findings() -> list[Finding]:
+    """Faults that keep this host from finding others; none if it does not look for them."""
+    if only_this_host() or multicast_works():
+        return []
+    return [problem(_NO_MULTICAST, _ALLOW_MULTICAST)]
+
+
+def only_this_host() -> bool:
+    """Whether discovery stays on this host."""
+    return discovery().range in (Range.LOCALHOST, Range.OFF)

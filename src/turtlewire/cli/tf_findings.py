@@ -1,0 +1,103 @@
+"""Faults of the transforms that are published."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.cli.finding import Finding, note, problem
+from turtlewire.cli.graph_findings import owner_of
+from turtlewire.cli.tf_traffic import tf_publishers
+
+if TYPE_CHECKING:
+    from turtlewire.cli.tf_traffic import TfTraffic
+    from turtlewire.wire.base import Graph
+
+__all__ = ["tf_findings"]
+
+_STALE_NS = 2_000_000_000
+_WALL_TIME_FROM_NS = 10**9 * 10**9  # the year 2001; simulated time begins at zero
+
+_START_BROADCASTER = "Start a node with a TransformBroadcaster or a StaticTransformBroadcaster."
+_ONE_PUBLISHER = "A frame must have one publisher: stop the others."
+_ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
+_JOIN_TREES = (
+    "No lookup between them is possible: publish a transform from one root to the other "
+    "(static_transform_publisher)."
+)
+_ONE_CLOCK = "Set use_sim_time to the same value for all nodes."
+_SLOW = "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."
+_JUMPS = (
+    "Two sources publish it, a bag starts again, or a clock was set: listeners drop such "
+    "transforms, or clear their buffers."
+)
+_LEAPS = "Either it was moved to another place, or two sources disagree about where it is."
+
+
+def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
+    """Faults of the transforms that were heard.
+
+    Args:
+        graph: Tells which node owns a publisher.
+        traffic: What was heard.
+    """
+    if not tf_publishers(graph):
+        return [note("No node publishes transforms.", _START_BROADCASTER)]
+    return [
+        *_publisher_findings(graph, traffic),
+        *_tree_findings(traffic),
+        *_clock_findings(traffic),
+        *_step_findings(traffic),
+    ]
+
+
+def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
+    owners = {endpoint.gid: owner_of(endpoint) for endpoint in graph.endpoints()}
+    found = []
+    for child, gids in sorted(traffic.publishers.items()):
+        if len(gids) > 1:
+            nodes = " and ".join(sorted(owners.get(gid, "an unknown node") for gid in gids))
+            found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
+    return found
+
+
+def _tree_findings(traffic: TfTraffic) -> list[Finding]:
+    found = [
+        problem(
+            f"The frame '{child}' has several parents: {', '.join(sorted(parents))}.", _ONE_PARENT
+        )
+        for child, parents in sorted(traffic.parents.items())
+        if len(parents) > 1
+    ]
+    parents = {parent for of_child in traffic.parents.values() for parent in of_child}
+    roots = sorted(parents - traffic.parents.keys())
+    if len(roots) > 1:
+        text = f"The frames form {len(roots)} separate trees, with the roots {', '.join(roots)}."
+        found.append(problem(text, _JOIN_TREES))
+    return found
+
+
+def _clock_findings(traffic: TfTraffic) -> list[Finding]:
+    wall = {child for child, stamp in traffic.newest_ns.items() if stamp >= _WALL_TIME_FROM_NS}
+    simulated = traffic.newest_ns.keys() - wall
+    found = []
+    if wall and simulated:
+        text = f"Wall time and simulated time are mixed: {min(wall)} and {min(simulated)}."
+        found.append(problem(text, _ONE_CLOCK))
+    for child in sorted(wall):
+        age_ns = traffic.ended_ns - traffic.newest_ns[child]
+        if age_ns > _STALE_NS:
+            text = f"The newest transform of '{child}' is {age_ns / 1e9:.1f} s old."
+            found.append(note(text, _SLOW))
+    return found
+
+
+def _step_findings(traffic: TfTraffic) -> list[Finding]:
+    jumps = [
+        problem(f"The stamps of '{child}' jump back, by up to {back_ns / 1e9:.3f} s.", _JUMPS)
+        for child, back_ns in sorted(traffic.back_ns.items())
+    ]
+    leaps = [
+        note(f"The frame '{child}' leaps by up to {leap_m:.1f} m between transforms.", _LEAPS)
+        for child, leap_m in sorted(traffic.leaps_m.items())
+    ]
+    return jumps + leaps
