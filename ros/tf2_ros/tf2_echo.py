@@ -14,12 +14,12 @@ from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from tf_transformations import euler_from_quaternion
+from turtlewire.cli.pipes import leave_pipe
 from turtlewire.errors import TransformException
 from turtlewire.printable import printable_lines
 
 from .buffer import Buffer
 from .command_line import Parser, count, digits, frame_id
-from .pipes import leave_pipe
 from .transform_listener import TransformListener
 
 if TYPE_CHECKING:

@@ -12,6 +12,8 @@ from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from turtlewire import msg
+from turtlewire.cli.parser import seconds
+from turtlewire.cli.pipes import leave_pipe
 from turtlewire.errors import TransformException
 from turtlewire.printable import printable_lines
 from turtlewire.tf.frame_tree import read_frame_tree
@@ -19,8 +21,7 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NA
 from turtlewire.wire.base import TypeId
 
 from .buffer import Buffer
-from .command_line import Parser, count, frame_id, seconds
-from .pipes import leave_pipe
+from .command_line import Parser, count, frame_id
 from .spinning import spin_in_thread
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
-from tf2_ros.pipes import leave_pipe
 from tf2_tools.dot import dot_from_tree
 from tf2_tools.pdf import pdf_from_drawing
+from turtlewire.cli.pipes import leave_pipe
 from turtlewire.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameTree, read_frame_tree

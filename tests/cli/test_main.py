@@ -26,7 +26,7 @@ TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
         ("frames --onc", 2, "Did you mean: --once"),
         ("frames --vresion", 2, "turtlewire frames: error: unrecognized arguments: --vresion"),
         ("--vresion", 2, "Did you mean: --version"),
-        ("doctor --listen soon", 2, "'soon' is not between 0 and 3600 seconds"),
+        ("doctor --listen soon", 2, "'soon' is not a number of seconds, above 0 and up to 3600"),
         ("doctor now", 2, "unrecognized arguments: now"),
         ("frames a b", 2, "unrecognized arguments: b"),
         ("", 0, "usage: turtlewire [-h] [--version]"),

@@ -329,9 +329,9 @@ def test_echo_refuses(words, status, text, capsys):
         ("robot", "give two frames, or none for all"),
         ("robot world here", "give two frames, or none for all"),
         ("/robot world", "in tf2 frame_ids cannot start with a '/'"),
-        ("--period 0", "'0' is no number of seconds above 0"),
-        ("--period nan", "'nan' is no number of seconds above 0"),
-        ("--period soon", "'soon' is no number of seconds above 0"),
+        ("--period 0", "'0' is not a number of seconds, above 0 and up to 3600"),
+        ("--period nan", "'nan' is not a number of seconds, above 0 and up to 3600"),
+        ("--period soon", "'soon' is not a number of seconds, above 0 and up to 3600"),
         ("--limit x", "'x' is not a whole number, 0 or more"),
     ],
 )

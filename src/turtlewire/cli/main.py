@@ -9,13 +9,12 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.parser import Parser, seconds
+from turtlewire.cli.pipes import leave_pipe
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 __all__ = ["main"]
-
-_EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a closed pipe
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -41,9 +40,7 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # Python would write the rest of its buffer at exit, and fail again.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return _EXIT_READER_GONE
+        return leave_pipe()
     return status
 
 

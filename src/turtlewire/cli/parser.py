@@ -56,5 +56,7 @@ def seconds(text: str) -> float:
     except ValueError:
         value = math.nan
     if not 0.0 < value <= 3600.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not between 0 and 3600 seconds")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number of seconds, above 0 and up to 3600"
+        )
     return value

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire.cli.parser import seconds
+
 if TYPE_CHECKING:
     import argparse
 
@@ -41,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--listen",
-        type=float,
+        type=seconds,
         metavar="S",
         help="Listen to the transforms for S seconds (default: 2; less if all are static)",
     )

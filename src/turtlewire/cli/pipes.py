@@ -1,4 +1,4 @@
-"""Ends as other tools do when what reads the output, ``head`` for example, has seen enough."""
+"""Ends a program quietly when the reader of its output, such as ``head``, has closed the pipe."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ READER_GONE = 141
 
 
 def leave_pipe() -> int:
-    """After a ``BrokenPipeError``: keep Python from writing the rest at its end; the exit status."""
+    """Call it after a ``BrokenPipeError``; returns the exit status.
+
+    Python would write the rest of its buffer at exit, and fail again.
+    """
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return READER_GONE
