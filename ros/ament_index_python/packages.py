@@ -37,8 +37,8 @@ def get_package_prefix(package_name: str) -> str:
     paths = get_search_paths()
     prefix = package_prefix(package_name)
     if prefix is None:
+        from turtlewire.suggestion import did_you_mean
         from turtlewire_ros.prefix import package_names
-        from turtlewire_ros.suggestion import did_you_mean
 
         error = PackageNotFoundError(f"package '{package_name}' not found, searching: {paths}")
         error.hint = did_you_mean(package_name, package_names())

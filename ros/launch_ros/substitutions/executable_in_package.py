@@ -10,8 +10,8 @@ from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from turtlewire.suggestion import did_you_mean
 from turtlewire_ros.executables import executable_paths, libexec_directory
-from turtlewire_ros.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

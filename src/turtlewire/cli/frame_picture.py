@@ -7,8 +7,8 @@ import os
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.cli.parser import did_you_mean
 from turtlewire.printable import printable
+from turtlewire.suggestion import did_you_mean
 from turtlewire.tf import inspection
 from turtlewire.tf.frame_tree import read_frame_tree
 
@@ -133,8 +133,8 @@ def take_picture(buffer: Buffer, wall_ns: int, top: str | None = None) -> Pictur
         domain = os.environ.get("ROS_DOMAIN_ID") or 0
         return Picture(now_ns, [], [], _NOTHING.format(domain=domain))
     if top is not None and top not in tree.children:
-        near = did_you_mean(top, tree.children).replace("\n", " ")
-        return Picture(now_ns, [], [], printable(f"No frame {top!r} yet.{near}"))
+        text = f"No frame {top!r} yet. {did_you_mean(top, tree.children)}".rstrip()
+        return Picture(now_ns, [], [], printable(text))
     rows = [_row(frame, branch, links, now_ns) for frame, branch in _walk(tree, top)]
     shown = {row.frame for row in rows}
     return Picture(now_ns, rows, [loop for loop in tree.loops if not shown.isdisjoint(loop)])

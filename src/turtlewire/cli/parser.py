@@ -7,11 +7,13 @@ import math
 import re
 from typing import TYPE_CHECKING
 
+from turtlewire.suggestion import did_you_mean
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
     from typing import NoReturn
 
-__all__ = ["Parser", "did_you_mean", "seconds"]
+__all__ = ["Parser", "seconds"]
 
 _INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
@@ -34,19 +36,12 @@ class Parser(argparse.ArgumentParser):
         """Print the usage, the message and a suggestion; exit with status 2."""
         choice = _INVALID_CHOICE.search(message)
         unknown = _UNRECOGNIZED.match(message)
+        suggestion = ""
         if choice:
-            message += did_you_mean(choice[1], re.findall(r"[\w-]+", message[choice.end() :]))
+            suggestion = did_you_mean(choice[1], re.findall(r"[\w-]+", message[choice.end() :]))
         elif unknown:
-            message += did_you_mean(unknown[1], _OPTION.findall(self.format_usage()))
-        super().error(message)
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A line with the nearest known names, to follow a message; empty if none is near."""
-    import difflib
-
-    near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3)
-    return f"\nDid you mean: {', '.join(near)}" if near else ""
+            suggestion = did_you_mean(unknown[1], _OPTION.findall(self.format_usage()))
+        super().error(f"{message}\n{suggestion}".rstrip())
 
 
 def seconds(text: str) -> float:

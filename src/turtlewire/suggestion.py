@@ -1,4 +1,4 @@
-"""Names that may have been meant."""
+"""Suggestions for a name that does not exist."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ __all__ = ["did_you_mean"]
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A line with the nearest known names; empty when none is near."""
+    """A line with the nearest known names; empty if none is near."""
     import difflib
 
-    near = difflib.get_close_matches(name, list(known), n=3)
+    near = difflib.get_close_matches(name, list(dict.fromkeys(known)), n=3)
     return f"Did you mean: {', '.join(near)}" if near else ""
