@@ -22,11 +22,10 @@ class Follower(Node):
     def on_timer(self) -> None:
         """Steer, once both turtles are known."""
         try:
-            target = self.buffer.lookup_transform(
-                "turtle2", "turtle1", Time()
-            ).transform.translation
+            transform = self.buffer.lookup_transform("turtle2", "turtle1", Time())
         except TransformException:
             return
+        target = transform.transform.translation
         command = Twist()
         command.linear.x = 0.5 * math.hypot(target.x, target.y)
         command.angular.z = 1.0 * math.atan2(target.y, target.x)

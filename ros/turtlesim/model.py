@@ -14,9 +14,23 @@ metre, rows counted from the top).
 from __future__ import annotations
 
 import math
-import struct
 from enum import Enum
 from typing import NamedTuple
+
+from turtlesim.physics import (
+    COMMAND_LIFETIME_NS,
+    FIELD_SIZE,
+    IMAGE_SIZE,
+    PIXELS_PER_METRE,
+    TICK_NS,
+    clamp,
+    float32,
+    move,
+    normalize_angle,
+    pixel_of,
+    published,
+    turn,
+)
 
 __all__ = [
     "DEFAULT_PEN",
@@ -34,38 +48,10 @@ __all__ = [
     "World",
 ]
 
-#: One tick, in nanoseconds and in seconds. Every tick integrates exactly this time, however long it
-#: really took.
-TICK_NS = 16_000_000
-TICK_S = 0.001 * 16
-#: A velocity command is forgotten after this time.
-COMMAND_LIFETIME_NS = 1_000_000_000
-#: Width and height of the picture, in pixels, and its scale.
-IMAGE_SIZE = 500
-PIXELS_PER_METRE = 45.0
 #: A rotation has arrived when the heading is this close to its goal [rad]; it turns at this speed
 #: [rad/s].
 ROTATION_TOLERANCE = 0.02
 ROTATION_SPEED = 1.0
-#: The constant of the original, not math.pi: headings depend on it in their last bits.
-_PI = 3.14159265
-_TWO_PI = 2.0 * _PI
-
-_FLOAT32 = struct.Struct("<f")
-
-
-def _float32(value: float) -> float:
-    """The nearest single-precision number."""
-    return float(_FLOAT32.unpack(_FLOAT32.pack(value))[0])
-
-
-#: Side length of the field [m], in single precision: 11.088889.
-FIELD_SIZE = _float32((IMAGE_SIZE - 1) / PIXELS_PER_METRE)
-
-
-def normalize_angle(angle: float) -> float:
-    """``angle`` [rad, finite] brought into [-pi, pi)."""
-    return angle - _TWO_PI * math.floor((angle + _PI) / _TWO_PI)
 
 
 class Pen(NamedTuple):
@@ -189,7 +175,7 @@ class Turtle:
     def __init__(self, name: str, x: float, y: float, theta: float) -> None:
         self.name = name
         self.x = x
-        self.y_down = _float32(FIELD_SIZE - y)
+        self.y_down = float32(FIELD_SIZE - y)
         self.theta = theta
         self.pen = DEFAULT_PEN
         self.pen_on = True
@@ -202,8 +188,8 @@ class Turtle:
     @property
     def pose(self) -> Pose:
         """Where it is and how fast it was told to move."""
-        speed = math.sqrt(self.forward * self.forward + self.lateral * self.lateral)
-        return Pose(self.x, FIELD_SIZE - self.y_down, self.theta, speed, self.turning)
+        state = (self.x, self.y_down, self.theta, self.forward, self.lateral, self.turning)
+        return Pose._make(published(state))
 
     @property
     def is_plain(self) -> bool:
@@ -246,9 +232,7 @@ class Turtle:
 
     def step(self, now_ns: int) -> TurtleTick:
         """Move by one tick; ``now_ns`` is only compared with the time of the last command."""
-        if self._command_is_fresh:
-            self._command_ns = now_ns
-            self._command_is_fresh = False
+        self.age_command(now_ns)
         teleport_strokes = (
             [stroke for teleport in self._teleports if (stroke := self._teleport(*teleport))]
             if self._teleports
@@ -258,30 +242,33 @@ class Turtle:
         rotation = self.rotation
         if rotation is not None:
             self._rotate(rotation, now_ns)
-        if now_ns - self._command_ns > COMMAND_LIFETIME_NS:
-            self._stop()
         old_x, old_y = self.x, self.y_down
-        self._integrate()
-        clamped_from = self._clamp()
+        clamped_from = self._move()
         x, y = self.x, self.y_down
         stroke = (
             self._stroke_from(old_x, old_y) if self.pen_on and (x != old_x or y != old_y) else None
         )
-        pixel = (math.floor(x * PIXELS_PER_METRE + 0.5), math.floor(y * PIXELS_PER_METRE + 0.5))
-        return TurtleTick(self, self.pose, teleport_strokes, pixel, stroke, clamped_from, rotation)
+        return TurtleTick(
+            self, self.pose, teleport_strokes, pixel_of(x, y), stroke, clamped_from, rotation
+        )
 
-    def _integrate(self) -> None:
-        self.theta = theta = normalize_angle(self.theta + self.turning * TICK_S)
+    def age_command(self, now_ns: int) -> None:
+        """Note when a new command came, and stop when the last one is too old."""
+        if self._command_is_fresh:
+            self._command_ns = now_ns
+            self._command_is_fresh = False
+        elif now_ns - self._command_ns > COMMAND_LIFETIME_NS:
+            self._stop()
+
+    def _move(self) -> tuple[float, float] | None:
+        """Integrate one tick; the place outside of the field from which a wall moved it back."""
+        self.theta = theta = turn(self.theta, self.turning)
         cos, sin = math.cos(theta), math.sin(theta)
-        self.x += cos * self.forward * TICK_S - sin * self.lateral * TICK_S
-        self.y_down -= cos * self.lateral * TICK_S + sin * self.forward * TICK_S
-
-    def _clamp(self) -> tuple[float, float] | None:
-        x, y = self.x, self.y_down
+        x, y = move(self.x, self.y_down, cos, sin, self.forward, self.lateral)
+        self.x, self.y_down = x, y
         if 0.0 <= x <= FIELD_SIZE and 0.0 <= y <= FIELD_SIZE:
             return None
-        self.x = min(max(x, 0.0), FIELD_SIZE)
-        self.y_down = min(max(y, 0.0), FIELD_SIZE)
+        self.x, self.y_down = clamp(x, y)
         return x, y
 
     def _stop(self) -> None:
@@ -309,9 +296,9 @@ class Turtle:
             self._end_rotation(rotation, RotationState.CANCELED)
             return
         goal = normalize_angle(rotation.goal)
-        heading = _float32(self.theta)
+        heading = float32(self.theta)
         rotation.remaining = normalize_angle(goal - heading)
-        rotation.delta = normalize_angle(_float32(rotation.start - self.theta))
+        rotation.delta = normalize_angle(float32(rotation.start - self.theta))
         if abs(normalize_angle(heading - goal)) < ROTATION_TOLERANCE:
             self._end_rotation(rotation, RotationState.SUCCEEDED)
             return
@@ -365,7 +352,7 @@ class World:
 
     def spawn_centred(self) -> Turtle:
         """Put a turtle with the next free name into the middle, looking to the right."""
-        middle = _float32(FIELD_SIZE / 2.0)
+        middle = float32(FIELD_SIZE / 2.0)
         turtle = self.spawn(middle, middle, 0.0)
         assert turtle is not None
         return turtle

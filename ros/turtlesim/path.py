@@ -1,8 +1,7 @@
-"""The picture that the pens draw, pixel for pixel that of the original: what the colour sensor sees.
+"""The picture that the pens draw: what the colour sensor sees.
 
-A pen line is the rectangle around it, half the pen's width longer at both ends (Qt's square cap),
-its corners rounded down to 1/64 pixel; a pixel is painted when its centre is inside or on the edge.
-Compared with pictures of the real turtlesim this differs in 3 of 5,579 pixels.
+Of 5,579 pixels that the real turtlesim painted (``tests/golden/sim``), 3 differ.
+:mod:`turtlesim.pen_line` says which pixels a line covers.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from turtlesim.model import IMAGE_SIZE, Pen, Stroke
+from turtlesim.pen_line import boundary, corners, crossing, length_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,8 +20,6 @@ __all__ = ["EMPTY_COLOUR", "PathImage"]
 
 #: What the colour sensor reads where no pen has drawn, whatever the background's colour is.
 EMPTY_COLOUR = (255, 255, 255)
-#: Corners lie on a grid of this many steps to the pixel.
-_GRID = 64
 #: How many strokes may wait to be drawn; only a swarm has more in one tick.
 _MAX_PENDING = 64
 #: From this number on, drawing them together pays for loading NumPy.
@@ -90,50 +88,35 @@ class PathImage:
 
     def _draw_now(self, stroke: Stroke) -> None:
         pixel = bytes((stroke.pen.r, stroke.pen.g, stroke.pen.b, 255))
-        for row, first, last in _spans(_corners(stroke)):
+        for row, first, end in _spans(_corners(stroke)):
             start = 4 * (row * IMAGE_SIZE + first)
-            self._rgba[start : start + 4 * (last - first + 1)] = pixel * (last - first + 1)
+            self._rgba[start : start + 4 * (end - first)] = pixel * (end - first)
 
 
 def _corners(stroke: Stroke) -> list[tuple[float, float]]:
-    """The four corners of a pen line, in order around it. A line of no length gives the square dot of its pen."""
     x0, y0, x1, y1, pen = stroke
-    length = math.sqrt(
-        (x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)
-    )  # not hypot, whose last bits differ from NumPy's
+    length = length_of(x0, y0, x1, y1, math.sqrt)
     half = pen.width / 2
-    along_x, along_y = (
-        ((x1 - x0) / length * half, (y1 - y0) / length * half) if length else (half, 0.0)
-    )
-    exact = (
-        (x0 - along_x - along_y, y0 - along_y + along_x),
-        (x0 - along_x + along_y, y0 - along_y - along_x),
-        (x1 + along_x + along_y, y1 + along_y - along_x),
-        (x1 + along_x - along_y, y1 + along_y + along_x),
-    )
-    return [(math.floor(x * _GRID) / _GRID, math.floor(y * _GRID) / _GRID) for x, y in exact]
+    along = ((x1 - x0) / length * half, (y1 - y0) / length * half) if length else (half, 0.0)
+    return corners((x0, y0, x1, y1), along, math.floor)
 
 
-def _spans(corners: list[tuple[float, float]]) -> list[tuple[int, int, int]]:
-    """The pixels of a convex shape as ``(row, first column, last column)``, clipped to the picture."""
+def _spans(shape: list[tuple[float, float]]) -> list[tuple[int, int, int]]:
+    """The pixels of a convex shape as ``(row, first column, end column)``, clipped to the picture."""
     edges = [
         (*a, *b) if a[1] < b[1] else (*b, *a)
-        for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
+        for a, b in zip(shape, [*shape[1:], shape[0]], strict=True)
         if a[1] != b[1]
     ]
-    ys = [y for _, y in corners]
-    top = max(0, math.ceil(min(ys) - 0.5))
-    bottom = min(IMAGE_SIZE - 1, math.floor(max(ys) - 0.5))
+    ys = [y for _, y in shape]
+    top = max(0, boundary(min(ys), math.floor))
+    bottom = min(IMAGE_SIZE, boundary(max(ys), math.floor))
     spans = []
-    for row in range(top, bottom + 1):
+    for row in range(top, bottom):
         y = row + 0.5
-        crossings = [
-            x0 + (y - y0) * (x1 - x0) / (y1 - y0) for x0, y0, x1, y1 in edges if y0 <= y <= y1
-        ]
-        if not crossings:
-            continue
-        first = max(0, math.ceil(min(crossings) - 0.5))
-        last = min(IMAGE_SIZE - 1, math.floor(max(crossings) - 0.5))
-        if first <= last:
-            spans.append((row, first, last))
+        crossings = [crossing(y, *edge) for edge in edges if edge[1] <= y <= edge[3]]
+        first = max(0, boundary(min(crossings), math.floor))
+        end = min(IMAGE_SIZE, boundary(max(crossings), math.floor))
+        if first < end:
+            spans.append((row, first, end))
     return spans

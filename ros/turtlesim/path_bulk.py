@@ -1,4 +1,4 @@
-"""Draws many short lines at once, pixel for pixel as :mod:`turtlesim.path` does one by one. For swarms; with NumPy."""
+"""Draws many short lines together, pixel for pixel as :mod:`turtlesim.path` draws each. For swarms."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlesim.model import IMAGE_SIZE
+from turtlesim.pen_line import boundary, corners, crossing, length_of
+from turtlesim.physics import IMAGE_SIZE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["as_arrays", "draw_short_lines"]
 
-_GRID = 64
 #: Longest extent of a line with its pen [pixels]; every line costs the square of the longest one's.
 MAX_EXTENT = 10
 
@@ -41,15 +41,15 @@ def draw_short_lines(rgba: bytearray, lines: NDArray[np.float64], pens: NDArray[
     if not len(lines):
         return True
     corners_x, corners_y = _corners(lines, pens[:, 3])
-    top = np.ceil(corners_y.min(axis=1) - 0.5)
-    extent = int(max(np.max(corners_y.max(axis=1) - top), np.max(np.ptp(corners_x, axis=1)))) + 1
+    top = boundary(corners_y.min(axis=1), np.floor)
+    extent = int(max(np.max(np.ptp(corners_y, axis=1)), np.max(np.ptp(corners_x, axis=1)))) + 1
     if extent > MAX_EXTENT:
         return False
     rows = top[:, None] + np.arange(extent)
-    first, last = _spans(corners_x, corners_y, rows + 0.5)
+    first, end = _spans(corners_x, corners_y, rows + 0.5)
     columns = first[:, :, None] + np.arange(extent)
     inside = (
-        (columns <= last[:, :, None])
+        (columns < end[:, :, None])
         & (columns >= 0)
         & (columns < IMAGE_SIZE)
         & ((rows >= 0) & (rows < IMAGE_SIZE))[:, :, None]
@@ -69,51 +69,37 @@ def _corners(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Columns and rows of the four corners of each line, shape (n, 4) each."""
     x0, y0, x1, y1 = lines.T
-    length = np.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
+    length = length_of(x0, y0, x1, y1, np.sqrt)
     half = widths / 2
     is_dot = length == 0.0
     length[is_dot] = 1.0
     along_x = np.where(is_dot, half, (x1 - x0) / length * half)
     along_y = np.where(is_dot, 0.0, (y1 - y0) / length * half)
-    xs = (
-        x0 - along_x - along_y,
-        x0 - along_x + along_y,
-        x1 + along_x + along_y,
-        x1 + along_x - along_y,
-    )
-    ys = (
-        y0 - along_y + along_x,
-        y0 - along_y - along_x,
-        y1 + along_y - along_x,
-        y1 + along_y + along_x,
-    )
-    return np.floor(np.stack(xs, axis=1) * _GRID) / _GRID, np.floor(
-        np.stack(ys, axis=1) * _GRID
-    ) / _GRID
+    xs, ys = zip(*corners((x0, y0, x1, y1), (along_x, along_y), np.floor), strict=True)
+    return np.stack(xs, axis=1), np.stack(ys, axis=1)
 
 
 def _spans(
     xs: NDArray[np.float64], ys: NDArray[np.float64], rows: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """First and last column on each row, shape (n, rows); an empty row has its first after its last."""
+    """First and end column of each shape on each row, shape (n, rows); equal on an empty row."""
     lowest = np.full(rows.shape, np.inf)
     highest = np.full(rows.shape, -np.inf)
     for a in range(4):
         b = (a + 1) % 4
         swap = ys[:, a] >= ys[:, b]
-        x0, y0 = (
-            np.where(swap, xs[:, b], xs[:, a])[:, None],
-            np.where(swap, ys[:, b], ys[:, a])[:, None],
+        x0, y0, x1, y1 = (
+            np.where(swap, ends[:, other], ends[:, own])[:, None]
+            for own, other in ((a, b), (b, a))
+            for ends in (xs, ys)
         )
-        x1, y1 = (
-            np.where(swap, xs[:, a], xs[:, b])[:, None],
-            np.where(swap, ys[:, a], ys[:, b])[:, None],
-        )
-        flat = y0 == y1
-        crossing = x0 + (rows - y0) * (x1 - x0) / np.where(flat, 1.0, y1 - y0)
-        met = ~flat & (y0 <= rows) & (rows <= y1)
-        lowest = np.where(met, np.minimum(lowest, crossing), lowest)
-        highest = np.where(met, np.maximum(highest, crossing), highest)
+        is_level = y0 == y1
+        place = crossing(rows, x0, y0, x1, np.where(is_level, y0 + 1.0, y1))
+        met = ~is_level & (y0 <= rows) & (rows <= y1)
+        lowest = np.where(met, np.minimum(lowest, place), lowest)
+        highest = np.where(met, np.maximum(highest, place), highest)
     empty = lowest > highest
-    first = np.ceil(np.where(empty, 1.0, lowest) - 0.5)
-    return first, np.where(empty, first - 1, np.floor(np.where(empty, 0.0, highest) - 0.5))
+    return (
+        boundary(np.where(empty, 0.0, lowest), np.floor),
+        boundary(np.where(empty, 0.0, highest), np.floor),
+    )

@@ -12,6 +12,8 @@ from turtlesim.rotate_action import RotateAction
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rclpy.node import Node
     from turtlesim.model import Turtle, TurtleTick
     from turtlesim.path import PathImage
@@ -22,17 +24,15 @@ __all__ = ["QUEUE_DEPTH", "TurtleEndpoints", "are_finite"]
 QUEUE_DEPTH = 7
 #: Commands must fit into single precision, in which velocities are published.
 _LARGEST = 3.4e38
-#: What every message begins with: little-endian CDR.
-_CDR_HEADER = b"\x00\x01\x00\x00"
 
 
 class TurtleEndpoints:
     """Everything that ROS sees of a turtle; :meth:`destroy` takes it off the graph again.
 
     Attributes:
-        pose_listeners: How many listen to its pose. The middleware tells of changes: a thousand
-            turtles are not asked at each tick.
-        color_listeners: How many listen to its colour sensor.
+        pose_listeners: How many subscriptions its pose has. The middleware reports changes, because
+            asking for each of a thousand turtles at each tick takes too long.
+        color_listeners: How many subscriptions its colour sensor has.
 
     Raises (on construction):
         InvalidTopicNameException: The turtle's name is no part of a topic's name.
@@ -49,6 +49,7 @@ class TurtleEndpoints:
             Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH
         )
         self.pose_listeners = self.color_listeners = 0
+        self._pose_message = Pose()
         self._pose = node.create_publisher(
             Pose,
             f"{name}/pose",
@@ -74,26 +75,25 @@ class TurtleEndpoints:
         self._rotate = RotateAction(node, turtle)
 
     def publish(self, tick: TurtleTick, path: PathImage) -> None:
-        """Send pose, colour and feedback to whoever listens; the tick's last stroke must not be on ``path`` yet."""
+        """Send pose, colour and feedback to those that listen; ``path`` has not got the tick's last stroke yet."""
         if tick.rotation is not None:
             self._rotate.report(tick.rotation)
-        if self.pose_listeners:
-            x, y, theta, linear_velocity, angular_velocity = tick.pose
-            self._pose.publish(
-                Pose(
-                    x=x,
-                    y=y,
-                    theta=theta,
-                    linear_velocity=linear_velocity,
-                    angular_velocity=angular_velocity,
-                )
-            )
+        self.publish_pose(tick.pose)
         if self.color_listeners:
             self.publish_color(*path.colour_at(*tick.sensor_pixel))
 
-    def publish_pose(self, floats: bytes) -> None:
-        """Send a pose; ``floats`` are its five fields, little-endian, in single precision."""
-        self._pose.publish(_CDR_HEADER + floats)
+    def publish_pose(self, pose: Sequence[float]) -> None:
+        """Send a pose, given as the five fields of its message, if a node listens."""
+        if self.pose_listeners:
+            message = self._pose_message
+            (
+                message.x,
+                message.y,
+                message.theta,
+                message.linear_velocity,
+                message.angular_velocity,
+            ) = pose
+            self._pose.publish(message)
 
     def publish_color(self, r: int, g: int, b: int) -> None:
         """Send what the colour sensor sees."""

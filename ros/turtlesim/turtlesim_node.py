@@ -7,11 +7,9 @@ import contextlib
 import itertools
 import math
 import sys
-from collections import deque
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import rclpy
-from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import InvalidTopicNameException
@@ -19,19 +17,15 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
-from turtlesim import page_commands
 from turtlesim.cpp_node import CppNode
 from turtlesim.missing_turtles import MissingTurtles
 from turtlesim.model import FIELD_SIZE, TICK_NS, World
-from turtlesim.page_rotations import PageRotations
+from turtlesim.page_actions import PageActions
 from turtlesim.path import PathImage
 from turtlesim.srv import Kill, Spawn
-from turtlesim.turtle_endpoints import QUEUE_DEPTH, TurtleEndpoints, are_finite
+from turtlesim.turtle_endpoints import TurtleEndpoints, are_finite
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rclpy.publisher import Publisher
     from turtlesim.crowd import Crowd
     from turtlesim.model import Pose, Turtle
     from turtlesim.screen import Screen
@@ -66,9 +60,7 @@ class TurtlesimNode(CppNode):
         self._crowd: Crowd | None = None
         self._path = PathImage()
         self._endpoints_of: dict[str, TurtleEndpoints] = {}
-        self._page_commands: deque[page_commands.Command] = deque()
-        self._page_publishers: dict[str, Publisher] = {}
-        self._page_rotations = PageRotations(self)
+        self._page = PageActions(self, self)
         self._screen: Screen | None = None
         self.create_service(Empty, "clear", self._on_clear)
         self.create_service(Empty, "reset", self._on_reset)
@@ -134,9 +126,7 @@ class TurtlesimNode(CppNode):
         )
 
     def _tick(self, now_ns: int) -> None:
-        for _ in range(len(self._page_commands)):
-            command = self._page_commands.popleft()
-            self._page_actions[type(command)](self, command)
+        self._page.carry_out()
         turtles = self.world.in_order()
         if len(turtles) >= _CROWD and all(turtle.is_plain for turtle in turtles):
             self._step_crowd(now_ns)
@@ -166,11 +156,10 @@ class TurtlesimNode(CppNode):
         tick = self._crowd.step(self.world.in_order(), now_ns)
         for place in tick.clamped_from:
             self._warn_of_wall(*place)
-        poses, drawn = tick.poses.tobytes(), 0
-        for k, turtle in enumerate(tick.turtles):
+        drawn = 0
+        for k, (turtle, pose) in enumerate(zip(tick.turtles, tick.poses.tolist(), strict=True)):
             endpoints = self._endpoints_of[turtle.name]
-            if endpoints.pose_listeners:
-                endpoints.publish_pose(poses[20 * k : 20 * k + 20])
+            endpoints.publish_pose(pose)
             if endpoints.color_listeners:  # it sees what those before it have drawn in this tick
                 before = int(tick.movers.searchsorted(k))
                 self._path.draw_lines(tick.lines[drawn:before], tick.pens[drawn:before])
@@ -206,10 +195,7 @@ class TurtlesimNode(CppNode):
 
     def _remove(self, name: str) -> None:
         self._endpoints_of.pop(name).destroy()
-        self._page_rotations.forget(name)
-        publisher = self._page_publishers.pop(name, None)
-        if publisher is not None:
-            self.destroy_publisher(publisher)
+        self._page.forget(name)
 
     def spawn(self, x: float, y: float, theta: float, name: str) -> str:
         """Add a turtle; its name, or an empty text after an error was logged."""
@@ -229,14 +215,16 @@ class TurtlesimNode(CppNode):
             return ""
         return turtle.name
 
-    def _kill(self, name: str) -> None:
+    def kill(self, name: str) -> None:
+        """Remove a turtle, or log an error if there is none of that name."""
         if self.world.kill(name) is None:
             self.get_logger().error(f"Tried to kill turtle [{name}], which does not exist")
             return
         self._remove(name)
         self._show_scene()
 
-    def _clear(self) -> None:
+    def clear(self) -> None:
+        """Wipe what the pens have drawn."""
         self.get_logger().info("Clearing turtlesim.")
         self._clear_drawing()
 
@@ -245,7 +233,8 @@ class TurtlesimNode(CppNode):
         if self._screen is not None:
             self._screen.clear()
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Begin again with one turtle in the middle."""
         self.get_logger().info("Resetting turtlesim.")
         for name in list(self._endpoints_of):
             self._remove(name)
@@ -256,11 +245,11 @@ class TurtlesimNode(CppNode):
     # Services
 
     def _on_clear(self, _: Any, response: Any) -> Any:
-        self._clear()
+        self.clear()
         return response
 
     def _on_reset(self, _: Any, response: Any) -> Any:
-        self._reset()
+        self.reset()
         return response
 
     def _on_spawn(self, request: Any, response: Any) -> Any:
@@ -268,7 +257,7 @@ class TurtlesimNode(CppNode):
         return response
 
     def _on_kill(self, request: Any, response: Any) -> Any:
-        self._kill(request.name)
+        self.kill(request.name)
         return response
 
     # The page
@@ -280,7 +269,7 @@ class TurtlesimNode(CppNode):
         transforms = TransformView(
             self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds
         )
-        self._screen = Screen(self._scene(), self._page_commands.append, transforms)
+        self._screen = Screen(self._scene(), self._page.add, transforms)
         self.get_logger().info(f"The field is shown at {self._screen.url}")
         open_browser(self._screen.url)
 
@@ -300,46 +289,6 @@ class TurtlesimNode(CppNode):
     def _show_scene(self) -> None:
         if self._screen is not None:
             self._screen.set_scene(self._scene())
-
-    def _drive_from_page(self, command: page_commands.Drive) -> None:
-        """Publish the command, so that it arrives like any other and everybody can listen to it."""
-        name = command.turtle
-        if name not in self.world.turtles:
-            return
-        publisher = self._page_publishers.get(name)
-        if publisher is None:
-            publisher = self._page_publishers[name] = self.create_publisher(
-                Twist, f"{name}/cmd_vel", QUEUE_DEPTH
-            )
-        if not publisher.get_subscription_count():  # it has not found our own subscription yet
-            self._page_commands.append(command)
-            return
-        message = Twist()
-        message.linear.x = command.linear
-        message.angular.z = command.angular
-        publisher.publish(message)
-
-    def _rotate_from_page(self, command: page_commands.Rotate) -> None:
-        if command.turtle in self.world.turtles and not self._page_rotations.rotate(
-            command.turtle, command.theta
-        ):
-            self._page_commands.append(command)
-
-    def _teleport_from_page(self, command: page_commands.Teleport) -> None:
-        turtle = self.world.turtles.get(command.turtle)
-        if turtle is not None:
-            turtle.teleport_absolute(command.x, command.y, command.theta)
-
-    _page_actions: ClassVar[dict[type, Callable[[TurtlesimNode, Any], object]]] = {
-        page_commands.Drive: _drive_from_page,
-        page_commands.Rotate: _rotate_from_page,
-        page_commands.Cancel: lambda self, command: self._page_rotations.cancel(command.turtle),
-        page_commands.Teleport: _teleport_from_page,
-        page_commands.Spawn: lambda self, command: self.spawn(*command),
-        page_commands.Kill: lambda self, command: self._kill(command.turtle),
-        page_commands.Clear: lambda self, _: self._clear(),
-        page_commands.Reset: lambda self, _: self._reset(),
-    }
 
 
 def main(args: list[str] | None = None) -> None:

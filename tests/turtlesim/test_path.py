@@ -13,8 +13,9 @@ from turtlesim.model import DEFAULT_PEN, Pen, Stroke
 from turtlesim.path import EMPTY_COLOUR, PathImage
 from turtlesim.path_bulk import as_arrays, draw_short_lines
 
-positions = st.floats(-4.0, 504.0)
-short = st.floats(-3.0, 3.0) | st.just(0.0)
+halves = st.integers(-8, 1008).map(lambda k: k / 2)  # where edges meet the centres of pixels
+positions = st.floats(-4.0, 504.0) | halves
+short = st.floats(-3.0, 3.0) | st.sampled_from([0.0, 1.0, -2.5])
 pens = st.builds(
     Pen, st.integers(0, 255), st.integers(0, 255), st.integers(0, 255), st.integers(1, 4)
 )
@@ -78,6 +79,30 @@ def test_a_line_of_no_length_is_a_dot_of_the_pen():
     path.draw(Stroke(50.0, 60.0, 50.0, 60.0, Pen(1, 2, 3, 4)))
     painted = [(i % 500, i // 500) for i, alpha in enumerate(path.rgba()[3::4]) if alpha]
     assert (min(painted), max(painted), len(painted)) == ((48, 58), (51, 61), 16)
+
+
+def painted(rgba: bytes) -> tuple[set[int], set[int]]:
+    """Columns and rows with a painted pixel."""
+    pixels = [(i % 500, i // 500) for i, alpha in enumerate(rgba[3::4]) if alpha]
+    return {column for column, _ in pixels}, {row for _, row in pixels}
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_a_pen_of_width_six_draws_six_rows(together):
+    """An even pen on the turtle's first row, 249.5: its edges meet the centres of pixels."""
+    pen = Pen(1, 2, 3, 6)
+    level, upright = (
+        Stroke(249.5, 249.5, 251.5, 249.5, pen),
+        Stroke(249.5, 249.5, 249.5, 252.5, pen),
+    )
+    for stroke, (columns, rows) in (
+        (level, (range(247, 255), range(247, 253))),
+        (upright, (range(247, 253), range(247, 256))),
+    ):
+        path, picture = PathImage(), bytearray(PathImage().rgba())
+        path.draw(stroke)
+        assert draw_short_lines(picture, *as_arrays([stroke]))
+        assert painted(bytes(picture) if together else path.rgba()) == (set(columns), set(rows))
 
 
 def test_what_is_outside_is_cut_off():

@@ -1,0 +1,114 @@
+"""What the simulator does when a page asks for it, always at the start of a tick."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any, Protocol
+
+from geometry_msgs.msg import Twist
+from turtlesim import page_commands
+from turtlesim.page_rotations import PageRotations
+from turtlesim.turtle_endpoints import QUEUE_DEPTH
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+    from rclpy.publisher import Publisher
+    from turtlesim.model import World
+
+__all__ = ["PageActions", "Simulator"]
+
+
+class Simulator(Protocol):
+    """What pages can change."""
+
+    world: World
+
+    def spawn(self, x: float, y: float, theta: float, name: str) -> str:
+        """Add a turtle."""
+        ...
+
+    def kill(self, name: str) -> None:
+        """Remove a turtle."""
+        ...
+
+    def clear(self) -> None:
+        """Wipe the picture."""
+        ...
+
+    def reset(self) -> None:
+        """Begin again."""
+        ...
+
+
+class PageActions:
+    """Keeps the commands of the pages until the next tick, and carries them out.
+
+    Velocity commands and rotations travel as messages and goals, so that other nodes can listen to
+    them. Everything but :meth:`add` is for the executor's thread.
+
+    Args:
+        node: The simulator's node, whose publishers and action clients are used.
+        simulator: What else the pages change.
+    """
+
+    def __init__(self, node: Node, simulator: Simulator) -> None:
+        self._node = node
+        self._simulator = simulator
+        self._commands: deque[page_commands.Command] = deque()
+        self._publishers: dict[str, Publisher] = {}
+        self._rotations = PageRotations(node)
+        self._actions: dict[type, Callable[[Any], object]] = {
+            page_commands.Drive: self._drive,
+            page_commands.Rotate: self._rotate,
+            page_commands.Cancel: lambda command: self._rotations.cancel(command.turtle),
+            page_commands.Teleport: self._teleport,
+            page_commands.Spawn: lambda command: simulator.spawn(*command),
+            page_commands.Kill: lambda command: simulator.kill(command.turtle),
+            page_commands.Clear: lambda _: simulator.clear(),
+            page_commands.Reset: lambda _: simulator.reset(),
+        }
+
+    def add(self, command: page_commands.Command) -> None:
+        """Keep a command for the next tick. Callable from any thread."""
+        self._commands.append(command)
+
+    def carry_out(self) -> None:
+        """Carry out the commands that have come; those that cannot be done yet wait for a later tick."""
+        for _ in range(len(self._commands)):
+            command = self._commands.popleft()
+            self._actions[type(command)](command)
+
+    def forget(self, turtle: str) -> None:
+        """Close what was made for a turtle that is gone."""
+        self._rotations.forget(turtle)
+        publisher = self._publishers.pop(turtle, None)
+        if publisher is not None:
+            self._node.destroy_publisher(publisher)
+
+    def _drive(self, command: page_commands.Drive) -> None:
+        name = command.turtle
+        if name not in self._simulator.world.turtles:
+            return
+        publisher = self._publishers.get(name)
+        if publisher is None:
+            publisher = self._node.create_publisher(Twist, f"{name}/cmd_vel", QUEUE_DEPTH)
+            self._publishers[name] = publisher
+        if not publisher.get_subscription_count():  # the simulator's own is not found yet
+            self._commands.append(command)
+            return
+        message = Twist()
+        message.linear.x = command.linear
+        message.angular.z = command.angular
+        publisher.publish(message)
+
+    def _rotate(self, command: page_commands.Rotate) -> None:
+        name, theta = command
+        if name in self._simulator.world.turtles and not self._rotations.rotate(name, theta):
+            self._commands.append(command)
+
+    def _teleport(self, command: page_commands.Teleport) -> None:
+        turtle = self._simulator.world.turtles.get(command.turtle)
+        if turtle is not None:
+            turtle.teleport_absolute(command.x, command.y, command.theta)
