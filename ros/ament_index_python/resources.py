@@ -13,6 +13,7 @@ __all__ = [
     "get_resource_types",
     "get_resources",
     "has_resource",
+    "name_is_invalid",
 ]
 
 _INDEX = os.path.join("share", "ament_index", "resource_index")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 
-__all__ = ["BaseEventHandler", "EventHandler"]
+__all__ = ["BaseEventHandler", "EventHandler", "entity_list"]
 
 
 class BaseEventHandler:

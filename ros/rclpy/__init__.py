@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .task import Future
 
 __all__ = [
+    "InitContextManager",
     "create_node",
     "get_default_context",
     "get_global_executor",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from .executors import Executor
 
-__all__ = ["BackgroundEvents"]
+__all__ = ["Arrivals", "BackgroundEvents"]
 
 
 class Arrivals(Protocol):

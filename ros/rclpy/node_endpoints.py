@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from .qos_overriding_options import QoSOverridingOptions
     from .waitable import Waitable
 
-__all__ = ["NodeEndpoints", "QosOverrides"]
+__all__ = ["NodeEndpoints", "QosOverrides", "validate_qos"]
 
 _Owned = TypeVar("_Owned")
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .node_endpoints import NodeEndpoints
     from .topic_endpoint_info import TopicEndpointInfo
 
-__all__ = ["NodeGraph"]
+__all__ = ["NamesAndTypes", "NodeGraph"]
 
 NamesAndTypes = list[tuple[str, list[str]]]
 

@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "InvalidQosOverridesError",
-    "QoSCallbackResult",  # noqa: F822 - see __getattr__
+    "QoSCallbackResult",
     "QoSOverridingOptions",
     "declare_qos_parameters",
+    "overridden_profile",
 ]
 
 

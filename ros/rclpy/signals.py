@@ -25,9 +25,12 @@ if TYPE_CHECKING:
     from types import FrameType
 
 __all__ = [
+    "REPEATED_INTERRUPT_S",
     "SignalHandlerOptions",
+    "SignalListener",
     "get_current_signal_handlers_options",
     "install_signal_handlers",
+    "listeners",
     "uninstall_signal_handlers",
 ]
 

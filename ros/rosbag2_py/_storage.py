@@ -32,8 +32,13 @@ __all__ = [
     "TopicInformation",
     "TopicMetadata",
     "convert_rclcpp_qos_to_rclpy_qos",
+    "folder_size",
+    "from_engine",
     "get_default_storage_id",
+    "profile_of",
+    "to_engine",
     "to_rclcpp_qos_vector",
+    "topic_of",
 ]
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from std_msgs.msg import Header
 
 __all__ = [
+    "DUMMY_FIELD_PREFIX",
     "create_cloud",
     "create_cloud_xyz32",
     "dtype_from_fields",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, TypeAlias
 
-__all__ = ["Motion", "Numbers3", "Numbers4"]
+__all__ = ["NO_LENGTH", "Motion", "Numbers3", "Numbers4", "unit_quaternion"]
 
 Numbers3: TypeAlias = "tuple[float, float, float]"
 Numbers4: TypeAlias = "tuple[float, float, float, float]"

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     import turtlewire
     from geometry_msgs.msg import TransformStamped
 
-__all__ = ["MessageLookup", "message_lookup"]
+__all__ = ["MessageLookup", "message_lookup", "to_message"]
 
 
 class MessageLookup(Protocol):

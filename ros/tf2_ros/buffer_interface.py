@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
 
 __all__ = [
+    "NO_TIMEOUT",
     "BufferInterface",
     "ConvertRegistration",
     "NotImplementedException",

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from turtlewire.tf.frame_tree import Link
     from turtlewire.wire.base import MessageInfo
 
-__all__ = ["Statistics", "main"]
+__all__ = ["NOBODY", "Delays", "Statistics", "chain", "main"]
 
 #: ROS 2's name for a publisher that nobody claims.
 NOBODY = "<no authority available>"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
     from rclpy.node import Node
 
-__all__ = ["TransformBroadcaster"]
+__all__ = ["TransformBroadcaster", "as_list"]
 
 
 class TransformBroadcaster:

@@ -27,7 +27,7 @@ from turtlewire.tf.tree_drawing import draw_tree
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["ViewFrames", "main"]
+__all__ = ["INTERRUPTED", "WAIT_TIME_S", "ViewFrames", "main"]
 
 WAIT_TIME_S = 5.0
 INTERRUPTED = 130

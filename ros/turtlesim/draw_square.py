@@ -17,7 +17,19 @@ from turtlesim.msg import Pose
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["DrawSquare", "SquarePlan", "main"]
+__all__ = [
+    "FORWARD_SPEED",
+    "HEADING_TOLERANCE",
+    "PERIOD_S",
+    "POSITION_TOLERANCE",
+    "SIDE",
+    "STOPPED",
+    "TURNING_SPEED",
+    "DrawSquare",
+    "Goal",
+    "SquarePlan",
+    "main",
+]
 
 SIDE = 2.0
 FORWARD_SPEED = 1.0

@@ -33,11 +33,15 @@ from turtlesim.physics import (
 )
 
 __all__ = [
+    "COMMAND_LIFETIME_NS",
     "DEFAULT_PEN",
     "FIELD_SIZE",
     "IMAGE_SIZE",
     "PIXELS_PER_METRE",
+    "ROTATION_SPEED",
+    "ROTATION_TOLERANCE",
     "TICK_NS",
+    "TICK_S",
     "Pen",
     "Pose",
     "Rotation",
@@ -46,6 +50,7 @@ __all__ = [
     "Turtle",
     "TurtleTick",
     "World",
+    "normalize_angle",
 ]
 
 #: A rotation has arrived when the heading is this close to its goal [rad]; it turns at this speed

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from turtlesim.page_commands import Command
     from turtlesim.transform_view import TransformView
 
-__all__ = ["Scene", "Screen", "desktop_is_there", "open_browser", "wanted_port"]
+__all__ = ["DEFAULT_PORT", "Scene", "Screen", "desktop_is_there", "open_browser", "wanted_port"]
 
 _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"

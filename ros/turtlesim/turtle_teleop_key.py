@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from rclpy.task import Future
 
-__all__ = ["TeleopTurtle", "main"]
+__all__ = ["BANNER", "NO_TERMINAL", "NO_TERMINAL_HINT", "TeleopTurtle", "main"]
 
 BANNER = """\
 Reading from keyboard

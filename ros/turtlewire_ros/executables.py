@@ -13,7 +13,7 @@ import sys
 
 from turtlewire_ros.prefix import package_prefix
 
-__all__ = ["argv_for", "executable_paths", "libexec_directory"]
+__all__ = ["argv_for", "executable_paths", "is_python_script", "libexec_directory"]
 
 
 def libexec_directory(prefix: str, package: str) -> str:

@@ -21,6 +21,7 @@ __all__ = [
     "AnySubstitution",
     "NotSubstitution",
     "OrSubstitution",
+    "as_bool",
 ]
 
 

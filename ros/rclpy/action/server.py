@@ -26,7 +26,16 @@ if TYPE_CHECKING:
     from rclpy.task import Future
     from turtlewire.wire.base import RequestId
 
-__all__ = ["ActionServer", "CancelResponse", "GoalEvent", "GoalResponse", "ServerGoalHandle"]
+__all__ = [
+    "ActionServer",
+    "CancelResponse",
+    "GoalEvent",
+    "GoalResponse",
+    "ServerGoalHandle",
+    "default_cancel_callback",
+    "default_goal_callback",
+    "default_handle_accepted_callback",
+]
 
 _DEFAULT_RESULT_TIMEOUT_S = 900
 _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)

@@ -21,7 +21,18 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["Action", "Message", "Service", "get_action", "get_message", "get_service", "type_name"]
+__all__ = [
+    "Action",
+    "Message",
+    "Service",
+    "checks_are_on",
+    "get_action",
+    "get_interface_class",
+    "get_message",
+    "get_service",
+    "module_name",
+    "type_name",
+]
 
 _messages: dict[str, type[Message]] = {}
 _services: dict[str, type[Service]] = {}

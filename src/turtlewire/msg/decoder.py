@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["make_decoder"]
+__all__ = ["make_decoder", "numbers"]
 
 
 def make_decoder(cls: type[Message], order: str) -> Callable[[bytes], Message]:

@@ -34,7 +34,17 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["make_encoder"]
+__all__ = [
+    "CODES",
+    "HEADER",
+    "LARGE",
+    "SIZES",
+    "array_bytes",
+    "as_bool",
+    "byte_string",
+    "make_encoder",
+    "swapped",
+]
 
 LARGE = 1024
 """Sequences of more numbers than this are copied once, into the result; ``done`` collects what is to be joined there."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["converter", "element_code", "scalar_default", "to_array", "to_numpy"]
+__all__ = ["converter", "element_code", "numpy_name", "scalar_default", "to_array", "to_numpy"]
 
 _LETTERS = (
     "bhilq",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from turtlewire.trajectory.trajectory import Trajectory
 
-__all__ = ["RELATIONS", "Errors", "Statistics", "ape", "rpe"]
+__all__ = ["RELATIONS", "Errors", "Statistics", "ape", "pairs", "rpe"]
 
 #: What is measured, and its unit.
 RELATIONS = {

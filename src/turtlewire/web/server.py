@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
-__all__ = ["Server", "Session"]
+__all__ = ["LIVE_PATH", "Server", "Session"]
 
 #: Where pages open their WebSocket.
 LIVE_PATH = "/live"

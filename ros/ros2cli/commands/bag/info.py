@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["add_arguments", "bag_path", "main"]
 
 
 def bag_path(text: str) -> str:

@@ -279,4 +279,4 @@ def _name_fault(parent: str, child: str) -> str:
     return ""
 
 
-__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "Failure", "Tree"]
+__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "VERDICT_NAMES", "Failure", "Reader", "Refusals", "Tree"]
