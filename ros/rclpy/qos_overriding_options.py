@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "InvalidQosOverridesError",
-    "QoSCallbackResult",
     "QoSOverridingOptions",
     "declare_qos_parameters",
     "overridden_profile",

@@ -41,7 +41,6 @@ __all__ = [
     "ROTATION_SPEED",
     "ROTATION_TOLERANCE",
     "TICK_NS",
-    "TICK_S",
     "Pen",
     "Pose",
     "Rotation",
