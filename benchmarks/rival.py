@@ -13,16 +13,19 @@ ADAPTERS = Path(__file__).parent / "rivals"
 
 
 def run_adapter(interpreter: str, adapter: str, *, needs: str = "") -> dict[str, Figure]:
-    """The figures by case; none, and a line on stderr, if the interpreter lacks the module that the rival ``needs``."""
-    if (
-        needs
-        and subprocess.run(
-            [interpreter, "-c", f"import {needs}"], capture_output=True, check=False
-        ).returncode
-        != 0
-    ):
-        print(f"{adapter}: {interpreter} has no module {needs}, left out", file=sys.stderr)
-        return {}
+    """The figures by case.
+
+    None, and one line on stderr, if the interpreter cannot import the modules (separated by commas)
+    that the rival ``needs``.
+    """
+    if needs:
+        attempt = subprocess.run(
+            [interpreter, "-c", f"import {needs}"], capture_output=True, text=True, check=False
+        )
+        if attempt.returncode != 0:
+            reason = attempt.stderr.strip().splitlines()[-1]
+            print(f"{adapter} is left out: {interpreter}: {reason}", file=sys.stderr)
+            return {}
     run = subprocess.run(
         [interpreter, str(ADAPTERS / f"{adapter}.py")],
         stdout=subprocess.PIPE,

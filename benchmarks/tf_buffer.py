@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 DEBIAN = "Debian tf2_py"
+DEBIAN_MODULES = "rospy, tf2_py, geometry_msgs.msg, tf2_msgs.msg"
 TITLE = "TF buffer (chain of 3 moving links at 1 kHz, 10 s; ingest per transform)"
 
 # what, our case, Debian's case, NumPy's case, budget of DESIGN §4
@@ -55,7 +56,7 @@ CASES = [
 def rows() -> Iterator[Row]:
     """Measure, rival after rival, each in its own process."""
     ours = run_adapter(sys.executable, "turtlewire_buffer")
-    debian = run_adapter("/usr/bin/python3", "debian_tf2_py", needs="tf2_py")
+    debian = run_adapter("/usr/bin/python3", "debian_tf2_py", needs=DEBIAN_MODULES)
     numpy = run_adapter(sys.executable, "numpy_chain")
     others = os.environ.get("BENCHMARK_PYTHON", sys.executable)
     numba = run_adapter(others, "numba_chain", needs="numba")

@@ -238,9 +238,7 @@ nb::list frame_strings(BufferObject& self) {
   {
     const std::scoped_lock lock(self.shared.mutex);
     const Names& frames = self.shared.buffer.frames();
-    for (FrameId id = 1; id < frames.size(); ++id) {
-      if (!self.shared.buffer.is_forgotten(id)) names.emplace_back(frames[id]);
-    }
+    for (const FrameId id : self.shared.buffer.known_frames()) names.emplace_back(frames[id]);
   }
   nb::list list;
   for (const std::string& name : names) list.append(name);
@@ -428,7 +426,7 @@ void add_buffer_type(nb::module_& module) {
           [](BufferObject& self, std::string_view frame) {
             const std::scoped_lock lock(self.shared.mutex);
             const auto known = self.shared.buffer.frames().find(frame);
-            return known.has_value() && !self.shared.buffer.is_forgotten(*known);
+            return known.has_value() && self.shared.buffer.is_known(*known);
           },
           "frame"_a, "Whether the frame was ever heard of.")
       .def(

@@ -92,7 +92,8 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
 bool remove_frame(BufferObject& self, std::string_view child) {
   const std::scoped_lock lock(self.shared.mutex);
   FrameId id = 0;
-  return self.shared.buffer.resolve(child, id) == Status::ok && self.shared.buffer.remove(id);
+  return self.shared.buffer.resolve(child, id) == Status::ok &&
+         !self.shared.buffer.remove({&id, 1}).empty();
 }
 
 nb::list remove_stale(BufferObject& self, Stamp before) {
@@ -100,12 +101,12 @@ nb::list remove_stale(BufferObject& self, Stamp before) {
   {
     const std::scoped_lock lock(self.shared.mutex);
     Buffer& buffer = self.shared.buffer;
-    for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+    std::vector<FrameId> stale;
+    for (const FrameId frame : buffer.known_frames()) {
       const Link& link = buffer.link(frame);
-      if (link.kind() == LinkKind::dynamic_link && link.newest() < before && buffer.remove(frame)) {
-        removed.emplace_back(buffer.frames()[frame]);
-      }
+      if (link.kind() == LinkKind::dynamic_link && link.newest() < before) stale.push_back(frame);
     }
+    removed = buffer.remove(stale);
   }
   nb::list names;
   for (const std::string& name : removed) names.append(text(name));
@@ -124,15 +125,16 @@ struct LinkDescription {
   std::vector<std::tuple<std::string, std::string, std::uint64_t, Stamp>> senders;
 };
 
-nb::list describe_links(BufferObject& self) {
+nb::list describe_links(BufferObject& self, std::size_t most) {
   std::vector<LinkDescription> links;
   {
     const std::scoped_lock lock(self.shared.mutex);
     const Buffer& buffer = self.shared.buffer;
     const auto name = [&](FrameId id) { return std::string(buffer.frames()[id]); };
-    for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
+    for (const FrameId frame : buffer.known_frames()) {
       const Link& link = buffer.link(frame);
       if (link.kind() == LinkKind::none) continue;
+      if (links.size() == most) break;
       links.push_back({name(frame),
                        name(link.parent()),
                        link.is_static(),
@@ -334,7 +336,7 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
            "    authority: Who says so.\n\n"
            "Returns:\n"
            "    How many were accepted.")
-      .def("_describe_links", &describe_links)
+      .def("_describe_links", &describe_links, "most"_a)
       .def("_describe_refusals", &describe_refusals)
       .def("_describe_malformed", &describe_malformed)
       .def("_rename_sender", &rename_sender, "name"_a, "shown"_a,

@@ -25,7 +25,7 @@ BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::str
 
 // Null if a name is unknown.
 const Path* BatchLookup::path() {
-  if (source_id_ == 0) {
+  if (source_id_ == 0 || epoch_ != shared_.buffer.path_epoch()) {
     unresolved_ = shared_.buffer.resolve(target_, target_id_);
     if (unresolved_ == Status::ok) unresolved_ = shared_.buffer.resolve(source_, source_id_);
     if (unresolved_ != Status::ok) {
@@ -34,6 +34,7 @@ const Path* BatchLookup::path() {
     }
   }
   const Path& path = shared_.buffer.path(target_id_, source_id_);
+  epoch_ = shared_.buffer.path_epoch();
   if (path.version != version_) {
     up_hints_.assign(path.up.size(), 0);
     down_hints_.assign(path.down.size(), 0);
@@ -228,8 +229,7 @@ Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
   Forest forest(buffer, t);
   Pose root_from_target, root_from_frame;
   const bool at_once = t != 0 && forest.root_from(target_id, target_root, root_from_target);
-  for (FrameId frame = 1; frame < buffer.frames().size(); ++frame) {
-    if (buffer.is_forgotten(frame)) continue;
+  for (const FrameId frame : buffer.known_frames()) {
     Pose pose;
     Stamp stamp = t;
     if (frame == target_id) {

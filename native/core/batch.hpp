@@ -42,7 +42,7 @@ class BatchLookup {
   std::string target_, source_;
   FrameId target_id_ = 0, source_id_ = 0;
   Status unresolved_ = Status::ok;
-  std::uint64_t version_ = 0;
+  std::uint64_t epoch_ = 0, version_ = 0;
   Hints up_hints_, down_hints_;
 };
 

@@ -1,6 +1,7 @@
 #include "buffer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace turtlewire {
 namespace {
@@ -26,17 +27,18 @@ std::string_view without_slash(std::string_view name) {
 // ---------------------------------------------------------------- in
 
 Buffer::Buffer(Stamp keep) : keep_(keep) {
-  links_.push_back(std::make_unique<Link>());
+  links_.push_back(std::make_unique<Link>(arena_));
   last_link_ = links_.front().get();
 }
 
 FrameId Buffer::frame(std::string_view name) {
   const FrameId id = frames_.intern(name);
   if (links_.size() < frames_.size()) {
-    links_.push_back(std::make_unique<Link>());
-    forgotten_.push_back(false);
+    links_.push_back(std::make_unique<Link>(arena_));
+    is_known_.push_back(false);
   }
-  forgotten_[id] = false;
+  if (!is_known_[id]) known_frames_.push_back(id);
+  is_known_[id] = true;
   return id;
 }
 
@@ -89,20 +91,41 @@ Verdict Buffer::refuse(Verdict verdict, std::string_view parent, std::string_vie
   return verdict;
 }
 
-bool Buffer::remove(FrameId child) {
-  if (links_[child]->kind() == LinkKind::none) return false;
-  const FrameId parent = links_[child]->parent();
-  const FrameId follower = links_[child]->follower;
-  *links_[child] = Link();
-  links_[child]->follower = follower;
-  for (const FrameId frame : {child, parent}) {
-    const bool is_parent = std::any_of(links_.begin(), links_.end(),
-                                       [&](const auto& link) { return link->mentions(frame); });
-    if (frame != 0 && links_[frame]->kind() == LinkKind::none && !is_parent)
-      forgotten_[frame] = true;
+std::vector<std::string> Buffer::remove(std::span<const FrameId> children) {
+  std::vector<std::string> names;
+  std::vector<FrameId> concerned;
+  for (const FrameId child : children) {
+    Link& link = *links_[child];
+    if (link.kind() == LinkKind::none) continue;
+    names.push_back(name(child));
+    concerned.push_back(child);
+    link.for_parents([&](FrameId parent) {
+      if (concerned.back() != parent) concerned.push_back(parent);
+    });
+    link.reset();
   }
+  if (!names.empty()) forget(std::move(concerned));
+  return names;
+}
+
+// Forgets those of the frames that are neither child nor parent of a link. The name of a forgotten
+// frame is freed unless it is still shown as the parent that a sender gave.
+void Buffer::forget(std::vector<FrameId> frames) {
+  std::vector<bool> is_parent(links_.size()), is_shown(links_.size());
+  for (const auto& link : links_) {
+    link->for_parents([&](FrameId parent) { is_parent[parent] = true; });
+    for (const Sender& sender : link->senders()) is_shown[sender.parent] = true;
+  }
+  for (const FrameId frame : frames) {
+    if (links_[frame]->kind() == LinkKind::none && !is_parent[frame] && frame != 0)
+      is_known_[frame] = false;
+  }
+  std::erase_if(known_frames_, [&](FrameId frame) { return !is_known_[frame]; });
+  for (FrameId frame = 1; frame < links_.size(); ++frame) {
+    if (!is_known_[frame] && !is_shown[frame] && !frames_[frame].empty()) frames_.free(frame);
+  }
+  drop_paths();
   ++version_;
-  return true;
 }
 
 void Buffer::clear() {
@@ -116,7 +139,7 @@ Status Buffer::resolve(std::string_view name, FrameId& id) const {
   if (name.empty()) return Status::empty_name;
   if (name.front() == '/') return Status::slash_name;
   const auto known = frames_.find(name);
-  if (!known || *known == 0 || forgotten_[*known]) return Status::unknown_frame;
+  if (!known || *known == 0 || !is_known_[*known]) return Status::unknown_frame;
   id = *known;
   return Status::ok;
 }
@@ -130,11 +153,13 @@ FrameId Buffer::root(FrameId frame) const {
 
 // ---------------------------------------------------------------- paths
 
+void Buffer::drop_paths() {
+  paths_.clear();
+  ++path_epoch_;
+}
+
 const Path& Buffer::path(FrameId target, FrameId source) {
-  if (paths_.size() >= kMostPaths) {
-    paths_.clear();
-    ++path_epoch_;
-  }
+  if (paths_.size() >= kMostPaths) drop_paths();
   auto& known = paths_[static_cast<std::uint64_t>(target) << 32 | source];
   if (!known) {
     known = std::make_unique<Path>();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -43,9 +44,10 @@ class Buffer {
               SourceId source, bool is_static);
   // Forgets all samples; frames, static transforms and senders stay, as in tf2.
   void clear();
-  // Forgets one link, its history and its static pose; and the names that then stand for nothing.
-  // False if there is none.
-  bool remove(FrameId child);
+  // Forgets the links of these frames with their history and static poses, and the names that then
+  // stand for nothing. Takes time in proportion to the number of all frames. Returns the names of
+  // the frames that had a link.
+  std::vector<std::string> remove(std::span<const FrameId> children);
   SourceId sender(std::string_view name) { return senders_.intern(name); }
   std::string_view sender_name(SourceId id) const { return senders_[id]; }
   // For a sender whose name becomes known only after its first data.
@@ -60,8 +62,9 @@ class Buffer {
 
   // -- names
   const Names& frames() const { return frames_; }
-  // Whether the frame was removed: its number is not given again, but it counts as never heard of.
-  bool is_forgotten(FrameId frame) const { return forgotten_[frame]; }
+  // All frames that were ever heard of and not removed, in order of arrival.
+  const std::vector<FrameId>& known_frames() const { return known_frames_; }
+  bool is_known(FrameId frame) const { return is_known_[frame]; }
   // ok, empty_name, slash_name or unknown_frame
   Status resolve(std::string_view name, FrameId& id) const;
 
@@ -70,7 +73,8 @@ class Buffer {
   // change of the tree.
   const Path& path(FrameId target, FrameId source);
   bool is_current(const Path& path) const { return path.version == version_; }
-  // Counts the times that all paths were thrown away: pointers to paths of another epoch dangle.
+  // Counts the times that all paths were thrown away, and names freed: pointers to paths and
+  // numbers of frames of another epoch mean nothing.
   std::uint64_t path_epoch() const { return path_epoch_; }
 
   // target_from_source at `t`. t = 0 asks for the latest common time, and is replaced by it.
@@ -98,6 +102,8 @@ class Buffer {
 
   FrameId frame(std::string_view name);
   FrameId predicted(FrameId id, std::string_view name) const;
+  void forget(std::vector<FrameId> frames);
+  void drop_paths();
   FrameId root(FrameId frame) const;
   void build(Path& path) const;
   bool ancestors(FrameId frame, std::vector<FrameId>& line) const;
@@ -118,9 +124,11 @@ class Buffer {
   Stamp keep_;
   Names frames_{kNoParent};
   Names senders_{"no recorded authority"};
+  Arena arena_;                               // of the links' samples
   std::vector<std::unique_ptr<Link>> links_;  // by child frame; paths point to them
   Link* last_link_;                           // of the sample before this one
-  std::vector<bool> forgotten_{false};        // by frame
+  std::vector<bool> is_known_{true};          // by frame; NO_PARENT counts as known
+  std::vector<FrameId> known_frames_;
   Refusals refusals_;
   std::uint64_t version_ = 1;
   std::unordered_map<std::uint64_t, std::unique_ptr<Path>> paths_;

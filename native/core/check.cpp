@@ -31,15 +31,18 @@ std::string Link::fault() const {
 }
 
 std::string Buffer::fault() const {
-  if (links_.size() != frames_.size() || forgotten_.size() != frames_.size())
+  if (links_.size() != frames_.size() || is_known_.size() != frames_.size())
     return "frames without a link";
+  for (const FrameId frame : known_frames_) {
+    if (!is_known_[frame] || frames_[frame].empty()) return "a frame is listed, but not known";
+  }
   if (links_[0]->kind() != LinkKind::none) return "NO_PARENT has a parent";
   for (FrameId frame = 0; frame < links_.size(); ++frame) {
     const Link& link = *links_[frame];
     if (const std::string fault = link.fault(); !fault.empty()) return name(frame) + ": " + fault;
     if (link.parent() >= links_.size() || link.follower >= links_.size())
       return name(frame) + ": points nowhere";
-    if (link.has_data() && (forgotten_[frame] || forgotten_[link.parent()]))
+    if (link.has_data() && (!is_known_[frame] || !is_known_[link.parent()]))
       return name(frame) + ": forgotten, but in use";
   }
   for (const auto& [key, known] : paths_) {

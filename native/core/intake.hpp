@@ -20,7 +20,7 @@ namespace turtlewire {
 // Somebody else, the caretaker, takes what needs him: messages of publishers without a name, and
 // malformed ones. The order of all messages is kept: until he has come back for more in vain, the
 // next ones are kept back as well.
-class Intake {
+class Intake final : public ForkAware {
  public:
   struct Kept {
     std::uint64_t publisher;
@@ -47,6 +47,9 @@ class Intake {
   std::deque<Kept> take();
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
+
+  void before_fork() override { mutex_.lock(); }
+  void after_fork(bool) noexcept override { mutex_.unlock(); }
 
   // How many messages were stored so far.
   std::uint64_t stored();
@@ -78,6 +81,7 @@ class Intake {
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected
   bool expected_came_ = false;
+  const ForkRegistration registration_{*this, Order::outer};
 };
 
 }  // namespace turtlewire

@@ -38,6 +38,8 @@ struct Reading {
 
 class Link {
  public:
+  explicit Link(Arena& arena) : samples_(arena) {}
+
   static constexpr std::size_t kMostSenders =
       16;  // beyond it the one that has been silent longest is forgotten
 
@@ -71,13 +73,12 @@ class Link {
   // What is wrong with the link's own state; empty if nothing is.
   std::string fault() const;
 
-  // Whether the frame is a parent in the data.
-  bool mentions(FrameId frame) const {
-    if (!has_data()) return false;
-    bool found = parent_ == frame;
+  // Calls `visit` with each parent in the data; once at least.
+  template <typename Visit>
+  void for_parents(Visit visit) const {
+    if (has_data()) visit(parent_);
     for (std::size_t i = 0; parent_changes_ > 0 && i < samples_.size(); ++i)
-      found |= samples_[i].parent == frame;
-    return found;
+      visit(samples_[i].parent);
   }
 
   // All that a path between two frames depends on, but for the samples themselves; equal shapes,
@@ -108,17 +109,17 @@ class Link {
   // than that, and put a sample of a known stamp behind those that came before it.
   InsertStatus insert(Stamp stamp, const Sample& sample, Stamp keep) {
     if (samples_.empty()) {
-      append(stamp, sample, keep);
+      append(stamp, sample);
       return InsertStatus::added;
     }
     const Stamp limit = earlier(samples_.newest(), keep);
     prune(limit);
     if (stamp > samples_.newest()) [[likely]] {
-      append(stamp, sample, keep);
+      append(stamp, sample);
       return InsertStatus::added;
     }
     if (stamp < limit) return InsertStatus::too_old;
-    return insert_late(stamp, sample, keep);
+    return insert_late(stamp, sample);
   }
 
   // Counts an accepted sample for its sender.
@@ -137,6 +138,16 @@ class Link {
   }
   // How often the parent changes in the history kept.
   std::size_t parent_changes() const { return parent_changes_; }
+
+  // Forgets everything but the follower.
+  void reset() {
+    clear_samples();
+    kind_ = LinkKind::none;
+    has_infinity_ = false;
+    static_pose_ = {};
+    sender_ = {};
+    former_senders_ = {};
+  }
 
   // The history goes; a static pose stays.
   void clear() {
@@ -217,13 +228,13 @@ class Link {
     return static_cast<double>(t - older) / static_cast<double>(samples_.stamp(i + 1) - older);
   }
 
-  void append(Stamp stamp, const Sample& sample, Stamp keep) {
+  void append(Stamp stamp, const Sample& sample) {
     if (!samples_.empty() && samples_.back().parent != sample.parent) ++parent_changes_;
-    samples_.push_back(stamp, sample, keep);
+    samples_.push_back(stamp, sample);
     note(sample);
   }
 
-  InsertStatus insert_late(Stamp stamp, const Sample& sample, Stamp keep) {
+  InsertStatus insert_late(Stamp stamp, const Sample& sample) {
     std::size_t end = samples_.size();
     if (stamp < samples_.newest())
       end = stamp < samples_.oldest() ? 0 : samples_.last_at_or_before(stamp) + 1;
@@ -236,7 +247,7 @@ class Link {
     if (end - begin >= kMostPerStamp) {
       replace_last_of_flood(end - 1, stamp, sample);
     } else {
-      samples_.insert(end, stamp, sample, keep);
+      samples_.insert(end, stamp, sample);
     }
     if (parent_changes_ > 0 || sample.parent != parent_) count_parent_changes();
     note(sample);

@@ -11,13 +11,15 @@
 
 namespace turtlewire {
 
-// Numbers are given in order of arrival, never reused. The strings stay where they are.
+// Numbers are given in order of arrival; those of freed names are given again.
 class Names {
  public:
   explicit Names(std::string_view zeroth) { intern(zeroth); }
 
+  // All numbers that were ever given are below it.
+
   std::uint32_t size() const { return static_cast<std::uint32_t>(names_.size()); }
-  std::string_view operator[](std::uint32_t id) const { return names_[id]; }
+  std::string_view operator[](std::uint32_t id) const { return shown_[id]; }
 
   std::optional<std::uint32_t> find(std::string_view name) const {
     const auto it = ids_.find(name);
@@ -27,19 +29,35 @@ class Names {
 
   std::uint32_t intern(std::string_view name) {
     if (const auto known = find(name)) return *known;
-    names_.push_back(texts_.emplace_back(name));
-    return ids_.emplace(names_.back(), size() - 1).first->second;
+    std::uint32_t id = size();
+    if (free_.empty()) {
+      shown_.push_back(names_.emplace_back(name));
+    } else {
+      id = free_.back();
+      free_.pop_back();
+      shown_[id] = names_[id] = name;
+    }
+    return ids_.emplace(names_[id], id).first->second;
   }
 
   // What is called `name`, now or later, is shown as `shown` from now on.
   void rename(std::string_view name, std::string_view shown) {
-    names_[intern(name)] = texts_.emplace_back(shown);
+    shown_[intern(name)] = renamed_.emplace_back(shown);
+  }
+
+  // Forgets a name; its number stands for the empty text until it is given again.
+  void free(std::uint32_t id) {
+    free_.push_back(id);
+    ids_.erase(names_[id]);
+    names_[id] = {};
+    shown_[id] = {};
   }
 
  private:
-  std::deque<std::string> texts_;  // a deque, because the two below point into it
-  std::vector<std::string_view> names_;
+  std::deque<std::string> names_, renamed_;  // deques, because the two below point into them
+  std::vector<std::string_view> shown_;
   std::unordered_map<std::string_view, std::uint32_t> ids_;
+  std::vector<std::uint32_t> free_;
 };
 
 // Whether the text can be a frame id: UTF-8, no NUL, not above 4096 bytes.

@@ -29,7 +29,7 @@ std::string Buffer::sender_of(FrameId child) const {
 
 std::string Buffer::frames_as_string() const {
   std::string text;
-  for (FrameId id = 1; id < links_.size(); ++id) {
+  for (const FrameId id : known_frames_) {
     const Link& link = *links_[id];
     if (link.kind() == LinkKind::none) continue;
     text += "Frame " + name(id) + " exists with parent " + name(link.parent()) + ".\n";
@@ -38,9 +38,9 @@ std::string Buffer::frames_as_string() const {
 }
 
 std::string Buffer::frames_as_yaml(double now) const {
-  if (links_.size() == 1) return "[]";
+  if (known_frames_.empty()) return "[]";
   std::string text;
-  for (FrameId id = 1; id < links_.size(); ++id) {
+  for (const FrameId id : known_frames_) {
     const Link& link = *links_[id];
     if (!link.has_data()) continue;
     text += name(id) + ": \n";
@@ -72,11 +72,11 @@ std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const 
 
 std::string Buffer::frames_as_dot(double now) const {
   std::string text = "digraph G {\n";
-  if (links_.size() == 1) text += "\"no tf data recieved\"";
-  for (FrameId id = 1; id < links_.size(); ++id) {
+  if (known_frames_.empty()) text += "\"no tf data recieved\"";
+  for (const FrameId id : known_frames_) {
     if (links_[id]->kind() != LinkKind::none) text += dot_edge(id, *links_[id], now);
   }
-  for (FrameId id = 1; id < links_.size(); ++id) {
+  for (const FrameId id : known_frames_) {
     if (links_[id]->has_data()) continue;
     text +=
         "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label "

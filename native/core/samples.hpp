@@ -1,16 +1,14 @@
-// The history of one link: samples in order of time, in one ring of exact capacity, stamps apart
-// from poses.
+// The history of one link: samples in order of time, stamps apart from poses.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
-#include <new>
 #include <utility>
+#include <vector>
 
+#include "arena.hpp"
 #include "pose.hpp"
 
 namespace turtlewire {
@@ -42,67 +40,63 @@ struct alignas(64) Sample {
 };
 static_assert(sizeof(Sample) == 64);
 
-// Samples sorted by stamp; those of one stamp are in order of arrival. Index 0 is the oldest.
+// Samples sorted by stamp; those of one stamp are in order of arrival. Index 0 is the oldest. They
+// lie in blocks of an arena, so that a history grows without being copied.
 class Samples {
  public:
-  Samples() = default;
+  explicit Samples(Arena& arena) : arena_(&arena) {}
   Samples(const Samples&) = delete;
   Samples& operator=(const Samples&) = delete;
-  Samples& operator=(Samples&& other) noexcept {
-    std::swap(stamps_, other.stamps_);
-    std::swap(samples_, other.samples_);
-    std::swap(capacity_, other.capacity_);
-    std::swap(head_, other.head_);
-    std::swap(size_, other.size_);
-    std::swap(per_ns_, other.per_ns_);
-    return *this;
-  }
-  ~Samples() { release(); }
+  ~Samples() { clear(); }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  std::size_t capacity() const { return capacity_; }
-  std::size_t bytes() const { return capacity_ * (sizeof(Stamp) + sizeof(Sample)); }
-
-  Stamp stamp(std::size_t i) const { return stamps_[slot(i)]; }
-  const Sample& operator[](std::size_t i) const { return samples_[slot(i)]; }
-  Sample& operator[](std::size_t i) { return samples_[slot(i)]; }
-  Stamp oldest() const { return stamps_[head_]; }
-  Stamp newest() const { return stamps_[slot(size_ - 1)]; }
-  const Sample& front() const { return samples_[head_]; }
-  const Sample& back() const { return samples_[slot(size_ - 1)]; }
-
-  // `keep` is how long samples are kept: it tells, with the rate so far, how many there will be.
-  void push_back(Stamp stamp, const Sample& sample, Stamp keep) {
-    if (size_ == capacity_) grow(keep);
-    const std::size_t at = slot(size_);
-    stamps_[at] = stamp;
-    samples_[at] = sample;
-    ++size_;
-    if (size_ < 64 || at % 64 == 0) measure_rate();
+  // The samples that fit before more memory is taken, counted from the oldest one.
+  std::size_t capacity() const { return room_ - head_; }
+  // What the samples take, with the room for more.
+  std::size_t bytes() const {
+    return room_ * (sizeof(Stamp) + sizeof(Sample)) + blocks_.capacity() * sizeof(std::byte*);
   }
 
-  void insert(std::size_t i, Stamp stamp, const Sample& sample, Stamp keep) {
-    push_back(stamp, sample, keep);
-    for (std::size_t k = size_ - 1; k > i; --k) {
-      stamps_[slot(k)] = stamps_[slot(k - 1)];
-      samples_[slot(k)] = samples_[slot(k - 1)];
+  Stamp stamp(std::size_t i) const { return stamp_at(head_ + i); }
+  const Sample& operator[](std::size_t i) const { return sample_at(head_ + i); }
+  Sample& operator[](std::size_t i) { return sample_at(head_ + i); }
+  Stamp oldest() const { return stamp_at(head_); }
+  Stamp newest() const { return stamp_at(head_ + size_ - 1); }
+  const Sample& front() const { return sample_at(head_); }
+  const Sample& back() const { return sample_at(head_ + size_ - 1); }
+
+  void push_back(Stamp stamp, const Sample& sample) {
+    if (head_ + size_ == room_) grow();
+    const std::size_t at = head_ + size_;
+    stamp_at(at) = stamp;
+    sample_at(at) = sample;
+    ++size_;
+    if (size_ < 64 || at % kBlock == 0) measure_rate();
+  }
+
+  void insert(std::size_t i, Stamp stamp, const Sample& sample) {
+    push_back(stamp, sample);
+    for (std::size_t at = head_ + size_ - 1; at > head_ + i; --at) {
+      stamp_at(at) = stamp_at(at - 1);
+      sample_at(at) = sample_at(at - 1);
     }
-    stamps_[slot(i)] = stamp;
-    samples_[slot(i)] = sample;
+    stamp_at(head_ + i) = stamp;
+    sample_at(head_ + i) = sample;
     measure_rate();
   }
 
   void pop_front() {
-    head_ = slot(1);
+    ++head_;
     --size_;
+    if (head_ == kBlock) drop_first_block();
   }
 
   void clear() {
-    release();
-    stamps_ = nullptr;
-    samples_ = nullptr;
-    capacity_ = head_ = size_ = 0;
+    for (std::size_t i = first_; i < first_ + (room_ + kBlock - 1) / kBlock; ++i)
+      arena_->give_back(blocks_[i], size_class_);
+    blocks_ = {};
+    first_ = size_class_ = room_ = head_ = size_ = 0;
     per_ns_ = 0.0;
   }
 
@@ -128,11 +122,21 @@ class Samples {
   }
 
  private:
-  static constexpr std::size_t kFirstCapacity = 8;
+  static constexpr std::size_t kSmallestBlock = 8, kBlock = 32;  // samples
+  static constexpr std::size_t kLargestClass = 2;
+  static_assert(Arena::kSmallest == kSmallestBlock * (sizeof(Stamp) + sizeof(Sample)));
+  static_assert(Arena::kSizes == kLargestClass + 1 && kSmallestBlock << kLargestClass == kBlock);
 
-  std::size_t slot(std::size_t i) const {
-    const std::size_t at = head_ + i;
-    return at < capacity_ ? at : at - capacity_;
+  // Samples of one block; only a link with a single block can have a smaller one.
+  std::size_t per_block() const { return kSmallestBlock << size_class_; }
+  std::byte* block_at(std::size_t at) const { return blocks_[first_ + at / kBlock]; }
+  // A block holds its stamps and then its samples. `at` counts from the start of the first block.
+  Stamp& stamp_at(std::size_t at) const {
+    return reinterpret_cast<Stamp*>(block_at(at))[at % kBlock];
+  }
+  Sample& sample_at(std::size_t at) const {
+    auto* samples = reinterpret_cast<Sample*>(block_at(at) + per_block() * sizeof(Stamp));
+    return samples[at % kBlock];
   }
 
   void measure_rate() {
@@ -168,51 +172,49 @@ class Samples {
     return low;
   }
 
-  // Doubling, but not beyond what a full cache will hold at the present rate: a full cache has 1/16
-  // of slack at most.
-  void grow(Stamp keep) {
-    std::size_t wanted = std::max(kFirstCapacity, 2 * capacity_);
-    if (size_ >= 64 && newest() > oldest()) {
-      const double expected = static_cast<double>(size_) * static_cast<double>(keep) /
-                              static_cast<double>(newest() - oldest());
-      const double fitting =
-          std::max(expected * (33.0 / 32.0), static_cast<double>(size_) * (33.0 / 32.0)) + 8.0;
-      if (fitting < static_cast<double>(wanted)) wanted = static_cast<std::size_t>(fitting);
+  void grow() {
+    if (room_ > 0 && size_class_ < kLargestClass) {
+      grow_only_block();
+      return;
     }
-    move_to(wanted);
+    const std::size_t used = first_ + room_ / kBlock;
+    if (used == blocks_.size()) blocks_.push_back(nullptr);
+    blocks_[used] = arena_->take(size_class_);
+    room_ += per_block();
   }
 
-  void move_to(std::size_t wanted) {
-    auto* stamps = static_cast<Stamp*>(::operator new(wanted * sizeof(Stamp)));
-    Sample* samples;
-    try {
-      samples = static_cast<Sample*>(
-          ::operator new(wanted * sizeof(Sample), std::align_val_t{alignof(Sample)}));
-    } catch (...) {
-      ::operator delete(stamps);
-      throw;
-    }
-    const std::size_t until_end = std::min(size_, capacity_ - head_);
-    std::copy_n(stamps_ + head_, until_end, stamps);
-    std::copy_n(stamps_, size_ - until_end, stamps + until_end);
-    std::copy_n(samples_ + head_, until_end, samples);
-    std::copy_n(samples_, size_ - until_end, samples + until_end);
-    release();
-    stamps_ = stamps;
-    samples_ = samples;
-    capacity_ = wanted;
+  // Makes room in a block that is not of the full size: by dropping what was pruned, or by moving
+  // to a block of twice the size.
+  void grow_only_block() {
+    const std::size_t wanted = 2 * size_ <= room_ ? size_class_ : size_class_ + 1;
+    std::byte* block = arena_->take(wanted);
+    auto* stamps = reinterpret_cast<Stamp*>(block);
+    auto* samples = reinterpret_cast<Sample*>(block + (kSmallestBlock << wanted) * sizeof(Stamp));
+    std::copy_n(&stamp_at(head_), size_, stamps);
+    std::copy_n(&sample_at(head_), size_, samples);
+    arena_->give_back(std::exchange(blocks_[first_], block), size_class_);
+    size_class_ = wanted;
+    room_ = per_block();
     head_ = 0;
   }
 
-  void release() {
-    ::operator delete(stamps_);
-    ::operator delete(samples_, std::align_val_t{alignof(Sample)});
+  void drop_first_block() {
+    arena_->give_back(blocks_[first_], size_class_);
+    ++first_;
+    room_ -= kBlock;
+    head_ = 0;
+    if (2 * first_ > blocks_.size()) {  // then moving the others costs little for each block
+      blocks_.erase(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(first_));
+      first_ = 0;
+    }
   }
 
-  Stamp* stamps_ = nullptr;
-  Sample* samples_ = nullptr;
-  std::size_t capacity_ = 0;
-  std::size_t head_ = 0;
+  Arena* arena_;
+  std::vector<std::byte*> blocks_;  // from index first_ on, in order of time
+  std::size_t first_ = 0;
+  std::size_t size_class_ = 0;  // of all blocks
+  std::size_t room_ = 0;        // samples that fit into the blocks
+  std::size_t head_ = 0;        // samples at the start of the first block that were dropped
   std::size_t size_ = 0;
   double per_ns_ = 0.0;
 };

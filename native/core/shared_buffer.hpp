@@ -6,20 +6,26 @@
 #include <mutex>
 #include <span>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "buffer.hpp"
+#include "fork.hpp"
 #include "tf_message.hpp"
 
 namespace turtlewire {
 
-// Somebody who sleeps until the data changes. `wake` must neither block nor throw.
+// A thread that sleeps until the data changes. `wake` must neither block nor throw.
 class Waiter {
  public:
   virtual void wake() noexcept = 0;
+  bool is_mine() const { return thread_ == std::this_thread::get_id(); }
 
  protected:
   ~Waiter() = default;
+
+ private:
+  const std::thread::id thread_ = std::this_thread::get_id();
 };
 
 // The questions of tf2, by name. A lookup "through" a fixed frame has two times.
@@ -47,7 +53,7 @@ struct Added {
 
 // Each method takes the lock for itself; those who do several things at once use `mutex` and
 // `buffer` themselves.
-class SharedBuffer {
+class SharedBuffer final : public ForkAware {
  public:
   explicit SharedBuffer(Stamp keep) : buffer(keep) {}
 
@@ -76,10 +82,19 @@ class SharedBuffer {
   // has left the cache.
   bool worth_waiting(const Failure& failure) const;
 
+  void before_fork() override { mutex.lock(); }
+  // The child has none of the other threads.
+  void after_fork(bool is_child) noexcept override {
+    if (is_child) std::erase_if(waiters, [](const Waiter* waiter) { return !waiter->is_mine(); });
+    mutex.unlock();
+  }
+
  private:
   Status resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const;
   Status find(const Request& request, Found& found, Failure& failure);
   Status test(const Request& request, Failure& failure);
+
+  const ForkRegistration registration_{*this, Order::inner};
 };
 
 // Makes a waiter known for as long as this lives.

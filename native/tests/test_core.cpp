@@ -164,7 +164,7 @@ void test_random_operations() {
         shared.buffer.clear();
       } else {
         FrameId id = 0;
-        if (shared.buffer.resolve(child, id) == Status::ok) shared.buffer.remove(id);
+        if (shared.buffer.resolve(child, id) == Status::ok) shared.buffer.remove({&id, 1});
       }
       check(shared.buffer.fault().empty(), "invariants: " + shared.buffer.fault());
     }
@@ -174,12 +174,13 @@ void test_random_operations() {
 void test_search() {
   Random random(5);
   for (int round = 0; round < 300; ++round) {
-    Samples samples;
+    Arena arena;
+    Samples samples(arena);
     Stamp t = 0;
     std::vector<Stamp> known;
     for (std::size_t i = 0, n = 2 + below(random, 500); i < n; ++i) {
       t += static_cast<Stamp>(below(random, 4) == 0 ? below(random, 1000) : 10);
-      samples.push_back(t, Sample{}, 2000);
+      samples.push_back(t, Sample{});
       known.push_back(t);
       if (below(random, 3) == 0 && known.size() > 2) {
         samples.pop_front();

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import math
+import zipfile
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -257,6 +260,48 @@ def test_save_while_a_frame_is_removed(
     assert inspection.load(tmp_path / "file").frame_strings() == ["base", "map"]
 
 
+HEADER = b'{"format": "turtlewire buffer 1", "cache_time_ns": 1, "runs": [["a", "b", false, "me"]]}'
+
+
+def archive(*, header: bytes, **arrays: bytes) -> bytes:
+    """What `save` writes, with these bytes as the members."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as members:
+        members.writestr("header.npy", claiming("|u1", (len(header),)) + header)
+        for name, data in arrays.items():
+            members.writestr(f"{name}.npy", data)
+    return file.getvalue()
+
+
+def claiming(dtype: str, shape: tuple[int, ...]) -> bytes:
+    """The start of a file with an array, without its data."""
+    start = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        start, {"descr": dtype, "fortran_order": False, "shape": shape}
+    )
+    return start.getvalue()
+
+
+def test_load_any_bytes(buffer: turtlewire.Buffer, tmp_path: Path) -> None:
+    for t in range(1, 6):
+        buffer.set_transform("a", "b", t * SECOND, (t, 0, 0), STILL)
+    path = tmp_path / "tree.saved"
+    inspection.save(buffer, path)
+    whole = path.read_bytes()
+    random = Random(1)
+    refused = 0
+    for _ in range(400):
+        data = bytearray(whole)
+        for _ in range(random.randrange(1, 6)):
+            data[random.randrange(len(data))] = random.randrange(256)
+        path.write_bytes(data)
+        try:
+            inspection.load(path)
+        except ValueError:
+            refused += 1
+    assert refused > 300
+
+
 @pytest.mark.parametrize(
     "damage",
     [
@@ -264,6 +309,13 @@ def test_save_while_a_frame_is_removed(
         lambda data: data[:-30],
         lambda data: b"x" * 200,
         lambda data: data[:300] + b"\0" * 40 + data[340:],
+        lambda data: archive(header=b"[" * 100_000),
+        lambda data: archive(header=b"[]"),
+        lambda data: archive(header=HEADER, stamps0=b"", poses0=b""),
+        lambda data: archive(header=HEADER, stamps0=claiming("<i8", (10**12,)), poses0=b""),
+        lambda data: archive(header=HEADER, stamps0=claiming("|O", (1,)), poses0=b""),
+        lambda data: archive(header=bytes(50_000_000)),
+        lambda data: data.replace(b"PK\1\2", b"PK\1\2\xff\xff\xff\xff\xff"),
     ],
 )
 def test_load_something_else(buffer: turtlewire.Buffer, tmp_path: Path, damage: Any) -> None:

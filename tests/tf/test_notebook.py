@@ -25,6 +25,15 @@ def test_a_buffer_shows_its_tree(filled):
     assert {"world", "turtle1"} < {text.text for text in root.iter(f"{SVG}text")}
 
 
+def test_a_large_tree_is_cut(buffer):
+    for i in range(3000):
+        buffer.set_transform(f"f{i}", f"f{i + 1}", 1, (0, 0, 0), (0, 0, 0, 1))
+    texts = {text.text for text in ET.fromstring(buffer._repr_svg_()).iter(f"{SVG}text")}
+    assert "3,001 frames, the first 501 of them shown" in texts
+    assert {"f0", "f500"} < texts
+    assert "f501" not in texts
+
+
 def test_an_empty_buffer_says_so(buffer):
     assert "No tf data received" in buffer._repr_svg_()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.tf import inspection
@@ -70,9 +71,9 @@ class FrameTree:
                 self.children[link.parent].append(link.child)
 
 
-def read_frame_tree(buffer: Buffer) -> FrameTree:
-    """The tree of a buffer as it is now."""
-    return FrameTree(_link(info) for info in inspection.links(buffer) if info.samples)
+def read_frame_tree(buffer: Buffer, most: int = sys.maxsize) -> FrameTree:
+    """The tree of a buffer as it is now; of its first ``most`` links."""
+    return FrameTree(_link(info) for info in inspection.links(buffer, most) if info.samples)
 
 
 def _link(info: inspection.LinkInfo) -> Link:

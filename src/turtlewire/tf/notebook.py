@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 
 __all__ = ["buffer_svg", "transform_html"]
 
+#: A picture of more links takes a browser seconds to show, and nobody can read it.
+_MOST_LINKS = 500
 _AXIS_COLOURS = ("#d33f3f", "#3a9a3a", "#3f6fd3")
 _SIDE = 190.0
 _MARGIN = 34.0
@@ -49,8 +51,12 @@ _AZIMUTH, _ELEVATION = math.radians(-125.0), math.radians(28.0)
 
 
 def buffer_svg(buffer: Buffer) -> str:
-    """The tree of a buffer as an SVG document."""
-    return svg_from_drawing(draw_tree(read_frame_tree(buffer)))
+    """The tree of a buffer as an SVG document; of a large tree only the links that came first."""
+    tree = read_frame_tree(buffer, _MOST_LINKS)
+    frames = len(buffer.frame_strings())
+    cut = frames > len(tree.children) and len(tree.links) == _MOST_LINKS
+    title = [f"{frames:,} frames, the first {len(tree.children):,} of them shown"] if cut else []
+    return svg_from_drawing(draw_tree(tree, title))
 
 
 def transform_html(transform: Stamped) -> str:

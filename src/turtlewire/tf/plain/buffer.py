@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import CdrError, TransformException
-from turtlewire.tf.plain import batch, inspection
+from turtlewire.tf.plain import batch, forks, inspection
 from turtlewire.tf.plain.cdr import decode_tf_message
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
@@ -52,6 +52,7 @@ class Buffer:
         self._tree = Tree(keep)
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
+        forks.guard(self._changed)
 
     @property
     def cache_time_ns(self) -> int | None:
@@ -266,17 +267,17 @@ class Buffer:
     def all_frames_as_string(self) -> str:
         """tf2's list of frames and parents, one line each."""
         with self._changed:
-            return frames_as_string(self._tree.links)
+            return frames_as_string(self._tree.links_in_order())
 
     def all_frames_as_yaml(self, now: float = 0.0) -> str:
         """tf2's YAML of frames, parents, senders, rates and ages; ``now`` in seconds adds the delay."""
         with self._changed:
-            return frames_as_yaml(self._tree.links, now, empty=not self._tree.frames)
+            return frames_as_yaml(self._tree.links_in_order(), now, empty=not self._tree.frames)
 
     def all_frames_as_dot(self, now: float = 0.0) -> str:
         """tf2's Graphviz text of the tree; ``now`` in seconds adds ages."""
         with self._changed:
-            return frames_as_dot(list(self._tree.frames), self._tree.links, now)
+            return frames_as_dot(list(self._tree.frames), self._tree.links_in_order(), now)
 
     # -- changes
 

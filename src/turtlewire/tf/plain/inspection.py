@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from itertools import groupby, islice
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf.plain.checks import check_frames, nanoseconds
@@ -65,7 +65,7 @@ def remove_frame(self: Buffer, child_frame: str) -> bool:
     """Forget how a frame lies in its parent; whether there was anything to forget."""
     check_frames(child_frame=child_frame)
     with self._changed:
-        return self._tree.remove(child_frame)
+        return bool(self._tree.remove([child_frame]))
 
 
 def remove_stale(self: Buffer, before_ns: int) -> list[str]:
@@ -74,10 +74,10 @@ def remove_stale(self: Buffer, before_ns: int) -> list[str]:
     with self._changed:
         stale = [
             child
-            for child, link in self._tree.links.items()
+            for child, link in self._tree.links_in_order().items()
             if not link.static and link.newest < before_ns
         ]
-        return [child for child in stale if self._tree.remove(child)]
+        return self._tree.remove(stale)
 
 
 def samples(
@@ -139,7 +139,7 @@ def set_transforms(
     return accepted
 
 
-def describe_links(self: Buffer) -> list[tuple[Any, ...]]:
+def describe_links(self: Buffer, most: int) -> list[tuple[Any, ...]]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return [
@@ -154,7 +154,7 @@ def describe_links(self: Buffer) -> list[tuple[Any, ...]]:
                 0,
                 link.sender_rows(),
             )
-            for child, link in self._tree.links.items()
+            for child, link in islice(self._tree.links_in_order().items(), most)
         ]
 
 

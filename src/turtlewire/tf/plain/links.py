@@ -49,6 +49,12 @@ class Link:
         return newest.parent if newest else "NO_PARENT"
 
     @property
+    def parents(self) -> set[str]:
+        """All parents in the data."""
+        history = {sample.parent for sample in self.samples}
+        return {self.fixed.parent} if self.fixed else history
+
+    @property
     def newest(self) -> int:
         """The newest stamp; 0 for a static link, as in tf2."""
         return self.stamps[-1] if self.stamps else 0

@@ -19,7 +19,7 @@ from turtlewire.tf.plain.texts import (
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
 MAX_GRAPH_DEPTH = 1000
 """tf2 takes more hops for a loop."""
@@ -99,8 +99,6 @@ class Tree:
             if known is not None:
                 link.senders = known.senders
             self.links[child] = link
-            if known is None:
-                self._sort_links()
         return "" if link.insert(stamp, Sample(parent, stored), self.keep) else "old"
 
     def rename_sender(self, name: str, shown: str) -> None:
@@ -111,25 +109,19 @@ class Tree:
         for link in self.links.values():
             link.rename_sender(name, shown)
 
-    def remove(self, child: str) -> bool:
-        """Forget a link, and the names that then stand for nothing; False if there is none."""
-        link = self.links.pop(child, None)
-        if link is None:
-            return False
-        in_use = {
-            sample.parent
-            for other in self.links.values()
-            for sample in (*other.samples, other.fixed)
-            if sample
-        }
-        for frame in (child, link.parent):
-            if frame not in in_use and frame not in self.links:
-                self.frames.pop(frame, None)
-        return True
+    def remove(self, children: Iterable[str]) -> list[str]:
+        """Forget links, and the names that then stand for nothing; the children that had a link."""
+        removed = {child: link for child in children if (link := self.links.pop(child, None))}
+        in_use = {parent for link in self.links.values() for parent in link.parents}
+        for child, link in removed.items():
+            for frame in (child, *link.parents):
+                if frame not in in_use and frame not in self.links:
+                    self.frames.pop(frame, None)
+        return list(removed)
 
-    def _sort_links(self) -> None:
-        # Descriptions list the links in the order in which their frames were first named.
-        self.links = {frame: self.links[frame] for frame in self.frames if frame in self.links}
+    def links_in_order(self) -> dict[str, Link]:
+        """The links by child, in the order in which the frames were first named."""
+        return {frame: self.links[frame] for frame in self.frames if frame in self.links}
 
     def clear(self) -> None:
         """Forget all samples; static poses and names stay."""
@@ -228,7 +220,7 @@ class Tree:
 
     def _check_depth(self, depth: int) -> None:
         if depth > MAX_GRAPH_DEPTH:
-            raise loop_failure(frames_as_string(self.links))
+            raise loop_failure(frames_as_string(self.links_in_order()))
 
     def latest_common_time(self, target: str, source: str) -> int:
         """The oldest of the newest stamps on the way, by the newest parent of each link; a stamp of 0 counts as static."""
