@@ -1,4 +1,4 @@
-"""The index of installed packages and their resources: ``get_package_share_directory`` and its kin."""
+"""The index of installed packages and their resources."""
 
 from __future__ import annotations
 

@@ -17,9 +17,9 @@ __all__ = [
 
 
 class PackageNotFoundError(KeyError):
-    """No prefix has the package."""
+    """The package is in no prefix."""
 
-    #: The nearest names there are, for a user who mistyped it; empty when none is near.
+    #: A line with the nearest names, for a user who mistyped it; empty if none is near.
     hint: str = ""
 
 
@@ -27,8 +27,8 @@ def get_package_prefix(package_name: str) -> str:
     """The prefix in which the package is installed, for example ``/opt/ros/jazzy``.
 
     Raises:
-        PackageNotFoundError: It is in none of them.
-        ValueError: The name is no package name.
+        PackageNotFoundError: The package is in no prefix.
+        ValueError: The name cannot be that of a package.
         OSError: There is no prefix at all.
     """
     from turtlewire_ros.prefix import package_prefix

@@ -1,4 +1,4 @@
-"""Resources of the index: files named after what they belong to, sorted into one folder for each type of resource."""
+"""Resources of the index: a file for each, in a folder for each type of resource."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
     Raises:
         LookupError: No prefix has it.
-        InvalidResourceTypeNameError: The type is no valid name.
-        InvalidResourceNameError: The resource's name is none.
+        InvalidResourceTypeNameError: The type is not valid.
+        InvalidResourceNameError: The name is not valid.
     """
     prefix = has_resource(resource_type, resource_name)
     if not prefix:

@@ -1,4 +1,4 @@
-"""Where the index is looked for."""
+"""The prefixes in which packages are searched."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
 
 
 def get_search_paths() -> list[str]:
-    """The prefixes to search: those of ``AMENT_PREFIX_PATH`` that exist, then the one this distribution is installed in.
+    """The prefixes of ``AMENT_PREFIX_PATH`` that exist, then that of this distribution.
 
     Raises:
         OSError: There is neither.

@@ -1,4 +1,4 @@
-"""What a launch description does, step by step."""
+"""Base of all actions."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["Action"]
 
 
 class Action(LaunchDescriptionEntity):
-    """Base of all actions. Its condition, if it has one, is asked at each visit.
+    """Base of all actions. The condition is evaluated at each visit.
 
     Args:
-        condition: Take effect only when it holds.
+        condition: The action takes effect only if it is true.
     """
 
     def __init__(self, *, condition: Condition | None = None) -> None:
@@ -28,7 +28,7 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Read the attributes that all actions of XML and YAML files have: ``if`` and ``unless``."""
+        """Read the attributes that all actions in XML and YAML have: ``if`` and ``unless``."""
         if_text = entity.get_attr("if", optional=True)
         unless_text = entity.get_attr("unless", optional=True)
         if if_text is not None and unless_text is not None:
@@ -56,11 +56,11 @@ class Action(LaunchDescriptionEntity):
         return self._condition is not None
 
     def describe(self) -> str:
-        """How ``ros2 launch --print`` shows it."""
+        """The text that ``ros2 launch --print`` shows."""
         return self.__repr__()
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Execute when the condition holds, then tell whoever waits for the completion."""
+        """Execute if the condition is true, and emit an event when the action has completed."""
         if self._condition is not None and not self._condition.evaluate(context):
             return None
         try:

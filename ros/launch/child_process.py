@@ -1,4 +1,4 @@
-"""A child process on the event loop: its streams, its end, its signals."""
+"""A child process on the event loop."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ChildProcess"]
 
-# A grandchild may hold the pipes open; what the child itself wrote is there at once.
+# A grandchild may hold the pipes open; the child's own output is there at once.
 _DRAIN_S = 0.5
 
 
@@ -51,7 +51,7 @@ class ChildProcess:
             on_output: Called with 1 (stdout) or 2 (stderr) and the bytes that came.
 
         Raises:
-            OSError: It cannot be started.
+            OSError: The command cannot be started.
         """
         loop = asyncio.get_running_loop()
         protocol = _Protocol(on_start, on_output)
@@ -96,7 +96,7 @@ class ChildProcess:
         return not self._protocol.exited.is_set()
 
     async def wait(self, timeout: float | None = None) -> int | None:
-        """Its exit status (negative for a signal), or None when it has not ended within the time."""
+        """Its exit status, negative for a signal; None if it has not ended within the time."""
         try:
             await asyncio.wait_for(self._protocol.exited.wait(), timeout)
         except asyncio.TimeoutError:
@@ -104,26 +104,26 @@ class ChildProcess:
         return self._transport.get_returncode()
 
     async def close(self) -> None:
-        """After its end: take the rest of its output and close the streams."""
+        """Read the rest of its output and close the streams; for after its end."""
         with contextlib.suppress(asyncio.TimeoutError):
             await asyncio.wait_for(self._protocol.streams_closed.wait(), _DRAIN_S)
         self._protocol.close_terminals()
         self._transport.close()
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal; one that has ended gets none."""
+        """Send a signal, unless the process has ended."""
         with contextlib.suppress(ProcessLookupError):
             self._transport.send_signal(number)
 
     def write(self, data: bytes) -> None:
-        """Send input, when its stdin is a pipe that is open."""
+        """Send input, if its stdin is an open pipe."""
         pipe = self._transport.get_pipe_transport(0)
         if pipe is not None and not pipe.is_closing():
             cast("asyncio.WriteTransport", pipe).write(data)
 
 
 class _Protocol(asyncio.SubprocessProtocol):
-    """What the loop reports of a child."""
+    """Receives what the loop reports of a child."""
 
     def __init__(
         self, on_start: Callable[[int], None], on_output: Callable[[int, bytes], None]

@@ -1,4 +1,4 @@
-"""Whether an action takes place."""
+"""Decides whether an action takes effect."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ __all__ = ["Condition"]
 
 
 class Condition:
-    """Asks a predicate, each time the action that has it is visited."""
+    """Evaluates a predicate at each visit of the action that has it."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
         self._last_result: bool | None = None
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Ask now; a condition without predicate holds."""
+        """Evaluate it now; a condition without a predicate is true."""
         self._last_result = self._predicate is None or bool(self._predicate(context))
         return self._last_result
 
     def evaluated_value(self) -> bool | None:
-        """The last answer, or None when it was never asked."""
+        """The last result, or None if it was never evaluated."""
         return self._last_result

@@ -1,4 +1,4 @@
-"""What happens upon an event."""
+"""Reactions to events."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["BaseEventHandler", "EventHandler", "entity_list"]
 
 
 class BaseEventHandler:
-    """Decides which events it handles, and returns what is to be visited then.
+    """Decides which events it handles, and returns the entities to visit then.
 
     Args:
-        matcher: Tells whether an event is to be handled.
+        matcher: Whether to handle an event.
         handle_once: Unregister after the first event.
     """
 
@@ -30,7 +30,7 @@ class BaseEventHandler:
 
     @property
     def handle_once(self) -> bool:
-        """Whether it ends with its first event."""
+        """Whether it handles only one event."""
         return self._handle_once
 
     @property
@@ -48,9 +48,12 @@ class BaseEventHandler:
         return self._matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text, and the entities that the handler returns as far as they are known."""
-        text = f"{type(self).__name__}(matcher='{self.matcher_description}', handler='{self.handler_description}'"
-        return f"{text}, handle_once={self._handle_once})", []
+        """A text, and the entities that the handler returns, as far as they are known."""
+        text = (
+            f"{type(self).__name__}(matcher='{self.matcher_description}', "
+            f"handler='{self.handler_description}', handle_once={self._handle_once})"
+        )
+        return text, []
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         """React to the event; the returned entities are visited."""
@@ -64,8 +67,8 @@ class EventHandler(BaseEventHandler):
     """Returns fixed entities, or what a function of event and context returns.
 
     Args:
-        matcher: Tells whether an event is to be handled.
-        entities: What is visited then, or a function that returns it.
+        matcher: Whether to handle an event.
+        entities: What to visit then, or a function that returns it.
         handle_once: Unregister after the first event.
     """
 

@@ -1,4 +1,4 @@
-"""The error of launch files that no loader understands."""
+"""The error of launch files that no loader can read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["InvalidLaunchFileError"]
 
 
 class InvalidLaunchFileError(Exception):
-    """No loader could read a launch file; the text names what each of them found.
+    """No loader could read a launch file; the text holds the error of each.
 
     Args:
         extension: The file's format, for example ``.py``.
@@ -28,7 +28,10 @@ class InvalidLaunchFileError(Exception):
         if not self.likely_errors:
             return "The launch file may have a syntax error, or its format is unknown"
         if len(self.likely_errors) == 1:
-            return f"Caught exception when trying to load file of format [{self.extension}]: {self.likely_errors[0]}"
+            return (
+                f"Caught exception when trying to load file of format [{self.extension}]: "
+                f"{self.likely_errors[0]}"
+            )
         lines = [
             f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"
         ]

@@ -1,4 +1,4 @@
-"""What a launch file tells about one of its arguments."""
+"""A declared argument of a launch file."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ __all__ = ["LaunchArgument"]
 
 
 class LaunchArgument(Protocol):
-    """A declared argument of a launch file; ``DeclareLaunchArgument`` is one."""
+    """What launch descriptions know of a ``DeclareLaunchArgument``."""
 
-    #: Whether it is declared only under a condition; known once the file was searched for it.
+    #: Whether it is declared only under a condition; known after a search for arguments.
     conditionally_included: bool
 
     @property

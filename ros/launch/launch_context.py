@@ -1,4 +1,4 @@
-"""What the entities of a running launch see of it."""
+"""The context that the entities of a launch get."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ class LaunchContext:
         self._run.keep_running_for(completion_future)
 
     def marked_environment(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child process, by which it ends with the launch at the latest."""
+        """The environment for a child process; its mark lets the launch end all descendants."""
         return self._run.marked(environment)
 
     # launch configurations, environment, locals
@@ -150,7 +150,7 @@ class LaunchContext:
         self._globals.update(extensions)
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
-        """Add locals for the visits that belong to the present event."""
+        """Add locals for the visits that belong to the current event."""
         self._locals.update(extensions)
 
     def get_locals_as_dict(self) -> dict[str, Any]:

@@ -40,12 +40,12 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether it should no longer be used."""
+        """Whether a use of the description warns."""
         return self._deprecated_reason is not None
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why not, and what to use instead."""
+        """Why it is deprecated, and what to use instead."""
         return self._deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:

@@ -1,4 +1,4 @@
-"""What a launch description consists of."""
+"""Base of launch descriptions and actions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["LaunchDescriptionEntity"]
 
 
 class LaunchDescriptionEntity:
-    """Something that can be visited while a launch runs; a visit may bring forth further entities."""
+    """An entity that a launch visits; a visit may return further entities."""
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Take effect; the returned entities are visited next."""
@@ -43,9 +43,9 @@ class LaunchDescriptionEntity:
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """Entities that a visit returns under a condition, each group with a text that names the condition."""
+        """Groups of entities that a visit returns under a condition, each with its condition."""
         return []
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """What is done when the entity has run its course; None for one whose visit is all."""
+        """A future that is done when the entity has completed; None if a visit completes it."""
         return None

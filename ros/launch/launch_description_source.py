@@ -1,4 +1,4 @@
-"""Where launch descriptions come from."""
+"""Finds and reads launch descriptions."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class LaunchDescriptionSource:
     """A launch description, or a file that is read when it is first needed.
 
     Args:
-        launch_description: The description, when it is there already.
-        location: Path of the file (or what stands for it).
-        method: How the description comes about, for messages.
+        launch_description: The description, if it exists already.
+        location: Path of the file.
+        method: How the description is read, for messages.
     """
 
     def __init__(
@@ -39,10 +39,10 @@ class LaunchDescriptionSource:
         self._method = method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """The description when its place is plain text; None when a running launch is needed to find it.
+        """The description, or None if only a running launch can tell its location.
 
         Raises:
-            Exception: Whatever the loader raises.
+            Exception: What the loader raises.
         """
         if self._launch_description is None:
             texts = [part.text for part in self._location if isinstance(part, TextSubstitution)]
@@ -52,10 +52,10 @@ class LaunchDescriptionSource:
         return self._launch_description
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
-        """The description, read now if it was not before.
+        """The description, read at the first call.
 
         Raises:
-            Exception: Whatever the loader raises.
+            Exception: What the loader raises.
         """
         if self._launch_description is None:
             self._load(perform_substitutions(context, self._location))
@@ -64,14 +64,14 @@ class LaunchDescriptionSource:
 
     @property
     def location(self) -> str:
-        """Path of the file; before it was read, a description of how it will be found."""
+        """Path of the file; before it was read, the substitutions that give it."""
         if self._expanded_location is not None:
             return self._expanded_location
         return " + ".join(part.describe() for part in self._location)
 
     @property
     def method(self) -> str:
-        """How the description comes about."""
+        """How the description is read, for messages."""
         return self._method
 
     def _get_launch_description(self, location: str) -> LaunchDescription:

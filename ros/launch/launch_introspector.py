@@ -45,15 +45,16 @@ def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
 
 
 def format_action(action: Action) -> list[str]:
-    """An action, with its sub entities below it."""
+    """An action, with its sub-entities below it."""
     if is_a(action, LogInfo):
         return [f"LogInfo({format_substitutions(action.msg)})"]
     if is_a(action, EmitEvent):
         return [f"EmitEvent(event='{action.event.name}')"]
     if is_a(action, ExecuteProcess):
         cmd = ", ".join(format_substitutions(part) for part in action.cmd)
+        cwd, env = format_substitutions(action.cwd), _variables(action.env)
         return [
-            f"ExecuteProcess(cmd=[{cmd}], cwd={format_substitutions(action.cwd)}, env={_variables(action.env)}, shell={action.shell})",
+            f"ExecuteProcess(cmd=[{cmd}], cwd={cwd}, env={env}, shell={action.shell})",
             *_indented(_conditional(action)),
         ]
     if is_a(action, RegisterEventHandler):
@@ -69,7 +70,7 @@ def format_action(action: Action) -> list[str]:
 
 
 def format_entities(entities: Iterable[LaunchDescriptionEntity]) -> list[str]:
-    """Entities, each with its sub entities below it; the first line of each begins without blank."""
+    """Entities, each with its sub-entities below it; the first line of each is not indented."""
     lines = []
     for entity in entities:
         if is_a(entity, Action):
@@ -105,7 +106,10 @@ def _variables(env: Any) -> str:
 
 
 def _indented(lines: list[str]) -> list[str]:
-    """Draw the branches to lines of one level; lines of deeper levels begin with a branch or a blank already."""
+    """Draw the branches to the lines of one level.
+
+    Lines of deeper levels begin with a branch or a blank already.
+    """
     starts = [index for index, line in enumerate(lines) if line[:1] not in ("├", "└", "│", " ")]
     result = []
     for index, line in enumerate(lines):

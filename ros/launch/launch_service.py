@@ -1,4 +1,4 @@
-"""Runs launch descriptions: the event loop, the order of things, Ctrl-C."""
+"""Runs launch descriptions: the event loop, the order of events, signals."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ if TYPE_CHECKING:
 
 __all__ = ["LaunchService"]
 
-# So many Ctrl-C end a launch file that hangs, and with it keeps the loop from seeing them.
+# After so many Ctrl-C that the loop did not see, a launch file that hangs is interrupted.
 _PATIENCE = 3
 
 
 class LaunchService:
-    """Runs until everything that was launched has ended, or until it is told to shut down.
+    """Runs launch descriptions until all processes have ended or :meth:`shutdown` is called.
 
-    Events are handled one after the other. An exception out of an entity shuts the launch down;
-    :meth:`run` then returns 1.
+    Events are handled one after the other. An exception that an entity raises shuts the launch
+    down; :meth:`run` then returns 1.
 
     Args:
         argv: Arguments of the launch.
-        noninteractive: Whether nobody at a terminal watches it: children then get no SIGINT from a
-            terminal, and are sent one at Ctrl-C.
+        noninteractive: Whether no user watches it at a terminal. Children then get no SIGINT from
+            a terminal, and the launch sends them one.
         debug: Log at DEBUG level.
     """
 
@@ -63,7 +63,7 @@ class LaunchService:
 
     @property
     def context(self) -> LaunchContext:
-        """What the parts of this launch share."""
+        """The context of this launch."""
         return self._context
 
     @property
@@ -80,7 +80,9 @@ class LaunchService:
         self._context.emit_event_sync(event)
 
     def shutdown(self, force_sync: bool = False) -> None:
-        """End the launch: all processes are stopped, then :meth:`run` returns. Safe from any thread.
+        """Stop all processes and end the launch, so that :meth:`run` returns.
+
+        Safe from any thread.
 
         Args:
             force_sync: As in ROS 2; the event is queued in either case.

@@ -1,4 +1,4 @@
-"""Cuts what a process writes into lines."""
+"""Splits the output of a process into lines."""
 
 from __future__ import annotations
 
@@ -9,13 +9,17 @@ _LONGEST_REST = 1 << 20
 
 
 class OutputLines:
-    """Collects the bytes of one stream. What is no UTF-8 becomes replacement characters; a line of more than 1 MiB may come in pieces."""
+    """Collects the bytes of one stream.
+
+    Bytes that are not UTF-8 become replacement characters. A line of more than 1 MiB may come in
+    pieces.
+    """
 
     def __init__(self) -> None:
         self._rest = bytearray()
 
     def feed(self, data: bytes) -> list[str]:
-        """Take bytes; returns the lines that they complete, without line ends."""
+        """Add bytes; returns the lines that they complete, without line ends."""
         first, *more = data.split(b"\n")
         self._rest += first
         if not more:
@@ -25,7 +29,7 @@ class OutputLines:
         return [_text(line) for line in lines]
 
     def rest(self) -> list[str]:
-        """What has come of a line that has no end yet; empty when nothing has."""
+        """The beginning of a line that is not complete; an empty list if there is none."""
         line, self._rest = bytes(self._rest), bytearray()
         return [_text(line)] if line else []
 

@@ -1,4 +1,4 @@
-"""What may stand where entities of a launch description are wanted."""
+"""The type of arguments that are entities of a launch description."""
 
 from __future__ import annotations
 

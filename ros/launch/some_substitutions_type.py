@@ -1,4 +1,4 @@
-"""What may stand where text is substituted."""
+"""The type of arguments that are text or substitutions."""
 
 from __future__ import annotations
 

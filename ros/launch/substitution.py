@@ -14,13 +14,13 @@ class Substitution:
     """Base of all substitutions."""
 
     def describe(self) -> str:
-        """How ``ros2 launch --print`` shows it."""
+        """The text that ``ros2 launch --print`` shows."""
         return self.__repr__()
 
     def perform(self, context: LaunchContext) -> str:
         """The text, in the given context.
 
         Raises:
-            SubstitutionFailure: There is none.
+            SubstitutionFailure: There is no text in this context.
         """
         raise NotImplementedError(f"{type(self).__name__} does not define perform()")

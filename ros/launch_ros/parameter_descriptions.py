@@ -44,10 +44,10 @@ class ParameterValue:
         return self._value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """The value, performed and of the type.
+        """The value after its substitutions, with its type.
 
         Raises:
-            ValueError: It does not mean a value of the type.
+            ValueError: The text has no value of the type.
         """
         if self._value_type is None:
             return evaluate_value(context, self._value)

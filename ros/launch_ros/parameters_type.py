@@ -1,4 +1,4 @@
-"""What may stand where parameters of a node are wanted."""
+"""The type of arguments that are parameters of a node."""
 
 from __future__ import annotations
 

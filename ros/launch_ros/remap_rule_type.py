@@ -1,4 +1,4 @@
-"""What may stand where remapping rules are wanted."""
+"""The type of arguments that are remapping rules."""
 
 from __future__ import annotations
 

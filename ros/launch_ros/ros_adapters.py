@@ -1,4 +1,4 @@
-"""The node by which a launch talks to the nodes that it started."""
+"""The node with which a launch calls services and subscribes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _KEY = "ros_adapter"
 
 
 class ROSAdapter:
-    """A node on a context of its own that runs in a thread of its own, from the construction to :meth:`shutdown`."""
+    """A node with its own context and thread, which run from construction to :meth:`shutdown`."""
 
     def __init__(self) -> None:
         import rclpy
@@ -47,7 +47,7 @@ class ROSAdapter:
             self._executor.spin()
 
     def shutdown(self) -> None:
-        """End node and thread; whoever waits for a service stops waiting."""
+        """End node and thread; this ends the waits for services, too."""
         self._executor.shutdown()
         self._context.try_shutdown()
         self._thread.join()
@@ -73,7 +73,7 @@ def get_ros_node(context: LaunchContext) -> Node:
 
 
 async def call_service(context: LaunchContext, service_type: Any, name: str, request: Any) -> Any:
-    """Ask a service as soon as it is there.
+    """Call a service as soon as it is ready.
 
     Returns:
         The response; None when the launch ended before.

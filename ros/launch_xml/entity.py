@@ -46,7 +46,7 @@ class Entity(BaseEntity):
         return list(self._children)
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes and children that nobody asked for."""
+        """Refuse attributes and children that the action did not read."""
         attributes = set(self._element.attrib) - self._read_attributes
         if attributes:
             raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")
@@ -59,7 +59,7 @@ class Entity(BaseEntity):
     def get_attr(
         self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True
     ) -> Any:
-        """The value of an attribute; lists of elements are the children of that tag. See the base class."""
+        """The value of an attribute; a list of elements holds the children with that tag."""
         if is_entity_list(data_type):
             return self._children_named(name, optional)
         if name not in self._element.attrib:
@@ -93,5 +93,6 @@ class Entity(BaseEntity):
             if can_be_str:
                 return text
             raise TypeError(
-                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}' but got '{text}'"
+                f"Attribute '{name}' of Entity '{self.type_name}' "
+                f"expected to be of type '{data_type}' but got '{text}'"
             ) from error

@@ -28,7 +28,8 @@ class _Builder(ET.TreeBuilder):
 
     def start(self, tag: str, attributes: dict[str, str], /) -> ET.Element:
         element = super().start(tag, attributes)
-        element.line = self.parser.CurrentLineNumber  # type: ignore[attr-defined]  # it is an _Element
+        # The element is an _Element.
+        element.line = self.parser.CurrentLineNumber  # type: ignore[attr-defined]
         return element
 
 
@@ -40,7 +41,7 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is no XML, or may declare entities; names file and line.
+            SyntaxError: It is not XML, or may declare entities; the text names file and line.
         """
         from defusedxml.common import DTDForbidden
         from defusedxml.ElementTree import DefusedXMLParser, parse

@@ -11,7 +11,7 @@ __all__ = ["Entity"]
 
 
 class Entity(BaseEntity):
-    """An element of a YAML launch file: a name with a mapping of attributes, or with a list of elements.
+    """An element of a YAML launch file: a name with attributes or a list of elements.
 
     Args:
         element: The mapping or list.
@@ -42,7 +42,8 @@ class Entity(BaseEntity):
         if isinstance(elements, dict):
             if "children" not in elements:
                 raise ValueError(
-                    f"Expected entity `{self._type_name}` to have children entities. That can be a list of subentities or a "
+                    f"Expected entity `{self._type_name}` to have children entities. "
+                    "That can be a list of subentities or a "
                     "dictionary with a `children` list element"
                 )
             self._read_keys.add("children")
@@ -53,7 +54,8 @@ class Entity(BaseEntity):
         for item in elements:
             if not isinstance(item, dict) or len(item) != 1:
                 raise RuntimeError(
-                    f"Subentities must be a dictionary with only one key, as the entity type: '{item}'"
+                    "Subentities must be a dictionary with only one key, as the entity type: "
+                    f"'{item}'"
                 )
             ((name, value),) = item.items()
             child = Entity(value, str(name), parent=self)
@@ -62,7 +64,7 @@ class Entity(BaseEntity):
         return children
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes that nobody asked for."""
+        """Refuse attributes that the action did not read."""
         if isinstance(self._element, dict):
             unread = set(self._element) - self._read_keys
             if unread:
@@ -85,13 +87,15 @@ class Entity(BaseEntity):
         if _is_of_type(value, data_type) or (can_be_str and isinstance(value, str)):
             return value
         raise TypeError(
-            f"Attribute '{name}' of Entity '{self._type_name}' expected to be of type '{data_type}' but got '{type(value)}'"
+            f"Attribute '{name}' of Entity '{self._type_name}' "
+            f"expected to be of type '{data_type}' but got '{type(value)}'"
         )
 
     def _entities(self, name: str, value: Any) -> list[Entity]:
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
             raise TypeError(
-                f"Attribute '{name}' of Entity '{self._type_name}' expected to be a list of dictionaries."
+                f"Attribute '{name}' of Entity '{self._type_name}' "
+                "expected to be a list of dictionaries."
             )
         return [Entity(item, name, parent=self) for item in value]
 

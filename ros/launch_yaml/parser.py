@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parser"]
 
-# Aliases let a few lines stand for billions of elements; no launch file that a person wrote comes
-# near.
+# Aliases let a few lines stand for billions of elements; real launch files have far fewer.
 _MOST_ELEMENTS = 100_000
 
 
@@ -28,8 +27,8 @@ class Parser(BaseParser):
         """Read a file into its root element.
 
         Raises:
-            SyntaxError: It is no YAML; names file and line.
-            RuntimeError: It is no mapping with one key.
+            SyntaxError: It is not YAML; the text names file and line.
+            RuntimeError: It is not a mapping with one key.
             ValueError: Its aliases contain themselves, or stand for more elements than a launch
                 file has.
         """

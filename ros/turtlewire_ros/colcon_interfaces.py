@@ -1,8 +1,8 @@
-"""Lets ``colcon build`` make the interface packages of a workspace importable, without CMake and without a compiler.
+"""Lets ``colcon build`` build the interface packages of a workspace without CMake and compiler.
 
 colcon-ros hands every ``ament_cmake`` package to CMake. A package whose CMakeLists.txt generates
-interfaces and builds nothing else is taken here instead: it gets a type of its own, which only this
-distribution knows how to build. All other packages stay with colcon-ros.
+interfaces and builds nothing else gets a type of its own here, which this
+distribution builds. All other packages stay with colcon-ros.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
         self._ros = RosPackageIdentification()
 
     def identify(self, desc: PackageDescriptor) -> None:
-        """Set name and type of a package that is ours; leave the others alone."""
+        """Set name and type of an interface package, and of one whose package.xml is broken."""
         cmake, manifest = desc.path / "CMakeLists.txt", desc.path / "package.xml"
         if not manifest.is_file():
             return
@@ -67,10 +67,13 @@ class InterfacePackageIdentification(PackageIdentificationExtensionPoint):
 
 
 class UnreadablePackageBuild(TaskExtensionPoint):
-    """Fails for a package whose package.xml cannot be read, where colcon-ros would build without a word what ROS then does not find."""
+    """Fails for a package whose package.xml cannot be read.
+
+    colcon-ros would build it as a plain Python package, which ROS does not find.
+    """
 
     async def build(self) -> int:
-        """What is wrong was said when the package was found; returns the exit status."""
+        """Return the exit status; the fault was logged when the package was found."""
         return 1
 
 
@@ -114,7 +117,7 @@ class InterfacePackageBuild(TaskExtensionPoint):
 
 
 def _install_share(name: str, source: Path, prefix: Path) -> None:
-    """What ``ros2 interface``, ``ros2 pkg`` and rosbag tools look for: the package's files, and its marks in ament's index."""
+    """Install the package's files and register them in ament's index, where tools find them."""
     share = prefix / "share" / name
     definitions = [
         path.relative_to(source)

@@ -34,7 +34,7 @@ def executable_paths(package: str) -> list[str] | None:
 
 
 def argv_for(path: str) -> list[str]:
-    """The command that runs the executable at ``path``: Python scripts on this interpreter, everything else as it is."""
+    """The command that runs the executable at ``path``; Python scripts run on this interpreter."""
     return [sys.executable, path] if is_python_script(path) else [path]
 
 

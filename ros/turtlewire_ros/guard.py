@@ -1,9 +1,9 @@
 # PYTHON_ARGCOMPLETE_OK
 """Starts ``ros2``, unless packages of a real ROS 2 are mixed in.
 
-A shell that sourced a real ROS 2 puts that one's packages before ours. Half of each does not work,
-and breaks with errors that nobody can read. This module is the entry point because no other ROS 2
-has a package of its name.
+In a shell that sourced a real ROS 2, its packages come before ours. A mixture of both fails with
+errors that do not name the cause. This module is the entry point because no other ROS 2 has a
+package of its name.
 """
 
 from __future__ import annotations
@@ -14,12 +14,17 @@ __all__ = ["foreign_package", "main"]
 
 
 def main() -> int | str:
-    """Run the ``ros2`` command line of this process; returns what ``sys.exit`` takes: the status, or what is wrong."""
+    """Run the ``ros2`` command line of this process.
+
+    Returns:
+        What ``sys.exit`` takes: the exit status, or the text of an error.
+    """
     try:
         foreign = foreign_package()
         if foreign is not None:
             remedy = "Use a shell in which no other ROS 2 is sourced, or unset PYTHONPATH."
-            return f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire. {remedy}"
+            fault = f"ros2: {foreign} belongs to another ROS 2 and hides the one of turtlewire."
+            return f"{fault} {remedy}"
         from ros2cli.main import main as run
 
         return run()
@@ -28,7 +33,7 @@ def main() -> int | str:
 
 
 def foreign_package() -> str | None:
-    """The folder of the first package that Python would take from another ROS 2; None when there is no mixture."""
+    """The folder of the first package that Python would import from another ROS 2, or None."""
     from importlib.util import find_spec
 
     home = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))

@@ -1,4 +1,4 @@
-"""What keeps a ``package.xml`` from being read, in one line that says where."""
+"""Finds the error in a ``package.xml`` that cannot be read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["manifest_fault"]
 
 
 def manifest_fault(path: str | Path) -> str | None:
-    """What is wrong with the XML of a package.xml.
+    """The first error in the XML of a package.xml.
 
     Args:
         path: The file.

@@ -1,6 +1,6 @@
-"""Where ROS packages live: colcon workspaces, this distribution's own prefix, and packages installed by pip.
+"""Finds ROS packages: in colcon workspaces, in this distribution's prefix, and installed by pip.
 
-A *prefix* is a folder with ``share/ament_index``, as ``/opt/ros/jazzy`` is one.
+A *prefix* is a folder with ``share/ament_index``, for example ``/opt/ros/jazzy``.
 ``AMENT_PREFIX_PATH`` lists those of the workspaces that were sourced; the prefix this distribution
 was installed into needs no sourcing and comes last.
 """
@@ -26,7 +26,7 @@ MARKERS = os.path.join("share", "ament_index", "resource_index", "packages")
 
 
 def own_prefix() -> str | None:
-    """The prefix that holds the packages of this distribution; None in a source tree that was never installed.
+    """The prefix of this distribution's packages; None in a source tree that is not installed.
 
     It lies above ``site-packages`` in a virtual environment, in ``~/.local`` and in ``/usr/local``
     alike. An editable install runs from its source, and its data are in the environment of the
@@ -40,7 +40,7 @@ def own_prefix() -> str | None:
 
 
 def prefixes() -> list[str]:
-    """All prefixes, in the order in which they are searched; those that do not exist are left out."""
+    """All prefixes that exist, in the order in which they are searched."""
     found = [
         path
         for path in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
@@ -53,18 +53,18 @@ def prefixes() -> list[str]:
 
 
 def package_prefix(package: str) -> str | None:
-    """The prefix that ``package`` is installed in, or None when no prefix and no editable install has it."""
+    """The prefix of ``package``, the source folder of an editable install, or None."""
     return _indexed_prefix(package) or editable_source(package)
 
 
 def share_directory(package: str) -> str | None:
-    """The folder with the package.xml, launch files and other data of ``package``, or None when it is not installed."""
+    """The folder with package.xml, launch files and other data of ``package``, or None."""
     prefix = _indexed_prefix(package)
     return editable_source(package) if prefix is None else os.path.join(prefix, "share", package)
 
 
 def package_names() -> dict[str, str]:
-    """Every installed package with its prefix. Packages that are only installed as editable are found by name, not listed."""
+    """Every installed package with its prefix, except for editable installs."""
     names: dict[str, str] = {}
     for prefix in prefixes():
         folder = os.path.join(prefix, MARKERS)
@@ -75,10 +75,10 @@ def package_names() -> dict[str, str]:
 
 
 def editable_source(package: str) -> str | None:
-    """The source folder of a package that was installed by ``pip install -e``, which installs no data files.
+    """The source folder of a package that was installed by ``pip install -e``, or None.
 
-    The folder counts when it holds a package.xml; launch files then have the same relative paths as
-    in an installed share folder.
+    Such an install has no data files. A folder with a package.xml stands in for the share folder;
+    launch files have the same relative paths there.
     """
     import json
     from importlib.metadata import PackageNotFoundError, distribution

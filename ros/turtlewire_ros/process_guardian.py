@@ -1,6 +1,6 @@
 """The guardian of a :class:`~turtlewire_ros.process_family.ProcessFamily`: a script of its own.
 
-It waits until its stdin ends, which happens when the process that started it ends in whatever way,
+It waits until its stdin ends, which happens when the process that started it ends, by SIGKILL too,
 and then stops every process of the family. It runs beside each `ros2 run` and `ros2 launch`, so it
 imports only what it needs to start fast and stay small.
 """

@@ -1,4 +1,4 @@
-"""What the parts of a launch know of each other.
+"""Protocols: what the parts of a launch know of each other.
 
 ``Context_contra`` is the context that they are handed; it stands above them, so it is a parameter.
 """

@@ -1,4 +1,4 @@
-"""The state of one launch."""
+"""The state of one launch: events, handlers, futures, processes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ C = TypeVar("C")
 
 
 class Run(Generic[C]):
-    """What the entities of a launch and its loop share.
+    """What the entities of a launch and its loop have in common.
 
     Events travel one way: :meth:`emit` queues them, the loop takes them by :meth:`take_events` and
     hands them to the :meth:`handlers`. All methods are for the loop's thread, except for
@@ -122,14 +122,14 @@ class Run(Generic[C]):
     # processes
 
     def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
-        """The environment for a child process, by which it and its descendants are known."""
+        """The environment for a child process, with a mark for it and its descendants."""
         if self._processes is None:
             self._processes = ProcessFamily()
             self._processes.start()
         return self._processes.marked(environment)
 
     async def stop_processes(self) -> None:
-        """Stop what the child processes have left behind; returns when it has ended."""
+        """Stop the remaining descendants of child processes; returns when they have ended."""
         if self._processes is not None:
             await asyncio.to_thread(self._processes.stop)
             self._processes = None

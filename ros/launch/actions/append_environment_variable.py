@@ -22,7 +22,7 @@ __all__ = ["AppendEnvironmentVariable"]
 
 @expose_action("append_env")
 class AppendEnvironmentVariable(SetVariableAction):
-    """Adds a value to an environment variable such as ``PATH``; sets it when it is not there.
+    """Adds a value to a list in an environment variable such as ``PATH``, or sets the variable.
 
     Args:
         name: Its name.

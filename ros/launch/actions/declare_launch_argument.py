@@ -23,8 +23,9 @@ __all__ = ["DeclareLaunchArgument"]
 
 @expose_action("arg")
 class DeclareLaunchArgument(Action):
-    """Declares an argument that is given as ``name:=value`` on the command line, or by the file that includes this one.
+    """Declares an argument of a launch file.
 
+    The command line gives its value as ``name:=value``, or the file that includes this one does.
     Its value is a launch configuration of that name.
 
     Args:
@@ -124,7 +125,10 @@ class DeclareLaunchArgument(Action):
             )
         value = context.launch_configurations[self._name]
         if self._choices is not None and value not in self._choices:
-            message = f'Argument "{self._name}" provided value "{value}" is not valid. Valid options are: {self._choices}'
+            message = (
+                f'Argument "{self._name}" provided value "{value}" is not valid. '
+                f"Valid options are: {self._choices}"
+            )
             self._logger.error("%s", message)
             raise RuntimeError(message)
 

@@ -1,4 +1,4 @@
-"""Runs a process and looks after it."""
+"""Runs a process on this machine until it ends or the launch stops it."""
 
 from __future__ import annotations
 
@@ -53,14 +53,14 @@ class ExecuteLocal(Action):
         sigterm_timeout: Seconds between SIGINT and SIGTERM.
         sigkill_timeout: Seconds between SIGTERM and SIGKILL.
         emulate_tty: Whether the process finds a terminal at its output (many programs then show
-            colours) and, when the launch runs in a terminal, reads what is typed there: so a
-            launched ``turtle_teleop_key`` works. A launch configuration of this name goes before.
+            colours) and, when the launch runs in a terminal, reads what is typed there, so that a
+            launched ``turtle_teleop_key`` works. A launch configuration of this name overrides it.
         output: Where its output goes: ``log`` (stderr on the screen too), ``screen``, ``both``,
             ``own_log``, ``full``, or a mapping.
         output_format: How its lines are shown.
         cached_output: Whether all output is kept for :meth:`get_stdout` and :meth:`get_stderr`.
         log_cmd: Whether the command line is logged at the start.
-        on_exit: What happens at its end: actions, or a function of event and context that returns
+        on_exit: What to visit at its end: actions, or a function of event and context that returns
             some.
         respawn: Whether it is started again after its end.
         respawn_delay: Seconds before that.
@@ -140,19 +140,19 @@ class ExecuteLocal(Action):
 
     @property
     def return_code(self) -> int | None:
-        """Exit status of its last run, negative for a signal; None when there is none yet."""
+        """Exit status of its last run, negative for a signal; None before its first end."""
         return self._return_code
 
     def get_stdout(self) -> bytes:
-        """All that it wrote to stdout; kept only with ``cached_output``."""
+        """Its output to stdout; kept only with ``cached_output``."""
         return bytes(self._cache[1])
 
     def get_stderr(self) -> bytes:
-        """All that it wrote to stderr; kept only with ``cached_output``."""
+        """Its output to stderr; kept only with ``cached_output``."""
         return bytes(self._cache[2])
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when the process has ended for good."""
+        """Done when the process has ended and is not started again."""
         return self._completed
 
     def describe_conditional_sub_entities(
@@ -170,11 +170,12 @@ class ExecuteLocal(Action):
 
         Raises:
             RuntimeError: It was executed before.
-            Exception: A substitution of it fails.
+            SubstitutionFailure: A text of its command line cannot be found.
         """
         if self._completed is not None:
             raise RuntimeError(
-                f"ExecuteLocal action '{self._process_description.final_name}': executed more than once: {self.describe()}"
+                f"ExecuteLocal action '{self._process_description.final_name}': "
+                f"executed more than once: {self.describe()}"
             )
         if context.is_shutdown:
             return None
@@ -198,12 +199,15 @@ class ExecuteLocal(Action):
         self._process_description.prepare(context, self)
 
     def command(self) -> list[str]:
-        """The program and arguments that are started; logs show the command line of the description."""
+        """The program and arguments to start; logs show the command line of the description."""
         assert self._process_description.final_cmd is not None
         return self._process_description.final_cmd
 
     def clean_up(self) -> None:
-        """Remove what was made for the process; called once, after it has ended for good or could not be prepared."""
+        """Remove what was made for the process.
+
+        Called once: after its last end, or when it could not be prepared.
+        """
 
     @property
     def _name(self) -> str:
@@ -222,19 +226,20 @@ class ExecuteLocal(Action):
             self._completed.set_result(None)
 
     async def _run_once(self, context: LaunchContext) -> bool:
-        """Run the process; whether it could be started. Returns after all handlers of its end."""
+        """Run the process and the handlers of its end; returns whether it could be started."""
         assert self._shutting_down is not None
         assert self._end_was_handled is not None
         self._end_was_handled.clear()
         try:
             self._process = process = await self._start(context)
         except OSError as error:
-            self._logger.error("exception occurred while executing process: %s", error)  # noqa: TRY400  the text says all
+            text = "exception occurred while executing process: %s"
+            self._logger.error(text, error)  # noqa: TRY400  a traceback would show our code only
             return False
         await context.emit_event(ProcessStarted(action=self, **self._event_details()))
         if (
             self._shutting_down.is_set()
-        ):  # it was told to end while it was starting, too early for a signal
+        ):  # the launch ended while the process was starting, too early for a signal
             self._stop(context, send_sigint=True)
         self._return_code = await process.wait()
         await process.close()
@@ -278,7 +283,7 @@ class ExecuteLocal(Action):
         self._logger.info("process started with pid [%s]", pid)
 
     async def _respawns(self, runs: int) -> bool:
-        """Wait for the time of the next start; False when there is to be none."""
+        """Wait until the next start is due; False if there is none."""
         assert self._shutting_down is not None
         if 0 <= self._respawn_max_retries <= runs:
             return False
@@ -291,7 +296,7 @@ class ExecuteLocal(Action):
     # events
 
     def _register_handlers(self, context: LaunchContext) -> None:
-        """Register for all events of the process; later ones are asked first."""
+        """Register for all events of the process; the last one gets an event first."""
         for is_mine, react in (
             (self._is_my_end, self._on_exit),
             (self._is_my_end, self._show_end),
@@ -336,7 +341,7 @@ class ExecuteLocal(Action):
         self._log_lines(fd, self._lines[fd].feed(event.text))
 
     def _show_end(self, event: Event, _context: LaunchContext) -> None:
-        """Show last lines that lack their line end, and how it ended."""
+        """Show the last line, even if it is not complete, and how the process ended."""
         assert isinstance(event, ProcessExited)
         assert self._end_was_handled is not None
         for fd, lines in self._lines.items():
@@ -391,7 +396,8 @@ class ExecuteLocal(Action):
             if await process.wait(float(text)) is not None:
                 return
             self._logger.error(
-                "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to '%s'",
+                "process[%s] failed to terminate '%s' seconds after receiving '%s', "
+                "escalating to '%s'",
                 *(self._name, text, before.name, after.name),
             )
             self._send_signal(after)

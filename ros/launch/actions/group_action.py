@@ -27,13 +27,15 @@ __all__ = ["GroupAction"]
 
 @expose_action("group")
 class GroupAction(Action):
-    """Visits actions; launch configurations and environment variables that they set end with the group.
+    """Visits actions; what they set ends with the group.
+
+    That is true of launch configurations and environment variables.
 
     Args:
         actions: The actions.
         scoped: Whether what they set ends with the group.
-        forwarding: Whether the configurations and variables of the outside are known inside.
-        launch_configurations: Configurations that are set inside.
+        forwarding: Whether configurations and variables from outside are known inside.
+        launch_configurations: Configurations to set inside.
         **kwargs: See :class:`Action`.
     """
 
@@ -54,7 +56,7 @@ class GroupAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, Any]]:
-        """Read a ``group`` element; ``keep`` children name configurations of the outside that are known inside."""
+        """Read a ``group`` element; ``keep`` children set launch configurations inside."""
         _, kwargs = super().parse(entity, parser)
         for attribute in ("scoped", "forwarding"):
             value = entity.get_attr(attribute, data_type=bool, optional=True)
@@ -78,7 +80,7 @@ class GroupAction(Action):
         return self._sub_entities()
 
     def execute(self, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions, between what begins and ends the scope."""
+        """Return the actions, between those that begin and end the scope."""
         return self._sub_entities()
 
     def _sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -34,7 +34,7 @@ _PATH_LOCALS = ("current_launch_file_path", "current_launch_file_directory")
 class IncludeLaunchDescription(Action):
     """Visits another launch description, with launch configurations set before.
 
-    The configurations stay set afterwards; put it into a ``GroupAction`` to confine them.
+    The configurations stay set afterwards; a ``GroupAction`` limits them to its own actions.
 
     Args:
         launch_description_source: The source, or the path of a file of any language.

@@ -24,7 +24,7 @@ class OpaqueCoroutine(Action):
         coroutine: The coroutine function.
         args: Positional arguments.
         kwargs: Keyword arguments.
-        ignore_context: Whether it does without the context, which is otherwise its first argument.
+        ignore_context: Whether to leave out the context, which is otherwise its first argument.
         **left_over_kwargs: See :class:`Action`.
     """
 
@@ -40,7 +40,8 @@ class OpaqueCoroutine(Action):
         super().__init__(**left_over_kwargs)
         if not asyncio.iscoroutinefunction(coroutine):
             raise TypeError(
-                f"OpaqueCoroutine expected a coroutine function for 'coroutine', got '{type(coroutine)}' instead"
+                "OpaqueCoroutine expected a coroutine function for 'coroutine', "
+                f"got '{type(coroutine)}' instead"
             )
         self._coroutine = coroutine
         self._args = tuple(args or ())

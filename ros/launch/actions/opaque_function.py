@@ -36,7 +36,8 @@ class OpaqueFunction(Action):
         super().__init__(**left_over_kwargs)
         if not callable(function):
             raise TypeError(
-                f"OpaqueFunction expected a callable for 'function', got '{type(function)}' instead."
+                "OpaqueFunction expected a callable for 'function', "
+                f"got '{type(function)}' instead."
             )
         self._function = function
         self._args = tuple(args or ())

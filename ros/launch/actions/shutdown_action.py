@@ -39,7 +39,7 @@ class Shutdown(EmitEvent):
         return Shutdown, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """End it; as the reaction to the end of a process, say which."""
+        """End the launch; if a process caused it by its end, log which."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):
             logging.get_logger("launch").info(

@@ -112,11 +112,11 @@ class TimerAction(Action):
         return float(perform_substitutions(context, self._period))
 
     def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:
-        """Begin the time; what is returned has a method ``cancel``."""
+        """Start the timer; the returned object has a method ``cancel``."""
         return loop.call_later(self.seconds(context), self._expire, context)
 
     def cancel(self) -> None:
-        """The actions will not be visited, if they were not yet."""
+        """Drop the actions, unless they were visited already."""
         self._canceled = True
         if self._timer is not None:
             self._timer.cancel()

@@ -22,10 +22,14 @@ _FALSE = ("false", "0")
 def evaluate_condition_expression(
     context: LaunchContext, expression: Iterable[Substitution]
 ) -> bool:
-    """Perform the substitutions and read the text as ``true``, ``1``, ``false`` or ``0``, in small or capital letters.
+    """Perform the substitutions and read the text as true or false.
+
+    Args:
+        context: The context of the launch.
+        expression: Gives ``true``, ``1``, ``false`` or ``0``, in small or capital letters.
 
     Raises:
-        InvalidConditionExpressionError: It is something else.
+        InvalidConditionExpressionError: The text is something else.
     """
     text = perform_substitutions(context, expression).strip().lower()
     if text in _TRUE:
@@ -33,5 +37,6 @@ def evaluate_condition_expression(
     if text in _FALSE:
         return False
     raise InvalidConditionExpressionError(
-        f"invalid condition expression, expected one of '{'|'.join(_TRUE)}' or '{'|'.join(_FALSE)}' but got '{text}'"
+        f"invalid condition expression, expected one of '{'|'.join(_TRUE)}' or "
+        f"'{'|'.join(_FALSE)}' but got '{text}'"
     )

@@ -1,4 +1,4 @@
-"""Takes place if a text is true."""
+"""True when a text is true."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["IfCondition"]
 
 
 class IfCondition(Condition):
-    """Takes place if a text is true.
+    """True when a text is true.
 
     Args:
         predicate_expression: The text: ``true``, ``1``, ``false`` or ``0``.

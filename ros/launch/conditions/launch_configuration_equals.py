@@ -1,4 +1,4 @@
-"""Takes place when a launch configuration has a value."""
+"""True when a launch configuration has a value."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ __all__ = ["LaunchConfigurationEquals"]
 
 
 class LaunchConfigurationEquals(Condition):
-    """Takes place when a launch configuration has a value. Deprecated in ROS 2: ``IfCondition`` with ``EqualsSubstitution`` says the same.
+    """True when a launch configuration has a value.
+
+    Deprecated in ROS 2: ``IfCondition`` with ``EqualsSubstitution`` says the same.
 
     Args:
         launch_configuration_name: Name of the configuration; one that is not set equals nothing but

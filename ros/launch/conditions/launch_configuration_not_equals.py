@@ -1,4 +1,4 @@
-"""Takes place when a launch configuration has another value."""
+"""True when a launch configuration has another value."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["LaunchConfigurationNotEquals"]
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """Takes place when a launch configuration has another value. Deprecated in ROS 2, as its counterpart is."""
+    """True when a launch configuration has another value. Deprecated in ROS 2."""
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         return not super()._predicate_func(context)

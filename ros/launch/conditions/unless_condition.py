@@ -1,4 +1,4 @@
-"""Takes place unless a text is true."""
+"""True when a text is false."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["UnlessCondition"]
 
 
 class UnlessCondition(Condition):
-    """Takes place unless a text is true.
+    """True when a text is false.
 
     Args:
         predicate_expression: The text: ``true``, ``1``, ``false`` or ``0``.

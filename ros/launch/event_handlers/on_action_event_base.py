@@ -22,7 +22,7 @@ class OnActionEventBase(BaseEventHandler):
 
     Args:
         action_matcher: The action, a predicate over actions, or None for all.
-        on_event: What is visited then, or a function of event and context that returns it.
+        on_event: What to visit then, or a function of event and context that returns it.
         target_event_cls: The kind of events.
         target_action_cls: What the action must be an instance of.
         **kwargs: See :class:`BaseEventHandler`.
@@ -43,7 +43,8 @@ class OnActionEventBase(BaseEventHandler):
             or action_matcher is None
         ):
             raise ValueError(
-                f"action_matcher must be a '{target_action_cls.__name__}' instance or a callable, not {action_matcher!r}"
+                f"action_matcher must be a '{target_action_cls.__name__}' instance or a callable, "
+                f"not {action_matcher!r}"
             )
         self._action_matcher = action_matcher
         self._target_event_cls = target_event_cls
@@ -67,9 +68,10 @@ class OnActionEventBase(BaseEventHandler):
     @property
     def matcher_description(self) -> str:
         """Which events."""
+        text = f"event == {self._target_event_cls.__name__}"
         if self._action_matcher is None:
-            return f"event == {self._target_event_cls.__name__}"
-        return f"event == {self._target_event_cls.__name__} and event.action == {self._action_matcher!r}"
+            return text
+        return f"{text} and event.action == {self._action_matcher!r}"
 
     def describe(self) -> tuple[str, list[Any]]:
         """A text, and the fixed entities."""

@@ -22,7 +22,7 @@ class OnExecutionComplete(OnActionEventBase):
 
     Args:
         target_action: The action, a predicate over actions, or None for all.
-        on_completion: What is visited then, or a function of event and context that returns it.
+        on_completion: What to visit then, or a function of event and context that returns it.
         **kwargs: See :class:`BaseEventHandler`.
     """
 

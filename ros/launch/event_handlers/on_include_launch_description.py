@@ -16,7 +16,7 @@ __all__ = ["OnIncludeLaunchDescription"]
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
-    """Has the included description visited.
+    """Returns the included description, which is then visited.
 
     Args:
         **kwargs: See :class:`BaseEventHandler`.

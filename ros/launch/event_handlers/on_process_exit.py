@@ -23,7 +23,7 @@ class OnProcessExit(OnActionEventBase):
 
     Args:
         target_action: The action, a predicate over actions, or None for all.
-        on_exit: What is visited then, or a function of event and context that returns it.
+        on_exit: What to visit then, or a function of event and context that returns it.
         **kwargs: See :class:`BaseEventHandler`.
     """
 

@@ -23,7 +23,7 @@ class OnProcessStart(OnActionEventBase):
 
     Args:
         target_action: The action, a predicate over actions, or None for all.
-        on_start: What is visited then, or a function of event and context that returns it.
+        on_start: What to visit then, or a function of event and context that returns it.
         **kwargs: See :class:`BaseEventHandler`.
     """
 

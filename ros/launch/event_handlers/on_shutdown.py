@@ -20,7 +20,7 @@ class OnShutdown(EventHandler):
     """Handles the end of the launch.
 
     Args:
-        on_shutdown: What is visited then, or a function of event and context that returns it.
+        on_shutdown: What to visit then, or a function of event and context that returns it.
         **kwargs: See :class:`BaseEventHandler`.
     """
 

@@ -1,4 +1,4 @@
-"""An action has run its course."""
+"""An action has completed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["ExecutionComplete"]
 
 
 class ExecutionComplete(Event):
-    """An action has run its course.
+    """An action has completed.
 
     Args:
         action: The action.

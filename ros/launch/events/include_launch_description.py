@@ -1,4 +1,4 @@
-"""A launch description is to be visited."""
+"""A request to visit a launch description."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["IncludeLaunchDescription"]
 
 
 class IncludeLaunchDescription(Event):
-    """A launch description is to be visited.
+    """A request to visit a launch description.
 
     Args:
         launch_description: The description.

@@ -19,5 +19,5 @@ __all__ = ["matches_action", "matches_executable", "matches_name", "matches_pid"
 
 
 def matches_action(action: ProcessRunner) -> Callable[[ProcessRunner], bool]:
-    """Is run by this action."""
+    """Matches the process that this action runs."""
     return lambda other: other is action

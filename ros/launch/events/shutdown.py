@@ -1,4 +1,4 @@
-"""The launch is to end."""
+"""A request to end the launch."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ __all__ = ["Shutdown"]
 
 
 class Shutdown(Event):
-    """The launch is to end.
+    """A request to end the launch.
 
     Args:
         reason: Why.

@@ -1,4 +1,4 @@
-"""A timer has run out."""
+"""The time of a timer is over."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["TimerEvent"]
 
 
 class TimerEvent(Event):
-    """A timer has run out.
+    """The time of a timer is over.
 
     Args:
         timer_action: The timer.

@@ -1,4 +1,4 @@
-"""Launch files in other languages than Python: what their parsers share."""
+"""The parsers of launch files in XML, YAML and other languages."""
 
 from __future__ import annotations
 

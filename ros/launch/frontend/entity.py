@@ -8,10 +8,10 @@ __all__ = ["Entity"]
 
 
 class Entity:
-    """One element of a launch file; each language has a class of its own.
+    """One element of a launch file; each language has its own class.
 
     Attributes:
-        line: The line that it begins in, from 1; 0 when that is not known.
+        line: The line that it begins in, from 1; 0 if unknown.
     """
 
     line: int = 0
@@ -32,7 +32,7 @@ class Entity:
         raise NotImplementedError
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes and children that nobody asked for.
+        """Refuse attributes and children that the action did not read.
 
         Raises:
             ValueError: There are some.

@@ -1,4 +1,4 @@
-"""The names under which launch files in XML and YAML know actions and substitutions."""
+"""Names of actions and substitutions in launch files in XML and YAML."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ substitution_parse_methods: dict[str, Callable[..., Any]] = {}
 
 
 def expose_action(name: str) -> Callable[[_Exposed], _Exposed]:
-    """Make a class with a ``parse`` class method, or such a function, known as the action ``name``."""
+    """Name an action in XML and YAML: a class with a class method ``parse``, or such a function."""
     return _expose(name, action_parse_methods, "action")
 
 
 def expose_substitution(name: str) -> Callable[[_Exposed], _Exposed]:
-    """Make a class with a ``parse`` class method, or such a function, known as the substitution ``name``."""
+    """Name a substitution in XML and YAML, as :func:`expose_action` does an action."""
     return _expose(name, substitution_parse_methods, "substitution")
 
 
@@ -41,7 +41,8 @@ def _expose(
         method = getattr(exposed, "parse", exposed)
         if not callable(method):
             raise RuntimeError(  # noqa: TRY004  as in ROS 2
-                f"While exposing {kind} '{name}', it must be a callable or have a callable `parse` method"
+                f"While exposing {kind} '{name}', "
+                "it must be a callable or have a callable `parse` method"
             )
         if name in methods and methods[name] != method:
             raise RuntimeError(f"Two {kind}s are exposed as '{name}'")

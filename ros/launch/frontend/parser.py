@@ -28,13 +28,16 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
 
 
 class Parser:
-    """Base of the parsers of the single languages, and what is common to them."""
+    """Base of the parsers, one for each language."""
 
     @classmethod
     def load(cls, file: str | io.TextIOBase) -> tuple[Entity, Parser]:
-        """Read a file, given by path or opened, into its root element and the parser of its language.
+        """Read a file into its root element, and choose the parser of its language.
 
-        The language that belongs to the file's suffix is tried first, then the others.
+        The language of the file's suffix is tried first, then the others.
+
+        Args:
+            file: Path of the file, or the opened file.
 
         Raises:
             InvalidFrontendLaunchFileError: No language fits.
@@ -48,7 +51,7 @@ class Parser:
                 return parser.load(file)
             except OSError:  # noqa: PERF203  two or three languages
                 raise
-            except Exception as error:  # noqa: BLE001  each language says in its own way that a file is none of its kind
+            except Exception as error:  # noqa: BLE001  each language has its own errors
                 if suffix in parser.get_file_extensions():
                     errors.append(error)
                 if not isinstance(file, str):
@@ -57,7 +60,7 @@ class Parser:
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
-        """Suffixes of the languages there are, without dot."""
+        """Suffixes of all installed languages, without dot."""
         return [suffix for parser in _parsers() for suffix in sorted(parser.get_file_extensions())]
 
     @classmethod
@@ -67,14 +70,14 @@ class Parser:
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        """Whether there is a language of that suffix."""
+        """Whether a language with that suffix is installed."""
         return extension.removeprefix(".") in cls.get_available_extensions()
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
         """The launch description of a root element.
 
         Raises:
-            RuntimeError: It is no root element, or an element is unknown.
+            RuntimeError: It is not a root element, or an element is unknown.
         """
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
@@ -83,11 +86,12 @@ class Parser:
         return LaunchDescription(actions)
 
     def parse_action(self, entity: Entity) -> LaunchDescriptionEntity:
-        """The action of an element. Errors get the line of the innermost element that has one, as ``launch_file_line``.
+        """The action of an element.
 
         Raises:
             RuntimeError: There is no such action.
             ValueError: The element has attributes or children that the action does not know.
+            Exception: All errors carry the line of the innermost element as ``launch_file_line``.
         """
         try:
             return self._action(entity)
@@ -119,7 +123,7 @@ class Parser:
         return value
 
     def escape_characters(self, value: str) -> str:
-        r"""A text that holds no substitutions, with ``\$``, ``\'``, ``\"`` and ``\\`` replaced by the character alone."""
+        r"""Unescape a text without substitutions: ``\$``, ``\'``, ``\"`` and ``\\``."""
         return re.sub(r"\\([$'\"\\])", r"\1", value)
 
 
@@ -132,7 +136,10 @@ def _parsers() -> list[type[Parser]]:
 
 @cache
 def _load_extensions() -> None:
-    """Import what exposes actions and substitutions: launch itself, and packages that say so by an entry point (launch_ros does)."""
+    """Import the modules that expose actions and substitutions.
+
+    These are launch itself and packages with an entry point for it, such as launch_ros.
+    """
     from importlib.metadata import entry_points
 
     for module in ("launch.actions", "launch.substitutions"):

@@ -14,7 +14,7 @@ _FALSE = ("no", "false", "off")
 
 
 def list_item_type(data_type: Any) -> Any:
-    """What the items of a list type are, or None when the type is no list."""
+    """What the items of a list type are, or None for other types."""
     return (
         typing.get_args(data_type)[0]
         if typing.get_origin(data_type) is list and typing.get_args(data_type)
@@ -33,10 +33,10 @@ def coerce(text: str, data_type: Any) -> Any:
 
     Args:
         text: The text.
-        data_type: ``int``, ``float``, ``bool``, ``str``, or None for whatever YAML makes of it.
+        data_type: ``int``, ``float``, ``bool``, ``str``, or None for what YAML makes of it.
 
     Raises:
-        ValueError: It means none of that type.
+        ValueError: It has no value of that type.
     """
     if data_type is str:
         return text

@@ -26,7 +26,7 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     """Read a launch file; the language that belongs to its suffix is tried first.
 
     Raises:
-        InvalidLaunchFileError: No language fits; the text says what each of them found.
+        InvalidLaunchFileError: No language fits; the text holds the error of each.
         ValueError: There is no such file.
     """
     if not os.path.isfile(launch_file_path):

@@ -22,7 +22,7 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
 
     Args:
         launch_file_path: Path of the file.
-        method: How the description comes about, for messages.
+        method: How the description is read, for messages.
         parser: The language; None tries all, the one of the file's suffix first.
     """
 

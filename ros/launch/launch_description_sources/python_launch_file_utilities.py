@@ -28,7 +28,7 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
     """Run the file as a module, without leaving bytecode beside it.
 
     Raises:
-        Exception: Whatever the file raises.
+        Exception: What the file raises.
     """
     loader = _UncachedLoader(MODULE_NAME, python_launch_file_path)
     spec = spec_from_loader(loader.name, loader)
@@ -45,12 +45,13 @@ def get_launch_description_from_python_launch_file(
 
     Raises:
         InvalidPythonLaunchFileError: It does not define that function.
-        Exception: Whatever the file raises.
+        Exception: What the file raises.
     """
     module = load_python_launch_file_as_module(python_launch_file_path)
     if not hasattr(module, "generate_launch_description"):
         raise InvalidPythonLaunchFileError(
-            f"launch file at '{python_launch_file_path}' does not contain the required function 'generate_launch_description()'"
+            f"launch file at '{python_launch_file_path}' does not contain the required function "
+            "'generate_launch_description()'"
         )
     return cast("LaunchDescription", module.generate_launch_description())
 

@@ -1,4 +1,4 @@
-"""Log lines of a launch: what goes to the screen, to ``launch.log`` and to files of the single processes.
+"""Log lines of a launch: on the screen, in ``launch.log`` and in files of single processes.
 
 Built on the standard library's ``logging``; its level names and constants are available from here.
 """

@@ -1,4 +1,4 @@
-"""How the log lines of a launch look and where they go."""
+"""Formats and destinations of the log lines of a launch."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _OUTPUTS: dict[str, dict[str, set[str]]] = {
 
 
 class _Formatter(logging.Formatter):
-    """Lines of processes are shown as they are; own lines get level and name, in colour on a terminal."""
+    """Shows the output of processes unchanged, and other lines with their level and name."""
 
     def __init__(self, style: str, *, colored: bool = False) -> None:
         super().__init__(style, style="{")
@@ -77,15 +77,14 @@ class _Formatter(logging.Formatter):
         return self._fmt is not None and "created" in self._fmt
 
 
-class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # takes no argument in Python 3.10
+class _ScreenHandler(logging.StreamHandler):  # type: ignore[type-arg]  # not generic in 3.10
     """Writes to stdout. A closed stdout ends the launch like SIGTERM, and so its processes."""
 
     def __init__(self) -> None:
         super().__init__(sys.stdout)
         if hasattr(self.stream, "reconfigure"):
-            self.stream.reconfigure(
-                errors="backslashreplace"
-            )  # processes write what the terminal's encoding may not have
+            # The terminal's encoding may lack characters that processes write.
+            self.stream.reconfigure(errors="backslashreplace")
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         error = sys.exc_info()[1]
@@ -126,7 +125,7 @@ class LaunchConfig:
         self.reset()
 
     def reset(self) -> None:
-        """Back to the defaults; the next line that is written to a file makes a new folder."""
+        """Go back to the defaults; the next line in a file creates a new folder."""
         for handler in self._log_handlers.values():
             handler.close()
         self._log_handlers.clear()
@@ -146,7 +145,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """Folder of the log files of this launch; made at the first use."""
+        """Folder of the log files of this launch, created at its first use."""
         if self._log_dir is None:
             self._log_dir = make_launch_log_dir(default_log_dir())
         return self._log_dir
@@ -160,13 +159,13 @@ class LaunchConfig:
         self._log_dir = path
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Format of lines on the screen: ``default``, ``default_with_timestamp`` or fields in braces."""
+        """Set the format of the screen: ``default``, ``default_with_timestamp``, or braces."""
         _refuse_other_style(screen_style)
         self._screen_format = screen_format
         self._screen_handler = None
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Format of lines in files, as for the screen."""
+        """Set the format of the log files, as for the screen."""
         _refuse_other_style(log_style)
         self._log_format = log_format
         self._log_handlers.clear()
@@ -186,7 +185,7 @@ class LaunchConfig:
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
-        """The handler that writes to a log file of this launch; files are made at their first line."""
+        """The handler that writes to a log file of this launch, created at its first line."""
         if file_name not in self._log_handlers:
             handler = _FileHandler(self.get_log_file_path(file_name))
             handler.setFormatter(_Formatter(_NAMED_FORMATS.get(self._log_format, self._log_format)))
@@ -195,7 +194,7 @@ class LaunchConfig:
 
 
 class _MainHandler(logging.Handler):
-    """Hands the lines of the launch itself to screen and main log file as they are configured at the time."""
+    """Sends the lines of the launch itself to the screen and the main log file."""
 
     def emit(self, record: logging.LogRecord) -> None:
         launch_config.get_screen_handler().handle(record)
@@ -236,7 +235,7 @@ def get_output_loggers(
             ``log``, ``own_log``.
 
     Raises:
-        ValueError: It is none of these.
+        ValueError: ``output_config`` is something else.
     """
     destinations = _normalized(output_config)
     loggers = []
@@ -259,14 +258,14 @@ def get_output_loggers(
 
 
 def log_launch_config(*, logger: logging.Logger | None = None) -> None:
-    """Say where the log files are and which lines are shown."""
+    """Log the folder of the log files and the level."""
     logger = logger or logging.getLogger("launch")
     logger.info("All log files can be found below %s", launch_config.log_dir)
     logger.info("Default logging verbosity is set to %s", logging.getLevelName(launch_config.level))
 
 
 def reset() -> None:
-    """Forget folder, handlers and formats."""
+    """Reset folder, handlers and formats."""
     launch_config.reset()
 
 
@@ -274,7 +273,8 @@ def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
     if isinstance(output_config, str):
         if output_config not in _OUTPUTS:
             raise ValueError(
-                f"'{output_config}' is not a valid standard output config i.e. one of: {', '.join(_OUTPUTS)}"
+                f"'{output_config}' is not a valid standard output config i.e. one of: "
+                f"{', '.join(_OUTPUTS)}"
             )
         return _OUTPUTS[output_config]
     normalized = {}

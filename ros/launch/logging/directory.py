@@ -12,7 +12,7 @@ __all__ = ["default_log_dir", "make_launch_log_dir"]
 
 
 def default_log_dir() -> str:
-    """Below which each launch has its folder: ``ROS_LOG_DIR``, else ``$ROS_HOME/log``, else ``~/.ros/log``."""
+    """The parent of all launches' folders: ``ROS_LOG_DIR``, ``$ROS_HOME/log`` or ``~/.ros/log``."""
     explicit = os.environ.get("ROS_LOG_DIR")
     if explicit:
         return str(Path(explicit).expanduser())
@@ -20,10 +20,10 @@ def default_log_dir() -> str:
 
 
 def make_launch_log_dir(parent: str) -> str:
-    """Make a folder that is named after time, host and process; the link ``latest`` beside it points there.
+    """Create a folder named after time, host and process; the link ``latest`` points to it.
 
     Raises:
-        RuntimeError: It cannot be made.
+        RuntimeError: It cannot be created.
     """
     moment = dt.datetime.now().astimezone().strftime("%Y-%m-%d-%H-%M-%S-%f")
     base = Path(parent) / f"{moment}-{socket.gethostname()}-{os.getpid()}"
@@ -31,7 +31,8 @@ def make_launch_log_dir(parent: str) -> str:
         base.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise RuntimeError(
-            f"cannot make the log folder {base} ({error.strerror}); ROS_LOG_DIR can name another place"
+            f"cannot make the log folder {base} ({error.strerror}); "
+            "ROS_LOG_DIR can name another place"
         ) from error
     # Not every file system has links, and another launch may make it at the same time: logging
     # works without.

@@ -156,7 +156,8 @@ class _Many(Substitution):
 
     def describe(self) -> str:
         """Name the operands."""
-        return f"{type(self).__name__}({' '.join(' + '.join(part.describe() for part in arg) for arg in self._args)})"
+        arguments = (" + ".join(part.describe() for part in arg) for arg in self._args)
+        return f"{type(self).__name__}({' '.join(arguments)})"
 
 
 @expose_substitution("any")

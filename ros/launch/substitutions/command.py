@@ -84,7 +84,10 @@ class Command(Substitution):
             )
             raise SubstitutionFailure(message)
         if result.stderr:
-            message = f"executed command showed stderr output. Command: {line}\nCaptured stderr output:\n{result.stderr}"
+            message = (
+                f"executed command showed stderr output. Command: {line}\n"
+                f"Captured stderr output:\n{result.stderr}"
+            )
             if on_stderr == "fail":
                 raise SubstitutionFailure(message)
             if on_stderr == "warn":

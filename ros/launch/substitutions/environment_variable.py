@@ -24,7 +24,7 @@ class EnvironmentVariable(Substitution):
 
     Args:
         name: Its name.
-        default_value: What stands in when it is not set; None makes that an error.
+        default_value: The value if it is not set; without one that is an error.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class EnvironmentVariable(Substitution):
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """What stands in when it is not set."""
+        """The value if it is not set."""
         return self._default_value
 
     def describe(self) -> str:

@@ -19,7 +19,9 @@ __all__ = ["EqualsSubstitution", "NotEqualsSubstitution"]
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):
-    """Whether two texts are equal. Numbers are compared as numbers, ``true`` equals ``1``, ``false`` equals ``0``.
+    """Whether two texts are equal.
+
+    Numbers are compared as numbers; ``true`` equals ``1``, and ``false`` equals ``0``.
 
     Args:
         left: The one: text, substitutions, a number or a truth value.

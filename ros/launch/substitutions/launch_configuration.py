@@ -24,7 +24,7 @@ class LaunchConfiguration(Substitution):
 
     Args:
         variable_name: Its name.
-        default: What stands in when it is not set; None makes that an error. Other values than text
+        default: The value if it is not set; without one that is an error. Other values than text
             are written as text.
     """
 

@@ -1,4 +1,4 @@
-"""A value that belongs to the present event."""
+"""A value of the current event."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["LocalSubstitution"]
 
 
 class LocalSubstitution(Substitution):
-    """A value that belongs to the present event, for example ``LocalSubstitution("event.reason")``.
+    """A value of the current event, for example ``LocalSubstitution("event.reason")``.
 
     Args:
         expression: A name among the context's locals, and what Python allows to follow it:
@@ -43,9 +43,10 @@ class LocalSubstitution(Substitution):
         """The value as text.
 
         Raises:
-            SubstitutionFailure: There is none of that name.
+            SubstitutionFailure: There is no such local.
         """
         try:
-            return str(eval(f"locals.{self._expression}", {}, {"locals": context.locals}))  # noqa: S307
+            value = eval(f"locals.{self._expression}", {}, {"locals": context.locals})  # noqa: S307
         except Exception as error:
             raise SubstitutionFailure(f"no local '{self._expression}': {error}") from error
+        return str(value)

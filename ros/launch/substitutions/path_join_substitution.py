@@ -35,7 +35,8 @@ class PathJoinSubstitution(Substitution):
 
     def describe(self) -> str:
         """Name the parts."""
-        return f"PathJoin({', '.join(' + '.join(sub.describe() for sub in part) for part in self._substitutions)})"
+        parts = (" + ".join(sub.describe() for sub in part) for part in self._substitutions)
+        return f"PathJoin({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:
         """The path."""
@@ -47,7 +48,7 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """A path that grows by ``/``: ``PathSubstitution(FindPackageShare("turtlesim")) / "launch" / "x.launch.py"``.
+    """A path that ``/`` extends: ``PathSubstitution(FindPackageShare("turtlesim")) / "launch"``.
 
     Args:
         path: The first part.

@@ -1,4 +1,4 @@
-"""Turning what users write into lists of substitutions, and those into text."""
+"""Text, paths and substitutions as lists of substitutions, and those as text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ def normalize_to_list_of_substitutions(subst: SomeSubstitutionsType) -> list[Sub
     if hasattr(subst, "__iter__"):
         return [_substitution(item) for item in subst]
     raise TypeError(
-        f"'{subst}' is neither text nor a substitution nor a list of them, but {type(subst).__name__}"
+        f"'{subst}' is neither text nor a substitution nor a list of them, "
+        f"but {type(subst).__name__}"
     )
 
 
@@ -43,5 +44,6 @@ def _substitution(item: object) -> Substitution:
     if isinstance(item, (str, Path)):
         return TextSubstitution(text=str(item))
     raise TypeError(
-        f"Failed to normalize given item of type '{type(item)}', when only 'str', 'Path' or 'launch.Substitution' were expected."
+        f"Failed to normalize given item of type '{type(item)}', "
+        "when only 'str', 'Path' or 'launch.Substitution' were expected."
     )

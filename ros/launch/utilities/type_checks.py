@@ -1,4 +1,4 @@
-"""Checks of what users hand to constructors."""
+"""Type checks of arguments."""
 
 from __future__ import annotations
 
@@ -38,5 +38,6 @@ def ensure_argument_type(
     expected = names if len(allowed) == 1 else f"one of [{names}]"
     where = "" if caller is None else f" of {caller}"
     raise TypeError(
-        f"Expected '{argument_name}'{where} to be of type {expected}, but got '{argument}' of type '{type(argument)}'"
+        f"Expected '{argument_name}'{where} to be of type {expected}, "
+        f"but got '{argument}' of type '{type(argument)}'"
     )

@@ -20,7 +20,9 @@ __all__ = ["LifecycleNode", "change_state"]
 
 
 class LifecycleNode(Node):
-    """Runs a managed node; changes of its state become events, and :class:`ChangeState` events change its state.
+    """Runs a managed node.
+
+    Changes of its state become events, and :class:`ChangeState` events change its state.
 
     Args:
         name: Name of the node.

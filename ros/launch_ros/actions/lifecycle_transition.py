@@ -21,7 +21,9 @@ __all__ = ["LifecycleTransition"]
 
 
 class LifecycleTransition(Action):
-    """Takes managed nodes through transitions, each node through one after the other; a failure ends those of its node.
+    """Takes managed nodes through transitions, one after the other for each node.
+
+    If a transition fails, the later ones of that node are left out.
 
     Args:
         lifecycle_node_names: Full names of the nodes.
@@ -49,7 +51,7 @@ class LifecycleTransition(Action):
         self._done: asyncio.Future[Any] | None = None
 
     def get_asyncio_future(self) -> asyncio.Future[Any] | None:
-        """Done when all nodes went through all transitions."""
+        """Done when all nodes have gone through their transitions."""
         return self._done
 
     def execute(self, context: LaunchContext) -> None:

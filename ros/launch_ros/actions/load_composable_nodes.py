@@ -28,7 +28,7 @@ __all__ = ["LoadComposableNodes"]
 
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
-    """Loads nodes into the process of a container, one after the other, as soon as the container is there.
+    """Loads nodes into the process of a container, one after the other, once it is ready.
 
     Args:
         composable_node_descriptions: The nodes.
@@ -86,7 +86,7 @@ class LoadComposableNodes(Action):
             )
 
     def _abandon(self, *_: Any) -> None:
-        """Stop waiting: nobody would answer any more."""
+        """Stop waiting; the container has ended and will not answer."""
         assert self._task is not None
         self._task.cancel()
 
@@ -126,7 +126,8 @@ class LoadComposableNodes(Action):
         count = add_node_name(context, name)
         if count > 1:
             self._logger.warning(
-                "there are now at least %s nodes with the name %s created within this launch context",
+                "there are now at least %s nodes with the name %s "
+                "created within this launch context",
                 count,
                 name,
             )

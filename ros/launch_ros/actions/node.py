@@ -116,7 +116,7 @@ class Node(ExecuteProcess):
 
     @property
     def node_name(self) -> str:
-        """The full name of the node; ``<node_name_unspecified>`` stands for one that the program chooses."""
+        """Full name of the node; ``<node_name_unspecified>`` if the program chooses the name."""
         return self._ros.full_name
 
     @property
@@ -130,24 +130,25 @@ class Node(ExecuteProcess):
         return self._expanded_remappings
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether the launch file says name and namespace."""
+        """Whether the launch file gives name and namespace."""
         return self._ros.name is not None and self._ros.namespace is not None
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Work out name, parameters and remappings, then run the process."""
+        """Find name, parameters and remappings, then run the process."""
         result = super().execute(context)
         if self._ros.name is not None and not context.is_shutdown:
             count = add_node_name(context, self.node_name)
             if count > 1:
                 self._logger.warning(
-                    "there are now at least %s nodes with the name %s created within this launch context",
+                    "there are now at least %s nodes with the name %s "
+                    "created within this launch context",
                     count,
                     self.node_name,
                 )
         return result
 
     def prepare(self, context: LaunchContext) -> None:
-        """Perform the substitutions, and append the arguments that come of the scope."""
+        """Perform the substitutions, and append the arguments that the scope adds."""
         self._ros.expand_names(context)
         context.extend_locals({"ros_specific_arguments": {"name": f"__node:={self._ros.name}"}})
         super().prepare(context)

@@ -21,7 +21,9 @@ __all__ = ["PushROSNamespace", "PushRosNamespace"]
 @expose_action("push_ros_namespace")
 @expose_action("push-ros-namespace")
 class PushROSNamespace(Action):
-    """Puts the nodes that follow into a namespace, within that of the scope; a ``GroupAction`` confines it.
+    """Puts the nodes that follow into a namespace, relative to that of the scope.
+
+    A ``GroupAction`` limits it to its own actions.
 
     Args:
         namespace: The namespace.

@@ -19,7 +19,9 @@ __all__ = ["ROSTimer", "RosTimer"]
 
 @expose_action("ros_timer")
 class ROSTimer(TimerAction):
-    """Visits actions after a time of ROS: that of ``/clock`` when the scope sets ``use_sim_time``, else that of the computer.
+    """Visits actions after a period of ROS time.
+
+    ROS time is that of ``/clock`` if the scope sets ``use_sim_time``, else the system's.
 
     Args:
         period: Seconds: a number, or a text that is one.

@@ -20,7 +20,9 @@ __all__ = ["SetParameter"]
 
 @expose_action("set_parameter")
 class SetParameter(Action):
-    """Sets a parameter of all nodes that follow; a ``GroupAction`` confines it.
+    """Sets a parameter of all nodes that follow.
+
+    A ``GroupAction`` limits it to its own actions.
 
     Args:
         name: Its name.

@@ -19,7 +19,9 @@ __all__ = ["SetParametersFromFile"]
 
 @expose_action("set_parameters_from_file")
 class SetParametersFromFile(Action):
-    """Gives a parameter file to all nodes that follow; a ``GroupAction`` confines it.
+    """Gives a parameter file to all nodes that follow.
+
+    A ``GroupAction`` limits it to its own actions.
 
     Args:
         filename: Path of the file.

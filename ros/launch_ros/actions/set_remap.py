@@ -20,7 +20,9 @@ __all__ = ["SetRemap"]
 
 @expose_action("set_remap")
 class SetRemap(Action):
-    """Remaps a name of all nodes that follow; a ``GroupAction`` confines it.
+    """Remaps a name of all nodes that follow.
+
+    A ``GroupAction`` limits it to its own actions.
 
     Args:
         src: The name.

@@ -1,4 +1,4 @@
-"""Has all nodes that follow take the time from ``/clock``."""
+"""Makes all nodes that follow use the time from ``/clock``."""
 
 from __future__ import annotations
 

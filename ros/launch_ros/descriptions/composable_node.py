@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.conditions import IfCondition, UnlessCondition
+from launch.frontend import Entity
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.elements import parse_parameters, parse_remappings, parse_value
 from launch_ros.utilities.node_arguments import NodeArguments
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from launch.condition import Condition
-    from launch.frontend import Entity, Parser
+    from launch.frontend import Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch_ros.parameters_type import SomeParameters
@@ -71,7 +72,7 @@ class ComposableNode:
                 kwargs["condition"] = condition(parser.parse_substitution(text))
         kwargs["parameters"] = parse_parameters(entity, parser)
         kwargs["remappings"] = parse_remappings(entity, parser)
-        extra = entity.get_attr("extra_arg", data_type=list[type(entity)], optional=True) or ()  # type: ignore[misc]
+        extra = entity.get_attr("extra_arg", data_type=list[Entity], optional=True) or ()
         kwargs["extra_arguments"] = [
             {tuple(parser.parse_substitution(item.get_attr("name"))): parse_value(item, parser)}
             for item in extra
@@ -84,7 +85,7 @@ class ComposableNode:
         return self._condition is None or self._condition.evaluate(context)
 
     def load_request(self, context: LaunchContext) -> Any:
-        """A request of ``composition_interfaces/srv/LoadNode`` for it, with all that the scope adds.
+        """Its request of ``composition_interfaces/srv/LoadNode``, with all that the scope adds.
 
         Raises:
             SubstitutionFailure: A substitution has no text.

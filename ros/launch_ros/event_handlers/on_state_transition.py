@@ -22,7 +22,7 @@ class OnStateTransition(EventHandler):
     """Handles a change of the state of a managed node.
 
     Args:
-        entities: What is visited then, or a function of event and context that returns it.
+        entities: What to visit then, or a function of event and context that returns it.
         target_lifecycle_node: The node; None for all.
         transition: Name of the transition; None for all.
         start_state: Name of the state before; None for all.

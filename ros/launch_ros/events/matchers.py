@@ -15,6 +15,6 @@ __all__ = ["matches_node_name"]
 
 
 def matches_node_name(node_name: str) -> Callable[[NamedNode], bool]:
-    """Is the node of this full name."""
+    """Matches the node with this full name."""
     absolute = make_namespace_absolute(node_name)
     return lambda node: node.node_name == absolute

@@ -8,7 +8,7 @@ __all__ = ["NamedNode"]
 
 
 class NamedNode(Protocol):
-    """The action that runs a node; ``Node`` and ``LifecycleNode`` are ones."""
+    """What events know of a ``Node`` or ``LifecycleNode``."""
 
     @property
     def node_name(self) -> str:

@@ -83,6 +83,7 @@ class ExecutableInPackage(Substitution):
             )
         if len(found) > 1:
             raise SubstitutionFailure(
-                f"multiple executables named '{executable}' found in the package '{package}': {found}"
+                f"multiple executables named '{executable}' found in the package '{package}': "
+                f"{found}"
             )
         return found[0]

@@ -24,7 +24,7 @@ class Parameter(Substitution):
 
     Args:
         name: Its name.
-        default: What stands in when it is not set; None makes that an error.
+        default: The value if it is not set; without one that is an error.
     """
 
     def __init__(

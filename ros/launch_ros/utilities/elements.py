@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 __all__ = ["parse_parameters", "parse_remappings", "parse_value"]
 
 _TYPES: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
-_TYPES |= {f"list_of_{name}": list[kind] for name, kind in _TYPES.items()}  # type: ignore[valid-type]
+_TYPES |= {
+    f"list_of_{name}": list[kind]  # type: ignore[valid-type]
+    for name, kind in _TYPES.items()
+}
 
 
 def parse_remappings(
@@ -35,7 +38,9 @@ def parse_remappings(
 
 
 def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
-    """The ``param`` elements in an element: files by ``from``, values by ``name`` and ``value``, and nested ones.
+    """The ``param`` elements in an element.
+
+    A file has ``from``, a value ``name`` and ``value``; elements may be nested.
 
     Raises:
         RuntimeError: An element has neither or too much.
@@ -57,7 +62,7 @@ def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
 def parse_value(
     entity: Entity, parser: Parser, data_type: Any = None, *, optional: bool = False
 ) -> Any:
-    """The attribute ``value`` of an element: numbers, truth values and plain text as they are, else substitutions."""
+    """The attribute ``value`` of an element: a number, a truth value, a text or substitutions."""
     return _parsed(entity.get_attr("value", data_type=data_type, optional=optional), parser)
 
 
@@ -67,7 +72,7 @@ def _parsed(value: Any, parser: Parser) -> Any:
     if not isinstance(value, str):
         return value
     parts = parser.parse_substitution(value)
-    # Substitutions mean what YAML makes of their text; text that stands in the file is text.
+    # Substitutions mean what YAML makes of their text; text in the file is text.
     return parts[0].text if len(parts) == 1 and isinstance(parts[0], TextSubstitution) else parts
 
 

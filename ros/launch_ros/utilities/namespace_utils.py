@@ -21,12 +21,12 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def make_namespace_absolute(ns: str) -> str:
-    """The namespace below the root; empty for the root of nothing."""
+    """The namespace with a leading slash; an empty one stays empty."""
     return ns if not ns or is_namespace_absolute(ns) else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """``ns`` inside of ``base_ns``; an absolute one stands for itself."""
+    """``ns`` within ``base_ns``; an absolute ``ns`` stays as it is."""
     if ns is None or ns == "":
         return base_ns
     if base_ns is None or base_ns == "" or is_namespace_absolute(ns):

@@ -1,4 +1,4 @@
-"""What a launch file and its scope say about one node, as words after ``--ros-args``."""
+"""The ``--ros-args`` of one node, from its launch file and scope."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class NodeArguments:
         remappings: ``(from, to)`` pairs.
 
     Raises:
-        TypeError: The parameters are no list.
+        TypeError: The parameters are not a list.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class NodeArguments:
 
     @property
     def full_name(self) -> str:
-        """Namespace and name; ``<node_name_unspecified>`` stands for a name that the program chooses."""
+        """Namespace and name; ``<node_name_unspecified>`` if the program chooses the name."""
         return f"{(self.namespace or '').rstrip('/')}/{self.name or '<node_name_unspecified>'}"
 
     def name_words(self) -> list[SomeSubstitutionsType]:

@@ -1,4 +1,4 @@
-"""Values of parameters: performed, of one type, and flat."""
+"""Evaluates parameter values: substitutions, types and nested mappings."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def evaluate_parameter_dict(
     """Flat names, joined by dots, with performed values.
 
     Raises:
-        TypeError: A value has a type that parameters do not have.
+        TypeError: Parameters cannot have the type of a value.
     """
     flat: dict[str, Any] = {}
     for key, value in parameters.items():
@@ -51,7 +51,7 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
         name: Names the parameter in errors.
 
     Raises:
-        TypeError: It has a type that parameters do not have.
+        TypeError: Parameters cannot have its type.
     """
     if hasattr(value, "evaluate"):
         return value.evaluate(context)
@@ -61,7 +61,8 @@ def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:
         return typed(perform_substitutions(context, [value]), None)
     if not hasattr(value, "__iter__") or hasattr(value, "items"):
         raise TypeError(
-            f"the parameter '{name}' has a value of type {type(value).__name__}; allowed are text, numbers, truth values, "
+            f"the parameter '{name}' has a value of type {type(value).__name__}; "
+            "allowed are text, numbers, truth values, "
             "substitutions, and sequences of one of these"
         )
     items = list(value)
@@ -84,8 +85,8 @@ def typed(text: str, value_type: Any) -> Any:
         value_type: The type; None takes what YAML makes of it.
 
     Raises:
-        ValueError: It means none of that type.
-        TypeError: A list is wanted, and it is none.
+        ValueError: It has no value of that type.
+        TypeError: The text is not a list, as the type is.
     """
     item_type = list_item_type(value_type)
     if item_type is None:
@@ -105,6 +106,7 @@ def _uniform(items: list[Any], name: str) -> list[Any]:
     if len(kinds) > 1 or not kinds <= set(_SCALARS):
         found = ", ".join(sorted(kind.__name__ for kind in kinds))
         raise TypeError(
-            f"the sequence of the parameter '{name}' must hold values of one type, but has {found}: {items}"
+            f"the sequence of the parameter '{name}' must hold values of one type, "
+            f"but has {found}: {items}"
         )
     return items

@@ -1,6 +1,6 @@
 """What applies to all nodes of a scope: namespace, parameters, remappings.
 
-They are kept among the launch configurations, so that a ``GroupAction`` confines them.
+They are kept among the launch configurations, so that a ``GroupAction`` limits them.
 """
 
 from __future__ import annotations
@@ -14,13 +14,14 @@ __all__ = ["add_global_parameter", "add_remap", "global_parameters", "remaps"]
 
 
 def global_parameters(context: LaunchContext) -> list[Any]:
-    """``(name, value)`` pairs, and paths of parameter files, in the order in which they were set."""
+    """``(name, value)`` pairs and paths of parameter files, in the order of their setting."""
     return list(cast("list[Any]", context.launch_configurations.get("global_params", [])))
 
 
 def add_global_parameter(context: LaunchContext, entry: Any) -> None:
     """Set a parameter, or a file of parameters, for the nodes that follow."""
-    context.launch_configurations["global_params"] = [*global_parameters(context), entry]  # type: ignore[assignment]
+    entries: Any = [*global_parameters(context), entry]
+    context.launch_configurations["global_params"] = entries
 
 
 def remaps(context: LaunchContext) -> list[tuple[str, str]]:
@@ -30,4 +31,5 @@ def remaps(context: LaunchContext) -> list[tuple[str, str]]:
 
 def add_remap(context: LaunchContext, source: str, target: str) -> None:
     """Remap a name for the nodes that follow."""
-    context.launch_configurations["ros_remaps"] = [*remaps(context), (source, target)]  # type: ignore[assignment]
+    pairs: Any = [*remaps(context), (source, target)]
+    context.launch_configurations["ros_remaps"] = pairs

@@ -129,12 +129,12 @@ def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
 
 
 def _at_terminal() -> bool:
-    return sys.stdin is not None and sys.stdin.isatty()  # None: whoever started this has closed it
+    return sys.stdin is not None and sys.stdin.isatty()  # None if it was closed at the start
 
 
 @contextlib.contextmanager
 def _terminal_restored() -> Iterator[None]:
-    """A launched node may have put the terminal into another mode, and have been killed before it could undo that."""
+    """Restore the mode of the terminal, for a node that changed it and was killed."""
     if not _at_terminal():
         yield
         return
@@ -215,11 +215,15 @@ def _in_share(package: str, share: str, name: str) -> str:
     if not found:
         from ros2cli.suggestion import did_you_mean
 
-        message = f"file '{name}' was not found in the share directory of package '{package}' which is at '{share}'"
+        message = (
+            f"file '{name}' was not found in the share directory of package '{package}' "
+            f"which is at '{share}'"
+        )
         raise RuntimeError(message + did_you_mean(name, _files_in(share)))
     if len(found) > 1:
         raise RuntimeError(
-            f"file '{name}' was found more than once in the share directory of package '{package}': {sorted(found)}"
+            f"file '{name}' was found more than once in the share directory of package "
+            f"'{package}': {sorted(found)}"
         )
     return found[0]
 
@@ -245,7 +249,7 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     """``name:=value`` pairs, the last one of each name.
 
     Raises:
-        RuntimeError: A word is none.
+        RuntimeError: A word is not a pair.
     """
     values: dict[str, str] = {}
     for word in words:

@@ -21,7 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the command line."""
     parser.add_argument(
         "--prefix",
-        help="Command to put before the executable, for example a debugger: --prefix 'gdb -ex run --args'",
+        help="Command to put before the executable, for example a debugger: "
+        "--prefix 'gdb -ex run --args'",
     )
     package = parser.add_argument("package_name", help="Name of the package")
     package.completer = packages  # type: ignore[attr-defined]

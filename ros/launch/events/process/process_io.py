@@ -10,7 +10,7 @@ __all__ = ["ProcessIO"]
 
 
 class ProcessIO(RunningProcessEvent):
-    """Bytes from or for a process.
+    """Bytes that a process reads or writes.
 
     Args:
         text: The bytes.

@@ -1,4 +1,4 @@
-"""A process is to be sent input."""
+"""A request to send input to a process."""
 
 from __future__ import annotations
 
@@ -15,11 +15,14 @@ __all__ = ["ProcessStdin"]
 
 
 class ProcessStdin(ProcessTargetedEvent):
-    """A process is to be sent input. Reaches it when its input is a pipe, that is, when the launch has no terminal.
+    """A request to send input to a process.
+
+    It takes effect if the process reads from a pipe. With ``emulate_tty`` it reads from the
+    terminal of the launch, if there is one.
 
     Args:
         text: The bytes.
-        process_matcher: Which processes.
+        process_matcher: Which processes: a predicate over their actions.
     """
 
     name = "launch.events.process.ProcessStdin"

@@ -1,4 +1,4 @@
-"""Something that is to happen to processes of the launch."""
+"""A request to processes of the launch."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["ProcessTargetedEvent", "matches_executable", "matches_name", "matche
 
 
 class ProcessTargetedEvent(Event):
-    """Is for each process whose action fulfils the predicate.
+    """A request to each process whose action fulfils a predicate.
 
     Args:
         process_matcher: The predicate, for example ``matches_action(node)``.
@@ -33,21 +33,21 @@ class ProcessTargetedEvent(Event):
 
 
 def matches_pid(pid: int) -> Callable[[ProcessRunner], bool]:
-    """Is the process with this id."""
+    """Matches the process with this id."""
     return lambda action: (
         action.process_details is not None and action.process_details["pid"] == pid
     )
 
 
 def matches_name(name: str) -> Callable[[ProcessRunner], bool]:
-    """Is the process with this unique name."""
+    """Matches the process with this unique name."""
     return lambda action: (
         action.process_details is not None and action.process_details["name"] == name
     )
 
 
 def matches_executable(exec_name: str) -> Callable[[ProcessRunner], bool]:
-    """Runs the executable of this file name."""
+    """Matches processes that run the executable with this file name."""
     import os
 
     return lambda action: (

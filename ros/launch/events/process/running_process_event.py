@@ -1,4 +1,4 @@
-"""Something that happened to a process of the launch."""
+"""An event of a process of the launch."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["RunningProcessEvent"]
 
 
 class RunningProcessEvent(Event):
-    """Something that happened to a process of the launch.
+    """An event of a process of the launch.
 
     Args:
         action: The action that runs it.

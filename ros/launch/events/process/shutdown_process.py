@@ -1,4 +1,4 @@
-"""A process is to end."""
+"""A request to end a process."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ __all__ = ["ShutdownProcess"]
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """A process is to end: it gets SIGINT, then SIGTERM, then SIGKILL."""
+    """A request to end a process: it gets SIGINT, then SIGTERM, then SIGKILL."""
 
     name = "launch.events.process.ShutdownProcess"

@@ -1,4 +1,4 @@
-"""A process is to get a signal."""
+"""A request to send a signal to a process."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ __all__ = ["SignalProcess"]
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """A process is to get a signal.
+    """A request to send a signal to a process.
 
     Args:
         signal_number: The signal, by number or name (``SIGINT``).
-        process_matcher: Which processes.
+        process_matcher: Which processes: a predicate over their actions.
     """
 
     name = "launch.events.process.SignalProcess"

@@ -1,4 +1,4 @@
-"""A managed node is to change its state."""
+"""A request to change the state of managed nodes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["ChangeState"]
 
 
 class ChangeState(Event):
-    """Managed nodes are to change their state.
+    """A request to change the state of managed nodes.
 
     Args:
         lifecycle_node_matcher: Which ones: a predicate over the actions that run them.
