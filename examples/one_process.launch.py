@@ -1,4 +1,4 @@
-"""The tutorial's demo with all its nodes in one process: ``ros2 launch examples/one_process.launch.py``."""
+"""The tutorial's demo in one process: ``ros2 launch examples/one_process.launch.py``."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ def prepare_environment() -> None:
 
 
 def choose_core() -> None:
-    """Report a missing compiled core once, not in each process; the plain-Python core replaces it."""
+    """Report a missing compiled core once, not in each process."""
     if "TURTLEWIRE_CORE" not in os.environ and find_spec("turtlewire._native") is None:
         os.environ["TURTLEWIRE_CORE"] = "python"
         print(

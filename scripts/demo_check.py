@@ -1,4 +1,4 @@
-"""`scripts/demo --check`: drives turtle1 through a square, and measures by the poses that the simulator tells whether turtle2 followed."""
+"""`scripts/demo --check`: drives turtle1 through a square and checks that turtle2 followed."""
 
 from __future__ import annotations
 
@@ -28,10 +28,9 @@ SQUARE = ((2.0, 0.0, 1.0), (0.0, math.pi / 2, 1.0)) * 4
 #: How long turtle2 gets to arrive, and how near that is.
 REST_S = 10.0
 NEAR_M = 0.3
-#: It has followed when its way was at least this share of turtle1's; it may cut corners.
+#: turtle2 has followed if its way was at least this share of turtle1's; it may cut corners.
 SHARE_OF_WAY = 0.5
-#: Given up when turtle2 has not moved by then, or when a stream that the demo lives on has been
-#: silent for so long.
+#: Longest wait for turtle2's first movement, and for the next message of each stream.
 START_LIMIT_S = 30.0
 SILENCE_LIMIT_S = 3.0
 COMMAND_PERIOD_S = 0.1
@@ -60,7 +59,7 @@ def check(started: float) -> int:
     log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
     log.parent.mkdir(parents=True, exist_ok=True)
     print(
-        f"[demo] checking in ROS domain {os.environ['ROS_DOMAIN_ID']}; what the processes say goes to {log}",
+        f"[demo] checking in ROS domain {domain}; what the processes say goes to {log}",
         flush=True,
     )
     with log.open("wb") as output:
@@ -114,7 +113,7 @@ class Track:
 
 
 class Observer:
-    """Sees the poses, the commands to turtle2 and the transforms as they pass, and drives turtle1. Also a context manager."""
+    """Drives turtle1, and watches poses, transforms and the commands to turtle2."""
 
     def __init__(self, started: float) -> None:
         self.tracks = {LEADER: Track(), FOLLOWER: Track()}
@@ -185,10 +184,10 @@ class Observer:
                 raise CheckError(f"{FOLLOWER} did not move within {START_LIMIT_S:.0f} s")
 
     def drive(self, forward: float, turn: float, duration: float, launch: Launch) -> None:
-        """Command turtle1 for some seconds, and look up the transform between the turtles at each command.
+        """Command turtle1 for some seconds, with a lookup between the turtles at each command.
 
         Raises:
-            CheckError: Something that the demo lives on has stopped.
+            CheckError: A process or a stream of the demo has stopped.
         """
         twist = msg.get_message("geometry_msgs/msg/Twist")()
         twist.linear.x, twist.angular.z = forward, turn
@@ -210,7 +209,8 @@ class Observer:
         age_s = time.time() - newest_ns / 1e9
         if age_s > SILENCE_LIMIT_S:
             raise CheckError(
-                f"the newest transform between the turtles is {age_s:.1f} s old: a broadcaster has stopped"
+                f"the newest transform between the turtles is {age_s:.1f} s old: "
+                "a broadcaster has stopped"
             )
 
     def _check_streams(self) -> None:
@@ -222,7 +222,8 @@ class Observer:
     def figures(self) -> str:
         """What was measured, in one line."""
         return (
-            f"largest distance {self.largest_distance:.2f} m, final distance {self.distance:.3f} m, {self.lookups} lookups, "
+            f"largest distance {self.largest_distance:.2f} m, final distance {self.distance:.3f} m, "
+            f"{self.lookups} lookups, "
             f"{self.first_movement_s:.2f} s from the command to {FOLLOWER}'s first movement"
         )
 

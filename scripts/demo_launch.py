@@ -130,6 +130,6 @@ def interrupt(_signum: int = 0, _frame: object = None) -> NoReturn:
 
 
 def _ignore_further_signals() -> None:
-    """Let nothing disturb the clean-up: at a terminal Ctrl-C arrives twice, as SIGINT and SIGTERM."""
+    """Protect the clean-up: at a terminal Ctrl-C arrives twice, as SIGINT and SIGTERM."""
     for signum in ENDING:  # with SIG_IGN, Python complains about a signal that is already pending
         signal.signal(signum, lambda _signum, _frame: None)

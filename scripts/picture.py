@@ -1,4 +1,4 @@
-"""Runs the follow demo, drives turtle1 with the arrow keys in the page, and takes the README's pictures of it."""
+"""Runs the follow demo, drives turtle1 in the page, and takes the README's pictures."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def drive(page: Page) -> Iterator[bytes]:
 
 
 def animated_png(frames: list[bytes], frame_ms: int) -> bytes:
-    """One endless animated PNG of PNG pictures of one size (the APNG part of the PNG specification, third edition)."""
+    """An endless APNG of PNG pictures of one size (PNG specification, third edition)."""
     out = b"\x89PNG\r\n\x1a\n"
     sequence = 0
     for index, frame in enumerate(frames):

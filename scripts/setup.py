@@ -1,4 +1,4 @@
-"""What scripts/setup does. A bare python3 is enough: no venv package, no pip, no compiler is needed."""
+"""What scripts/setup does, with a bare python3: without venv package, pip or compiler."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ LEARNING = ROOT / "ros2_ws" / "src" / "learning_tf2_py"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 #: pip that installs dependency groups of a pyproject.toml.
 OLDEST_PIP = (25, 1)
-#: What can be installed besides: dependency groups of pyproject.toml, and an extra of turtlewire-ros.
+#: What can be added: dependency groups of pyproject.toml, and an extra of turtlewire-ros.
 EXTRAS = {"test": "what the tests need", "lint": "ruff, mypy …", "workspace": "colcon and rosdep"}
 #: What pip prints when it cannot reach the package index.
 NO_NETWORK = re.compile(
@@ -75,7 +75,7 @@ def parse_extras(arguments: list[str]) -> list[str]:
 
 
 def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """What was installed last, and what is to be installed instead; nothing when all is there."""
+    """The last installation, and the wanted one, which is empty when nothing has changed."""
     stamp = read_stamp()
     wanted = {
         "python": f"{sys.version} in {ROOT}",
@@ -86,7 +86,7 @@ def missing(extras: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def wait_for_turn() -> int:
-    """Lock this folder, so that two terminals do not set up .venv at once; the descriptor that holds the lock."""
+    """Lock this folder against a second set-up; returns the descriptor that holds the lock."""
     descriptor = os.open(ROOT, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -124,7 +124,7 @@ def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:
 
 
 def say(text: str) -> None:
-    """Tell the person in front of it."""
+    """Print a line for the user."""
     print(f"[setup] {text}", file=sys.stderr, flush=True)
 
 
@@ -138,7 +138,7 @@ def read_stamp() -> dict[str, Any]:
 
 
 def fingerprint() -> str:
-    """Hash of all that an editable installation does not follow by itself, the tools to compile with included."""
+    """Hash of the files, and the compiler, whose changes need a new installation."""
     ros, native = ROOT / "ros", ROOT / "native"
     files = [
         ROOT / "pyproject.toml",
@@ -199,7 +199,7 @@ def make_venv() -> None:
 
 
 def ensure_pip() -> None:
-    """Get a pip that is new enough into .venv: the one bundled with Python, or the one that this Python has."""
+    """Put a pip that is new enough into .venv: the bundled one, or by means of this Python's."""
     if pip_version() is None:
         run_python("-m", "ensurepip")
     if (version := pip_version()) is not None:
@@ -299,7 +299,7 @@ def fail(command: list[str], output: str) -> NoReturn:
 
 
 def ended_within(process: subprocess.Popen[bytes], seconds: float) -> bool:
-    """Wait for its end; False when it goes on after that time."""
+    """Wait for the end of a process; False if it still runs after that time."""
     try:
         process.wait(seconds)
     except subprocess.TimeoutExpired:
@@ -308,7 +308,7 @@ def ended_within(process: subprocess.Popen[bytes], seconds: float) -> bool:
 
 
 def show_progress(text: str) -> None:
-    """Show a person at a terminal that it goes on, in place of the text before."""
+    """Replace the progress line, if the output is a terminal."""
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 

@@ -1,4 +1,4 @@
-"""A node that shows itself in the graph, and answers to parameters, as a node of C++ does: turtlesim's are of C++ in ROS 2."""
+"""A node that looks like a C++ node: those of turtlesim are written in C++ in ROS 2."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ _TYPE_NAMES = {
 
 
 class CppNode(Node):
-    """A node that hears of parameter events, shows their QoS as parameters, and refuses values in rclcpp's words.
+    """A node with the endpoints, parameters and error texts that rclcpp gives each node.
 
     Args:
         node_name: Name of the node.
-        options: Given on to :class:`rclpy.node.Node`.
+        options: Passed on to :class:`rclpy.node.Node`.
     """
 
     def __init__(self, node_name: str, **options: Any) -> None:
@@ -71,7 +71,10 @@ class CppNode(Node):
             kinds = [
                 _TYPE_NAMES.get(kind, kind.name.lower()) for kind in (declared, parameter.type_)
             ]
-            return f"Wrong parameter type, parameter {{{name}}} is of type {{{kinds[0]}}}, setting it to {{{kinds[1]}}} is not allowed."
+            return (
+                f"Wrong parameter type, parameter {{{name}}} is of type {{{kinds[0]}}}, "
+                f"setting it to {{{kinds[1]}}} is not allowed."
+            )
         if any(
             not limits.from_value <= parameter.value <= limits.to_value
             for limits in descriptor.integer_range

@@ -26,11 +26,11 @@ class CrowdTick(NamedTuple):
     """What one tick did to a crowd.
 
     Attributes:
-        turtles: Who, in the order of their names.
+        turtles: The turtles, sorted by name.
         poses: Shape (n, 5): x, y [m, y up], heading [rad], speed [m/s], turning rate [rad/s], as
             they are published.
         places: Shape (n, 2): x and y_down [m], not rounded.
-        movers: Indices of those that drew a line, ascending, shape (m,).
+        movers: Indices of the turtles that drew a line, ascending, shape (m,).
         lines: Shape (m, 4): x0, y0, x1, y1 in pixels of the 500 x 500 image.
         pens: Shape (m, 4): red, green, blue and width of each line.
         clamped_from: Where a wall stopped a turtle, as ``(x, y_down)`` [m], in order.

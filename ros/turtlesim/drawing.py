@@ -1,4 +1,4 @@
-"""Everything the pens have drawn since the last clear, kept for the browsers: those that watch, and those that come later."""
+"""What the pens have drawn since the last clear, for browsers that watch or connect later."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ __all__ = ["RECORD_SIZE", "Drawing"]
 #: of the 500 x 500 image.
 _RECORD = struct.Struct("<I4f")
 RECORD_SIZE = _RECORD.size
-#: Strokes kept one by one, for browsers that watch; one that falls back further starts again.
+#: Strokes kept one by one, for browsers that watch; a browser that falls back further starts again.
 _RECENT = 20_000
 #: Lines kept of what is older, and strokes of a crowd. Beyond them the oldest are forgotten: a
 #: browser that opens then does not see them.
 _OLDER = 200_000
-#: How far a joined line may pass beside a point that the turtle visited [pixels].
+#: Largest distance of a joined line from a point that the turtle visited [pixels].
 _TOLERANCE = 0.05
 
 
@@ -43,7 +43,7 @@ class _Entry(NamedTuple):
 
 
 class Drawing:
-    """Strokes in the order in which they were drawn; the older ones joined to longer lines that look the same.
+    """Strokes in their order; the older ones are joined to longer lines that look the same.
 
     A reader keeps a position, -1 at first, and hands it to :meth:`since`. Not thread-safe.
     """
@@ -112,7 +112,7 @@ class Drawing:
 
 
 class _Line:
-    """A straight line that stands for one or more strokes, each of which begins where the one before ended."""
+    """A straight line that replaces strokes, each of which begins where the last one ended."""
 
     __slots__ = ("_direction", "_half_angle_left", "_half_angle_right", "_length", "_stroke")
 
@@ -123,7 +123,7 @@ class _Line:
         self._half_angle_left = self._half_angle_right = _half_angle(self._length)
 
     def extend(self, stroke: Stroke) -> bool:
-        """Lead on to the end of ``stroke``, if no point visited so far is then further away than the tolerance.
+        """Extend the line to the end of ``stroke``, if it stays within the tolerance of all points.
 
         Each point, seen from the beginning, leaves a wedge of directions that pass it closely
         enough; the end must be in all of them.

@@ -1,4 +1,4 @@
-"""Makes one turtle do what another does: its poses come in on ``input/pose``, commands go out on ``output/cmd_vel``."""
+"""Makes one turtle do what another does: ``input/pose`` in, ``output/cmd_vel`` out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["MimicNode", "main"]
 
 
 class MimicNode(Node):
-    """Sends the velocities of a turtle to another; remap its two topics to choose them. Options are those of a node."""
+    """Sends the velocities of one turtle to another; remap the two topics to choose them."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__("turtle_mimic", **options)

@@ -1,4 +1,4 @@
-"""Turtles that are referenced but were never spawned: a node subscribes to their pose or sends them commands."""
+"""Turtles that are referenced, by subscribers or publishers, but were never spawned."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The turtles and their world: pure arithmetic, stepped from outside, bit for bit the turtlesim of ROS 2 Jazzy.
+"""The turtles and their world, bit for bit the turtlesim of ROS 2 Jazzy.
 
-The model draws nothing, speaks to nobody and owns no clock. :meth:`World.step` moves every turtle
-by one tick and returns what happened: a pose, the pixel under the colour sensor, pen strokes. Who
-calls it decides how fast time passes.
+The model draws nothing, sends nothing and has no clock. :meth:`World.step` moves every turtle by
+one tick and returns the results: a pose, the pixel under the colour sensor, pen strokes. The caller
+decides how fast time passes.
 
 Positions are metres in a field of 11.088889 m by 11.088889 m, origin in the lower left corner,
 headings radians counter-clockwise from the x axis. As in the original the vertical axis points
@@ -59,7 +59,7 @@ ROTATION_SPEED = 1.0
 
 
 class Pen(NamedTuple):
-    """What a turtle draws with: colour channels 0..255 and width in pixels of the 500 x 500 image."""
+    """Colour channels (0..255) and width, in pixels of the 500 x 500 image, of a line."""
 
     r: int
     g: int
@@ -71,7 +71,7 @@ DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
 
 
 class Pose(NamedTuple):
-    """A turtle's published state: position [m] with y up, heading [rad], speed [m/s, never negative] and turning rate [rad/s]."""
+    """Published state: position [m, y up], heading [rad], speed [m/s], turning rate [rad/s]."""
 
     x: float
     y: float
@@ -81,7 +81,7 @@ class Pose(NamedTuple):
 
 
 class Stroke(NamedTuple):
-    """A straight pen line in pixels of the 500 x 500 image, from where the turtle was to where it is."""
+    """A straight pen line in pixels of the 500 x 500 image, from the old to the new place."""
 
     x0: float
     y0: float
@@ -94,14 +94,14 @@ class TurtleTick(NamedTuple):
     """What one tick did to one turtle.
 
     Attributes:
-        turtle: Who.
+        turtle: The turtle.
         pose: The new pose.
-        teleport_strokes: Drawn before the colour sensor looked.
-        sensor_pixel: Column and row that the colour sensor looks at.
-        move_stroke: Drawn after the colour sensor looked; None when the pen is up or the turtle
-            stands still.
+        teleport_strokes: Drawn before the colour sensor reads the pixel.
+        sensor_pixel: Column and row of the pixel under the colour sensor.
+        move_stroke: Drawn after the colour sensor has read the pixel; None when the pen is up or
+            the turtle stands still.
         clamped_from: Where a wall stopped it, as ``(x, y_down)`` [m]; None when no wall did.
-        rotation: The rotation that was worked on, finished or not; None when there is none.
+        rotation: The rotation to a goal, finished or not; None when there is none.
     """
 
     turtle: Turtle
@@ -221,7 +221,7 @@ class Turtle:
         return self.rotation, aborted
 
     def teleport_absolute(self, x: float, y: float, theta: float) -> None:
-        """Be at (x, y) [m, y up] with heading theta [rad] from the next tick on; the field's edges clamp then."""
+        """Move to (x, y) [m, y up] with heading theta [rad] at the next tick, within the field."""
         self._teleports.append((False, x, y, theta))
 
     def teleport_relative(self, linear: float, angular: float) -> None:
@@ -229,7 +229,7 @@ class Turtle:
         self._teleports.append((True, linear, 0.0, angular))
 
     def set_pen(self, pen: Pen, *, off: bool) -> None:
-        """Lift the pen, leaving its colour as it was, or put down a new one. A width of 0 draws one pixel."""
+        """Lift the pen and keep its colour, or put down a new one; width 0 draws one pixel."""
         self.pen_on = not off
         if not off:
             self.pen = pen if pen.width else pen._replace(width=1)
@@ -295,7 +295,7 @@ class Turtle:
         return self._stroke_from(old_x, old_y) if self.pen_on else None
 
     def _rotate(self, rotation: Rotation, now_ns: int) -> None:
-        """Choose this tick's turning for the rotation, in the original's mix of single and double precision."""
+        """Choose this tick's turning rate, in the original's mix of single and double precision."""
         if rotation.cancel_requested:
             self._end_rotation(rotation, RotationState.CANCELED)
             return
@@ -373,7 +373,7 @@ class World:
         self._named = 0
 
     def in_order(self) -> list[Turtle]:
-        """All turtles in the order of their names, in which they move and draw; not to be changed."""
+        """All turtles, sorted by name: the order in which they move and draw. Do not change it."""
         if self._order is None:
             self._order = [self.turtles[name] for name in sorted(self.turtles)]
         return self._order

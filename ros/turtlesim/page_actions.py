@@ -75,7 +75,7 @@ class PageActions:
         self._commands.append(command)
 
     def carry_out(self) -> None:
-        """Carry out the commands that have come; those that cannot be done yet wait for a later tick."""
+        """Carry out the commands that came; those that cannot be done yet wait for a later tick."""
         for _ in range(len(self._commands)):
             command = self._commands.popleft()
             self._actions[type(command)](command)

@@ -1,4 +1,4 @@
-"""What a page may ask of the simulator: JSON from the browser, checked and turned into plain tuples."""
+"""The commands of a page: JSON from the browser, checked and turned into plain tuples."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _LARGEST_NUMBER = 1_000_000
 
 
 class CommandError(ValueError):
-    """The browser sent something that is no command; the text says what."""
+    """The browser sent something that is not a command; the text says what is wrong."""
 
 
 class Drive(NamedTuple):
@@ -55,7 +55,7 @@ class Cancel(NamedTuple):
 
 
 class Spawn(NamedTuple):
-    """A new turtle at (x, y) [m] with heading theta [rad]; an empty name takes the next free one."""
+    """A new turtle at (x, y) [m] with heading theta [rad]; an empty name is replaced."""
 
     x: float
     y: float
@@ -115,7 +115,9 @@ _COMMANDS = {kind.__name__.lower(): kind for kind in _KINDS}
 
 
 def parse_command(text: str | bytes) -> Command:
-    """The command in a message such as ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
+    """The command in a message.
+
+    An example: ``{"type": "drive", "turtle": "turtle1", "linear": 2.0, "angular": 0.0}``.
 
     Raises:
         CommandError: The text is not JSON or too deeply nested, the type is unknown, or a field is

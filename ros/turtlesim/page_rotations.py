@@ -1,4 +1,4 @@
-"""Rotations that are asked for in the page: goals as those of any other client, which everybody can listen to."""
+"""Rotations that a page asks for, sent as goals like those of any other action client."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ __all__ = ["PageRotations"]
 
 
 class PageRotations:
-    """Clients of the action ``rotate_absolute``, one for each turtle that the page has turned. For the executor's thread.
+    """Clients of the action ``rotate_absolute``, one for each turtle that the page has turned.
+
+    Not thread-safe: for the executor's thread.
 
     Args:
         node: The simulator's node, whose clients they are.
@@ -27,7 +29,7 @@ class PageRotations:
         self._goals: dict[str, Future] = {}
 
     def rotate(self, turtle: str, theta: float) -> bool:
-        """Send a goal; False when the client has not found the turtle's action yet, and it must be tried again."""
+        """Send a goal; False if the client has not found the action yet: try again later."""
         client = self._clients.get(turtle)
         if client is None:
             client = self._clients[turtle] = ActionClient(
@@ -45,7 +47,7 @@ class PageRotations:
             goal.result().cancel_goal_async()
 
     def forget(self, turtle: str) -> None:
-        """The turtle has gone."""
+        """Close the client of a turtle that is gone."""
         self._goals.pop(turtle, None)
         client = self._clients.pop(turtle, None)
         if client is not None:

@@ -20,7 +20,7 @@ __all__ = ["EMPTY_COLOUR", "PathImage"]
 
 #: What the colour sensor reads where no pen has drawn, whatever the background's colour is.
 EMPTY_COLOUR = (255, 255, 255)
-#: How many strokes may wait to be drawn; only a swarm has more in one tick.
+#: How many strokes are kept after a tick; only a swarm has more.
 _MAX_PENDING = 64
 #: From this number on, drawing them together pays for loading NumPy.
 _BULK = 500
@@ -29,7 +29,7 @@ _EMPTY_PIXEL = bytes((*EMPTY_COLOUR, 0))
 
 
 class PathImage:
-    """A picture of 500 x 500 pixels that strokes are drawn into, one at a time and in order. Strokes are drawn when somebody looks."""
+    """A picture of 500 x 500 pixels. Strokes are kept, and drawn when a pixel is read."""
 
     def __init__(self) -> None:
         self._rgba = bytearray(_EMPTY_PIXEL * (IMAGE_SIZE * IMAGE_SIZE))
@@ -54,7 +54,7 @@ class PathImage:
                 self._draw_now(Stroke(x0, y0, x1, y1, Pen(*pen)))
 
     def settle(self) -> None:
-        """Draw what waits if it is much, so that nobody who looks later has to wait for it. Call it after each tick."""
+        """Draw the kept strokes if there are many, which bounds the time of a read."""
         if len(self._pending) > _MAX_PENDING:
             self._draw_pending()
 
@@ -64,14 +64,14 @@ class PathImage:
         self._rgba[:] = _EMPTY_PIXEL * (IMAGE_SIZE * IMAGE_SIZE)
 
     def colour_at(self, column: int, row: int) -> tuple[int, int, int]:
-        """Red, green and blue (0..255) of one pixel; column and row 0..499, from the upper left corner."""
+        """Red, green and blue (0..255) of a pixel; (0, 0) is the upper left one."""
         self._draw_pending()
         start = 4 * (row * IMAGE_SIZE + column)
         red, green, blue = self._rgba[start : start + 3]
         return red, green, blue
 
     def rgba(self) -> bytes:
-        """The whole picture: 4 bytes a pixel, rows from the top; alpha is 255 where a pen has drawn, else 0."""
+        """The picture: 4 bytes a pixel, rows from the top; alpha is 255 where drawn, else 0."""
         self._draw_pending()
         return bytes(self._rgba)
 
@@ -102,7 +102,7 @@ def _corners(stroke: Stroke) -> list[tuple[float, float]]:
 
 
 def _spans(shape: list[tuple[float, float]]) -> list[tuple[int, int, int]]:
-    """The pixels of a convex shape as ``(row, first column, end column)``, clipped to the picture."""
+    """The pixels of a convex shape in the picture, as ``(row, first column, end column)``."""
     edges = [
         (*a, *b) if a[1] < b[1] else (*b, *a)
         for a, b in zip(shape, [*shape[1:], shape[0]], strict=True)

@@ -1,4 +1,4 @@
-"""Draws many short lines together, pixel for pixel as :mod:`turtlesim.path` draws each. For swarms."""
+"""Draws the short lines of a swarm together, the same pixels as :mod:`turtlesim.path`."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 A pen line is the rectangle around it, half the pen's width longer at both ends (Qt's square cap),
 its corners rounded down to 1/64 pixel. Each of its edges falls on the nearest boundary between two
-pixels, and halfway between two on the upper one: a pixel is painted when its centre is inside, or on
-the lower or right edge. As in :mod:`turtlesim.physics`, functions that Python and NumPy call
+pixels, a tie on the higher one: a pixel is painted when its centre is inside, or on the lower or
+right edge. As in :mod:`turtlesim.physics`, functions that Python and NumPy call
 differently are arguments.
 """
 

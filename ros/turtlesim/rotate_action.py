@@ -1,4 +1,4 @@
-"""The action ``rotate_absolute`` of one turtle: goals become rotations of the model, its progress feedback and results."""
+"""The action ``rotate_absolute`` of one turtle, served by a rotation of the model."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ["RotateAction"]
 
 
 class _Goal:
-    """A goal being worked on, and the end that its execution awaits."""
+    """A goal, its rotation, and the future that its execution awaits."""
 
     def __init__(self, handle: ServerGoalHandle, rotation: Rotation) -> None:
         self.handle = handle
@@ -28,7 +28,7 @@ class _Goal:
 
 
 class RotateAction:
-    """Serves the action; the simulator reports each tick's work with :meth:`report`. For the executor's thread."""
+    """Serves the action; the simulator calls :meth:`report` at each tick. Not thread-safe."""
 
     def __init__(self, node: Node, turtle: Turtle) -> None:
         self._node = node
@@ -44,7 +44,7 @@ class RotateAction:
         )
 
     def report(self, rotation: Rotation) -> None:
-        """Tell the client of the tick that ``rotation`` was worked on, and of its end."""
+        """Send feedback on the goal of ``rotation`` after a tick, and end it with its rotation."""
         goal = self._goal
         if goal is None or goal.rotation is not rotation:
             return
@@ -58,12 +58,12 @@ class RotateAction:
             self._end(goal)
 
     def abort(self) -> None:
-        """Give the present goal up: its rotation was aborted."""
+        """Abort the goal: its rotation was aborted."""
         if self._goal is not None:
             self._end(self._goal)
 
     def destroy(self) -> None:
-        """Leave the graph; a goal that is being worked on is aborted."""
+        """Abort the goal, if there is one, and leave the graph."""
         if self._goal is not None:
             self._goal.rotation.state = RotationState.ABORTED
             self._end(self._goal)

@@ -39,8 +39,7 @@ _PAGE = Path(__file__).parent / "page"
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
 #: use.
 DEFAULT_PORT = 7070
-#: A page moves turtles between two frames; with a crowd it gets every second tick, and its time
-#: goes into drawing.
+#: With a crowd, a page gets every second tick and interpolates: drawing takes its time.
 _CROWD_TICKS = 2
 #: Time between two looks at the frames [s].
 _FRAMES_PERIOD_S = 0.2
@@ -53,7 +52,7 @@ class Scene(NamedTuple):
         node: Fully qualified name of the simulator's node.
         turtles: Names in the order in which frames list their poses.
         background: Red, green and blue, 0..255.
-        missing: Turtles that somebody wants to hear of or to drive, and that do not exist.
+        missing: Turtles that are referenced but were never spawned.
     """
 
     node: str
@@ -63,7 +62,7 @@ class Scene(NamedTuple):
 
 
 class Screen:
-    """Serves the page. Methods are called by the simulator's thread; the server's thread reads what they left.
+    """Serves the page. The simulator's thread calls the methods, the server's thread reads.
 
     Attributes:
         url: The page's address.
@@ -76,9 +75,9 @@ class Screen:
 
         Args:
             scene: What to show first.
-            on_command: Called on the server's thread for each command of a page; it must only pass
-                the command on.
-            transforms: What TF knows; closed with the screen.
+            on_command: Called on the server's thread for each command of a page; must return at
+                once.
+            transforms: The frames; closed with the screen.
         """
         self.transforms = transforms
         self._lock = threading.Lock()
@@ -92,7 +91,7 @@ class Screen:
         self.url = self._server.url
 
     def show(self, ticks: list[TurtleTick]) -> None:
-        """Take what one tick of the world did."""
+        """Take the results of one tick of the world."""
         with self._lock:
             self._tick += 1
             self._shown = tuple(tick.turtle.name for tick in ticks)
@@ -107,7 +106,7 @@ class Screen:
         self._server.notify()
 
     def show_crowd(self, tick: CrowdTick) -> None:
-        """Take what one tick of a crowd did."""
+        """Take the results of one tick of a crowd."""
         with self._lock:
             self._tick += 1
             self._shown = tuple([turtle.name for turtle in tick.turtles])
@@ -219,14 +218,14 @@ class _Session:
 
 
 def desktop_is_there() -> bool:
-    """Whether a browser that opens now would be seen by somebody."""
+    """Whether the user has a desktop, on which a browser can open."""
     if sys.platform in ("darwin", "win32"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def open_browser(url: str) -> None:
-    """Open the page in the user's browser, unless there is no desktop or TURTLEWIRE_BROWSER=0 forbids it."""
+    """Open the page in the user's browser if there is a desktop and TURTLEWIRE_BROWSER is not 0."""
     if os.environ.get("TURTLEWIRE_BROWSER") != "0" and desktop_is_there():
         import webbrowser
 

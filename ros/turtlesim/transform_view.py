@@ -1,4 +1,4 @@
-"""What TF knows, for the page: the tree of frames, and where one frame is as another sees it. Listens only while a page looks."""
+"""TF for the page: all frames, and the transform between two. Listens while a page watches."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ _NODE_NAME = "_turtlesim_page"
 _STATIC_RATE = 10000.0
 _FRAME = re.compile(
     r"^(?P<name>.*): ?\n  parent: '(?P<parent>.*)'\n  broadcaster: '.*'\n  rate: (?P<rate>.*)\n"
-    r"  most_recent_transform: (?P<newest>.*)\n  oldest_transform: .*\n  buffer_length: (?P<length>.*)$",
+    r"  most_recent_transform: (?P<newest>.*)\n  oldest_transform: .*\n"
+    r"  buffer_length: (?P<length>.*)$",
     re.MULTILINE,
 )
 
@@ -46,7 +47,7 @@ class Frame(NamedTuple):
 
 
 class TransformView:
-    """A buffer that is filled while anybody looks. Thread-safe.
+    """A buffer that is filled while a page watches. Thread-safe.
 
     Args:
         context: The participant whose ``/tf`` and ``/tf_static`` are listened to.
@@ -94,7 +95,7 @@ class TransformView:
         )
 
     def relation(self, target: str, source: str) -> dict[str, Any]:
-        """Where ``source`` is, seen from ``target``: translation [m] and rotation (xyzw), or tf2's error and our hint.
+        """Translation [m] and rotation (xyzw) of ``source`` in ``target``, or tf2's error.
 
         Numbers that are not finite, which tf2 accepts, are None.
         """

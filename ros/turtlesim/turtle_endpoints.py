@@ -75,7 +75,7 @@ class TurtleEndpoints:
         self._rotate = RotateAction(node, turtle)
 
     def publish(self, tick: TurtleTick, path: PathImage) -> None:
-        """Send pose, colour and feedback to those that listen; ``path`` has not got the tick's last stroke yet."""
+        """Send pose, colour and feedback; ``path`` does not have the tick's last stroke yet."""
         if tick.rotation is not None:
             self._rotate.report(tick.rotation)
         self.publish_pose(tick.pose)
@@ -96,7 +96,7 @@ class TurtleEndpoints:
             self._pose.publish(message)
 
     def publish_color(self, r: int, g: int, b: int) -> None:
-        """Send what the colour sensor sees."""
+        """Send the reading of the colour sensor."""
         self._color.publish(Color(r=r, g=g, b=b))
 
     def destroy(self) -> None:
@@ -118,7 +118,8 @@ class TurtleEndpoints:
         forward, lateral, turning = message.linear.x, message.linear.y, message.angular.z
         if not are_finite(forward, lateral, turning):
             self._node.get_logger().warning(
-                f"Ignored a velocity command for [{self._turtle.name}] that is not finite: x={forward}, y={lateral}, angular z={turning}"
+                f"Ignored a velocity command for [{self._turtle.name}] that is not finite: "
+                f"x={forward}, y={lateral}, angular z={turning}"
             )
             return
         holonomic = self._node.get_parameter("holonomic").value
@@ -148,11 +149,12 @@ class TurtleEndpoints:
         if are_finite(*numbers):
             return True
         self._node.get_logger().error(
-            f"Cannot teleport [{self._turtle.name}] to what is not finite: {', '.join(map(str, numbers))}"
+            f"Cannot teleport [{self._turtle.name}] to what is not finite: "
+            f"{', '.join(map(str, numbers))}"
         )
         return False
 
 
 def are_finite(*numbers: float) -> bool:
     """Whether a turtle can be told these numbers and stay on the field."""
-    return all(abs(number) <= _LARGEST for number in numbers)  # nan is not, either
+    return all(abs(number) <= _LARGEST for number in numbers)  # false for NaN, too

@@ -1,4 +1,4 @@
-"""Drives turtle1 from a terminal: each arrow key press is one velocity command, letters around `f` turn it to a heading."""
+"""Drives turtle1 from a terminal: arrow keys are velocity commands, letters turn to a heading."""
 
 from __future__ import annotations
 
@@ -188,7 +188,8 @@ def main(args: list[str] | None = None) -> int:
     """
     if sys.platform == "win32":
         _complain(
-            "turtle_teleop_key cannot read a Windows console yet: the arrow keys work in turtlesim's page."
+            "turtle_teleop_key cannot read a Windows console yet: "
+            "the arrow keys work in turtlesim's page."
         )
         return 1
     try:

@@ -1,4 +1,4 @@
-"""The simulator's node: turtles on a field, with the topics, services, parameters and texts of ROS 2's turtlesim."""
+"""The simulator's node, with the topics, services, parameters and texts of ROS 2's turtlesim."""
 
 from __future__ import annotations
 
@@ -38,14 +38,13 @@ _BACKGROUND = {"r": ("Red", 0x45), "g": ("Green", 0x56), "b": ("Blue", 0xFF)}
 
 
 class TurtlesimNode(CppNode):
-    """One simulator: it moves its turtles every 16 ms, of its own clock or of ``/clock`` when ``use_sim_time`` is true.
+    """One simulator, which moves its turtles every 16 ms of its node's clock.
 
     Args:
-        headless: Whether to do without the page.
+        headless: Whether to serve no page.
         speed: How many times faster than real time to run; the simulator then publishes ``/clock``
-            itself, one tick after the other. None runs in real time, and leaves ``/clock`` to
-            others.
-        options: Given on to :class:`rclpy.node.Node`.
+            itself. None runs in real time and publishes no clock.
+        options: Passed on to :class:`rclpy.node.Node`.
 
     Attributes:
         world: The model.
@@ -110,7 +109,7 @@ class TurtlesimNode(CppNode):
     # Time
 
     def _make_time(self, speed: float) -> None:
-        """Tick ``speed`` times faster than real time, and tell everybody what time it is."""
+        """Tick ``speed`` times faster than real time, and publish the time."""
         publisher = self.create_publisher(Clock, "/clock", 1)
         message = Clock()
         ticks = itertools.count(1)
@@ -148,7 +147,7 @@ class TurtlesimNode(CppNode):
             self._screen.show(ticks)
 
     def _step_crowd(self, now_ns: int) -> None:
-        """The same for very many turtles, together: what a tick costs is then mostly what is sent."""
+        """Step many turtles together; most of the tick's time then goes into messages."""
         if self._crowd is None:
             from turtlesim.crowd import Crowd
 
@@ -175,12 +174,16 @@ class TurtlesimNode(CppNode):
     # Turtles
 
     def pose_of(self, name: str) -> Pose | None:
-        """Where a turtle is at this moment, for nodes of the same executor; None when there is none of that name."""
+        """The pose of a turtle, for nodes of the same executor; None if there is no such turtle."""
         turtle = self.world.turtles.get(name)
         return None if turtle is None else turtle.pose
 
     def _add(self, turtle: Turtle) -> None:
-        """Announce a turtle of the world; one whose name ROS does not allow leaves the world again, and the error is raised."""
+        """Announce a turtle of the world.
+
+        Raises:
+            InvalidTopicNameException: ROS does not allow its name; it has left the world again.
+        """
         try:
             self._endpoints_of[turtle.name] = TurtleEndpoints(self, turtle)
         except InvalidTopicNameException:
@@ -305,13 +308,14 @@ def main(args: list[str] | None = None) -> None:
             node = TurtlesimNode(headless=options.headless, speed=options.speed)
             rclpy.spin(node)
         finally:
-            rclpy.try_shutdown()  # before the node: all endpoints go at once, which for a thousand turtles saves many seconds
+            # Before the node: all endpoints go at once, which saves seconds with many turtles.
+            rclpy.try_shutdown()
             if node is not None:
                 node.destroy_node()
 
 
 def _parse_options(args: list[str]) -> argparse.Namespace:
-    """What is left of the command line without ``--ros-args``; foreign arguments are left alone, as in the original."""
+    """The options outside of ``--ros-args``; unknown arguments are ignored, as in the original."""
     parser = argparse.ArgumentParser(
         prog="turtlesim_node", description="Turtles on a field, shown in the browser."
     )
@@ -326,7 +330,7 @@ def _parse_options(args: list[str]) -> argparse.Namespace:
 
 
 def _check_port() -> None:
-    """Say what is wrong before anything is announced."""
+    """End the program if TURTLEWIRE_PORT is wrong, before the node is announced."""
     from turtlesim.screen import wanted_port
 
     try:

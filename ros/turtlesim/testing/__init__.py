@@ -1,4 +1,4 @@
-"""Testing what drives turtles: a simulator and the nodes under test in one process, in lock-step with simulated time.
+"""Tests of nodes that drive turtles: simulator and nodes in one process, in lock-step.
 
 ::
 

@@ -1,4 +1,4 @@
-"""A simulator and the nodes that drive it, in one process and in lock-step: fast, and the same bits every time."""
+"""A simulator and the nodes that drive it, in one process and in lock-step: reproducible."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _MOST_CALLBACKS_IN_A_TICK = 100_000
 
 
 class Simulation:
-    """One simulator without a page, on the middleware inside this process, with its own clock on ``/clock``.
+    """A simulator without a page, on the ``local`` middleware, with its clock on ``/clock``.
 
     Time moves only in :meth:`step` and the ``run`` methods, by 16 ms a tick, and not before every
     callback of the tick before has run. All nodes made while it is open follow its clock
@@ -110,7 +110,7 @@ class Simulation:
     # Turtles
 
     def spawn(self, name: str = "", *, x: float, y: float, theta: float = 0.0) -> str:
-        """Add a turtle at (x, y) [m] with heading theta [rad]; an empty name takes the next free one. Returns its name.
+        """Add a turtle at (x, y) [m] with heading theta [rad], and return its name.
 
         Raises:
             ValueError: The name is taken or impossible.
@@ -144,7 +144,8 @@ class Simulation:
         pose = self.node.pose_of(turtle)
         if pose is None:
             raise KeyError(
-                f"no turtle named {turtle!r}; there are: {', '.join(sorted(self.node.world.turtles)) or 'none'}"
+                f"no turtle named {turtle!r}; there are: "
+                f"{', '.join(sorted(self.node.world.turtles)) or 'none'}"
             )
         return pose
 
@@ -168,7 +169,7 @@ class Simulation:
         self.step(round(seconds * 1e9 / TICK_NS))
 
     def run_until(self, condition: Callable[[], bool], *, within: float) -> bool:
-        """Let time pass until ``condition()`` is true, looking after each tick, for at most ``within`` simulated seconds.
+        """Let time pass until ``condition()``, tested after each tick, is true.
 
         Returns:
             Whether it became true.
@@ -194,7 +195,8 @@ class Simulation:
                 return
             self._executor._run(*ready)
         raise RuntimeError(
-            f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s and did not come to rest"
+            f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s "
+            "and did not come to rest"
         )
 
     def _replace_reader(self, wire: Any) -> None:
@@ -203,7 +205,7 @@ class Simulation:
 
 
 class _ReaderInStep:
-    """Stands in for the middleware's reader thread, which feeds TF listeners, and does its work between two callbacks."""
+    """Replaces the middleware's reader thread, which feeds TF listeners, between callbacks."""
 
     def __init__(self) -> None:
         self._work: deque[Callable[[], None]] = deque()

@@ -24,7 +24,7 @@ setup(
     zip_safe=True,
     maintainer="turtlewire",
     maintainer_email="turtlewire@users.noreply.github.com",
-    description="One turtle follows another: a TF2 broadcaster, a TF2 listener and the launch file that starts them",
+    description="One turtle follows another: a TF2 broadcaster, a TF2 listener and launch files",
     license="Apache-2.0",
     entry_points={
         "console_scripts": [

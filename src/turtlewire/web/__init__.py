@@ -1,4 +1,4 @@
-"""The one small HTTP and WebSocket server: static files and latest-wins streams, for browsers of this machine only."""
+"""A small HTTP and WebSocket server for this machine's browsers: files and live values."""
 
 from __future__ import annotations
 

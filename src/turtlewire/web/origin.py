@@ -1,8 +1,8 @@
-"""Which requests are answered: those that this machine's browser makes for a page of ours.
+"""Which requests are answered: those of this machine's browsers for a page of this server.
 
-A browser tells in ``Host`` which name it looked up and in ``Origin`` whose page makes the request.
-A page of a stranger can make the user's browser talk to 127.0.0.1, also under a name of its own
-that resolves to it (DNS rebinding); neither gets past these two headers.
+A browser sends in ``Host`` the name that it looked up and in ``Origin`` the page that makes the
+request. A foreign page can make the user's browser connect to 127.0.0.1, also under a name of its
+own that resolves to it (DNS rebinding). These two headers reveal both.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ _LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "[::1]"})
 
 
 def refusal(hosts: list[str], origins: list[str]) -> str | None:
-    """Why a request is refused, as one sentence, or None when it is welcome.
+    """Why a request is refused, as one sentence, or None if it is allowed.
 
     Args:
-        hosts: All ``Host`` headers. Any port is fine, as a forwarded port has another number.
+        hosts: All ``Host`` headers. Any port is allowed, as a forwarded port has another number.
         origins: All ``Origin`` headers. Programs other than browsers send none.
     """
     if len(hosts) != 1 or _name(hosts[0]) not in _LOOPBACK_NAMES:

@@ -26,11 +26,11 @@ __all__ = ["LIVE_PATH", "Server", "Session"]
 LIVE_PATH = "/live"
 #: Longest message that a page may send [bytes].
 _MAX_MESSAGE = 65536
-#: Errors of the system that pass when files or memory are freed; the server tries again each second.
+#: System errors that pass when files or memory are freed; the server tries again each second.
 _OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 #: How long a browser may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
-#: Everything comes from this server; nobody may put the page into a frame.
+#: Everything comes from this server, and no other page may embed this one.
 _CONTENT_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -38,19 +38,19 @@ _CONTENT_POLICY = (
 
 
 class Session(Protocol):
-    """One browser, as the application sees it. The server's thread calls all methods; they must be short."""
+    """One browser's connection. The server's thread calls all methods, so they must be short."""
 
     def outgoing(self) -> list[str | bytes]:
-        """What this browser has not got yet, as of now.
+        """What this browser does not have yet.
 
-        Asked for after :meth:`Server.notify`, and only when the browser has taken what it was sent
-        before: whatever became outdated in between is never made. This is how a slow browser sees
-        fewer frames, not old ones.
+        Called after :meth:`Server.notify`, and only when the browser has taken the last messages:
+        values that became outdated in between are never sent, so a slow browser sees fewer frames,
+        not old ones.
         """
         ...
 
     def receive(self, message: str | bytes) -> None:
-        """Take a message of the browser. Whatever is wrong with it is the session's to answer."""
+        """Take a message of the browser; the session answers a wrong one itself."""
         ...
 
     def closed(self) -> None:
@@ -74,7 +74,7 @@ class Server:
         Args:
             root: Folder of the page's files.
             connect: Called on the server's thread for each browser that opens the WebSocket.
-            port: Preferred TCP port. When somebody has it already, a free one is taken.
+            port: Preferred TCP port. A free one is taken if it is in use.
 
         Raises:
             OSError: No socket can be opened, or the port may not be used.
@@ -98,7 +98,7 @@ class Server:
         return bool(self._wake_ups)
 
     def notify(self) -> None:
-        """Tell every session that there is something new. Callable from any thread, at any rate; returns at once."""
+        """Tell every session that there is something new. Returns at once; for any thread."""
         if not self._wake_ups:
             return
         with self._lock:
@@ -106,7 +106,7 @@ class Server:
                 self._loop.call_soon_threadsafe(self._wake_sessions)
 
     def close(self) -> None:
-        """Close all WebSockets and stop serving; returns within about a second. Idempotent; not for the server's own thread."""
+        """Close all WebSockets and stop serving, within a second. Not for the server's thread."""
         self._started.wait()
         with self._lock:
             if self._loop is not None and self._stopping is not None:
@@ -236,7 +236,7 @@ async def _receive(connection: ServerConnection, session: Session, wake_up: asyn
 
 
 class _ExceptionHandler:
-    """Reports once that no connection can be accepted: asyncio would report each of its attempts."""
+    """Reports once that no connection can be accepted; asyncio would report each attempt."""
 
     def __init__(self) -> None:
         self._reported = False
@@ -255,7 +255,7 @@ class _ExceptionHandler:
 
 
 def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConnection]:
-    """The library's connections, which note their sockets from the first moment: one that never sends a request must not delay the end."""
+    """A connection class that lists all sockets: one without a request must not delay the end."""
     from websockets.asyncio.server import ServerConnection
 
     class TrackedConnection(ServerConnection):
@@ -293,7 +293,7 @@ def _bound(port: int) -> socket.socket:
 
 
 def _logger() -> logging.Logger:
-    """The library's log without its remarks on clients that speak no HTTP: they got their status, and nobody here can mend them."""
+    """The library's log without reports of clients that do not speak HTTP, which got a status."""
     import logging
 
     logger = logging.getLogger("turtlewire.web")

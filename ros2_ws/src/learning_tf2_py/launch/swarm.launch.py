@@ -7,8 +7,8 @@ from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-# The simulator of turtlewire is a Python module that shares a process with the swarm, which carries
-# a thousand turtles. The simulator of ROS 2 is a C++ program; over topics, some hundreds are possible.
+# turtlewire's simulator is a Python module and shares a process with the swarm: that carries a
+# thousand turtles. ROS 2's simulator is a C++ program; topics carry some hundreds.
 SIMULATOR_IS_A_MODULE = find_spec("turtlesim.turtlesim_node") is not None
 
 

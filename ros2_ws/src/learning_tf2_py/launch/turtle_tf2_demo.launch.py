@@ -1,4 +1,4 @@
-"""The field, a broadcaster for each of the two turtles, and the listener that drives turtle2 after the target frame."""
+"""The simulator, a broadcaster for each turtle, and the listener that drives turtle2."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -17,7 +17,7 @@ def generate_launch_description():
             DeclareLaunchArgument(
                 "listener",
                 default_value="turtle_tf2_listener",
-                description="The program that drives turtle2.",
+                description="The executable that drives turtle2.",
             ),
             Node(package="turtlesim", executable="turtlesim_node", name="sim"),
             Node(

@@ -1,4 +1,4 @@
-"""The follow demo, with turtle2 after the carrot of the fixed frame broadcaster instead of turtle1."""
+"""The follow demo: turtle2 follows the carrot of the fixed frame broadcaster."""
 
 from launch import LaunchDescription
 from launch.actions import IncludeLaunchDescription

@@ -1,4 +1,4 @@
-"""The follow demo, with turtle2 where turtle1 was five seconds ago."""
+"""The follow demo: turtle2 goes where turtle1 was five seconds ago."""
 
 from launch import LaunchDescription
 from launch.actions import IncludeLaunchDescription

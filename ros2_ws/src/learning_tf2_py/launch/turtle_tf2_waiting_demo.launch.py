@@ -1,4 +1,4 @@
-"""The follow demo with a listener that waits for its transforms: `waiting:=blocking` or `waiting:=async`."""
+"""The follow demo with lookups that wait: `waiting:=blocking` or `waiting:=async`."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
@@ -18,7 +18,7 @@ def generate_launch_description():
                 "waiting",
                 default_value="blocking",
                 choices=["blocking", "async"],
-                description="How it waits.",
+                description="How the listener waits.",
             ),
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(demo), launch_arguments={"listener": listener}.items()

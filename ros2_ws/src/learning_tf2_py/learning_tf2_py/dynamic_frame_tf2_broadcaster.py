@@ -1,4 +1,4 @@
-"""Swings a carrot around turtle1: a frame whose place, as its parent sees it, changes with time."""
+"""Moves a carrot around turtle1: a frame whose place in its parent changes with time."""
 
 import math
 
@@ -10,7 +10,7 @@ from tf2_ros import TransformBroadcaster
 
 
 class DynamicFrameBroadcaster(Node):
-    """Says ten times a second where the carrot is by now: on a circle of ten metres around turtle1."""
+    """Broadcasts the carrot ten times a second, on a circle of ten metres around turtle1."""
 
     def __init__(self):
         super().__init__("dynamic_frame_tf2_broadcaster")

@@ -1,4 +1,4 @@
-"""Hangs a carrot two metres to the left of turtle1: a frame that moves with the turtle because it is fixed to it."""
+"""Fixes a carrot two metres to the left of turtle1: a frame that moves with its parent."""
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
@@ -8,7 +8,7 @@ from tf2_ros import TransformBroadcaster
 
 
 class FixedFrameBroadcaster(Node):
-    """Says ten times a second where the carrot is, as turtle1 sees it: always in the same place."""
+    """Broadcasts the carrot ten times a second, always in the same place relative to turtle1."""
 
     def __init__(self):
         super().__init__("fixed_frame_tf2_broadcaster")

@@ -1,4 +1,4 @@
-"""Broadcasts once where a thing stands that never moves: `static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW`."""
+"""Broadcasts, once, a frame that never moves: NAME X Y Z ROLL PITCH YAW."""
 
 import sys
 
@@ -10,11 +10,14 @@ from rclpy.utilities import remove_ros_args
 from tf2_ros import StaticTransformBroadcaster
 from tf_transformations import quaternion_from_euler
 
-USAGE = "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW (metres and radians in world)"
+USAGE = (
+    "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW "
+    "(metres and radians in world)"
+)
 
 
 class StaticTurtleBroadcaster(Node):
-    """Tells TF2 where the frame `child_frame_id` stands in the frame `world`."""
+    """Broadcasts the frame `child_frame_id` in the frame `world`."""
 
     def __init__(self, child_frame_id, translation, angles):
         super().__init__("static_turtle_tf2_broadcaster")
@@ -38,7 +41,7 @@ class StaticTurtleBroadcaster(Node):
 
 
 def parse_arguments(arguments):
-    """Return the frame's name and its six numbers; ends the program with a word of help when they are not there."""
+    """Return the frame's name and its six numbers; end the program with help if they are wrong."""
     if len(arguments) != 7:
         sys.exit(USAGE)
     name, *numbers = arguments

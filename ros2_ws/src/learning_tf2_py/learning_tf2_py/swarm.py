@@ -1,4 +1,4 @@
-"""Drives a swarm: every turtle follows the one before it through TF, with all broadcasters and followers in one node."""
+"""Drives a swarm in one node: each turtle follows the one before it through TF."""
 
 import math
 
@@ -12,14 +12,13 @@ from tf2_ros import Buffer, TransformBroadcaster, TransformException, TransformL
 from turtlesim.msg import Pose
 from turtlesim.srv import Spawn
 
-#: Where they begin: on a spiral around the middle of the field, so that each has the one before it
-#: near by.
+#: They start on a spiral around the middle of the field, each near the one before it.
 MIDDLE, RADIUS = 5.5444, 4.5
-#: Each turtle is looked after ten times a second, a fifth of them at a time: the simulator never
-#: waits for all.
+#: Each turtle is updated ten times a second, a fifth of them at a time: a shorter wait for the
+#: simulator.
 GROUPS = 5
 PERIOD = 0.1 / GROUPS
-#: So many turtles may wait for the simulator at a time.
+#: How many spawn requests may wait for the simulator.
 SPAWNING = 8
 
 
@@ -35,7 +34,7 @@ def place_on_spiral(k, count):
 
 
 class Mailboxes(Node):
-    """Keeps the newest pose of each turtle. The simulator tells it at 62.5 Hz: it is taken when it is needed, without a callback."""
+    """Keeps the newest pose of each turtle and takes it when needed, without callbacks."""
 
     def __init__(self):
         super().__init__(
@@ -67,7 +66,7 @@ class Member:
         self.commands = swarm.create_publisher(Twist, f"/{name}/cmd_vel", 1)
 
     def put(self, pose, stamp):
-        """Return the transform that says where the turtle is."""
+        """Return the transform of the turtle's frame."""
         self.place.header.stamp = stamp
         self.place.transform.translation.x = pose.x
         self.place.transform.translation.y = pose.y
@@ -77,10 +76,10 @@ class Member:
 
 
 class Swarm(Node):
-    """Spawns the turtles that the parameter `count` asks for, tells TF where they are, and lets each follow the one before."""
+    """Spawns `count` turtles, broadcasts their frames, and drives each after the one before it."""
 
     def __init__(self, newest_pose):
-        """Begin; `newest_pose(name)` gives the pose of a turtle, or None when there is nothing new."""
+        """Begin; `newest_pose(name)` returns a turtle's pose, or None if there is no new one."""
         super().__init__("swarm")
         self.newest_pose = newest_pose
         self.count = self.declare_parameter("count", 1000).value
@@ -88,9 +87,7 @@ class Swarm(Node):
         self.tf_listener = TransformListener(self.tf_buffer, self)
         self.broadcaster = TransformBroadcaster(self)
 
-        self.members = [
-            Member("turtle1", self)
-        ]  # the simulator's own turtle leads, and is anybody's to drive
+        self.members = [Member("turtle1", self)]  # the simulator's own turtle leads; drive it
         self.asked = 1
         self.ticks = 0
         self.spawner = self.create_client(Spawn, "spawn")
@@ -108,7 +105,7 @@ class Swarm(Node):
                 self.drive(k)
 
     def broadcast(self, members):
-        """Tell TF where these turtles are, in one message."""
+        """Broadcast these turtles' frames, in one message."""
         stamp = self.get_clock().now().to_msg()
         poses = [(member, self.newest_pose(member.name)) for member in members]
         self.broadcaster.sendTransform(
@@ -116,7 +113,7 @@ class Swarm(Node):
         )
 
     def drive(self, k):
-        """Send a turtle to where TF says that the one before it is."""
+        """Drive a turtle towards the one before it."""
         member, leader = self.members[k], self.members[k - 1]
         try:
             place = self.tf_buffer.lookup_transform(
@@ -125,7 +122,7 @@ class Swarm(Node):
         except TransformException as ex:
             self.get_logger().debug(
                 f"Could not retrieve transform: {ex}"
-            )  # TF has not heard of a new turtle yet
+            )  # a new turtle is not in TF yet
             return
         member.commands.publish(twist_towards(place.x, place.y))
 
@@ -141,7 +138,7 @@ class Swarm(Node):
         )
 
     def on_spawned(self, name, future):
-        future.result()  # an empty answer means that there is a turtle of this name: it takes part
+        future.result()  # an empty name means that the turtle exists already: it takes part
         self.members.append(Member(name, self))
         done = len(self.members)
         if done == self.count or done % 100 == 0:

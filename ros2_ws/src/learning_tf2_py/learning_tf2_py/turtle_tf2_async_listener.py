@@ -1,4 +1,4 @@
-"""Drives turtle2 to where the target is at this very moment: it awaits the transform, and holds no thread meanwhile."""
+"""Drives turtle2 to the target's present place: it awaits the transform and blocks no thread."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener
@@ -7,7 +7,7 @@ from tf2_ros import TransformException
 
 
 class AsyncListener(TurtleListener):
-    """Awaits the transform of the present. Other callbacks of the node run in between; the timer waits for its own turn to end."""
+    """Awaits the present transform. Other callbacks of the node run meanwhile."""
 
     def __init__(self):
         super().__init__("turtle_tf2_async_listener")

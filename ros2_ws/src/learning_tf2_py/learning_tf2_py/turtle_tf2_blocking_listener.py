@@ -1,4 +1,4 @@
-"""Drives turtle2 to where the target is at this very moment: a lookup that waits until TF2 has heard of it."""
+"""Drives turtle2 to the target's present place: the lookup waits until the transform is there."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener
@@ -8,7 +8,7 @@ from tf2_ros import TransformException
 
 
 class BlockingListener(TurtleListener):
-    """Asks for the present instead of the latest transform: it is on its way, so the lookup gets a time limit to wait for it."""
+    """Looks up the present transform, not the latest, with a timeout to wait for it."""
 
     def __init__(self):
         super().__init__("turtle_tf2_blocking_listener")
@@ -29,8 +29,8 @@ class BlockingListener(TurtleListener):
 def main(args=None):
     rclpy.init(args=args)
     try:
-        # A callback that waits holds its thread. Where TF2 listens through the executor, another
-        # thread must bring what it waits for.
+        # A callback that waits blocks its thread. On ROS 2 the TF2 listener needs another thread of
+        # the executor.
         rclpy.spin(BlockingListener(), MultiThreadedExecutor())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

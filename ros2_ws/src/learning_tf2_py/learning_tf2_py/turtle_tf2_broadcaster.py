@@ -1,4 +1,4 @@
-"""Broadcasts where a turtle of turtlesim is, in the frame `world`, each time that the simulator tells its pose."""
+"""Broadcasts the frame of a turtle in the frame `world`, at each pose that turtlesim publishes."""
 
 import rclpy
 from geometry_msgs.msg import TransformStamped

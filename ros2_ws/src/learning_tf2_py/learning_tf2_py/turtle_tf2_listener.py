@@ -1,4 +1,4 @@
-"""Drives turtle2 after a frame, which is turtle1 unless the parameter `target_frame` says otherwise."""
+"""Drives turtle2 after the frame that the parameter `target_frame` names; turtle1 by default."""
 
 import math
 
@@ -14,7 +14,7 @@ FOLLOWER = "turtle2"
 
 
 def twist_towards(x, y):
-    """Return the command that drives towards a point `x` ahead and `y` to the left [m]: turn to it, and faster the farther it is."""
+    """Return the command that drives to a point `x` m ahead and `y` m to the left."""
     command = Twist()
     command.linear.x = 0.5 * math.hypot(x, y)
     command.angular.z = 1.0 * math.atan2(y, x)
@@ -22,7 +22,7 @@ def twist_towards(x, y):
 
 
 class TurtleListener(Node):
-    """Asks TF2 ten times a second where the target is, as seen from turtle2, and steers turtle2 there."""
+    """Looks up the target in turtle2's frame ten times a second, and steers turtle2 there."""
 
     def __init__(self, node_name="turtle_tf2_listener"):
         super().__init__(node_name)

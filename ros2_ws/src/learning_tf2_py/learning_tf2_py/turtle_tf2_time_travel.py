@@ -1,4 +1,4 @@
-"""Drives turtle2 to where turtle1 was some seconds ago: a lookup between two frames at two times."""
+"""Drives turtle2 to turtle1's place of some seconds ago: two frames at two times."""
 
 import rclpy
 from learning_tf2_py.turtle_tf2_listener import FOLLOWER, TurtleListener
@@ -9,7 +9,7 @@ from tf2_ros import TransformException
 
 
 class TimeTraveller(TurtleListener):
-    """Asks TF2 ten times a second where the target was, as turtle2 sees it now. `world` is the frame that did not move in between."""
+    """Looks up the target's past place from turtle2's present one, by way of `world`."""
 
     def __init__(self):
         super().__init__("turtle_tf2_time_travel")
