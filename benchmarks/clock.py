@@ -1,4 +1,7 @@
-"""Timing, shared by all adapters; plain Python of any version, because rivals run on other interpreters."""
+"""Timing, shared by all adapters.
+
+Plain Python of any version, because rivals run on other interpreters.
+"""
 
 import json
 import statistics
@@ -7,7 +10,9 @@ import timeit
 
 
 def per_call(statement, names, seconds=1.0):
-    """Nanoseconds for one execution of a statement: (minimum, median) of many short runs. The loop itself (5 ns) is in it.
+    """Nanoseconds for one execution of a statement: (minimum, median) of many short runs.
+
+    The loop itself (5 ns) is in it.
 
     The runs last about 2 ms: on a busy machine some of them are undisturbed.
     """

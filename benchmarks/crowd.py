@@ -1,4 +1,6 @@
-"""Many processes on one host, each with one node: how long until everybody sees everybody, and what they weigh.
+"""Many processes on one host, each with one node.
+
+How long until everybody sees everybody, and what they weigh.
 
 ``scripts/bench crowd`` measures 50. For another number, of which so many are started a second:
 ``python -m benchmarks.crowd 120 5``.
@@ -101,7 +103,10 @@ def start(count: int, each_second: float) -> tuple[float, float]:
 
 
 def let_one_join(count: int) -> tuple[float, float]:
-    """Seconds from the last one's start, after the others know each other, until all see all; and MB of each."""
+    """Seconds from the last one's start, after the others know each other, until all see all.
+
+    And MB of each.
+    """
     with crowd() as members:
         members += [Member(count - 1, count) for _ in range(count - 1)]
         for member in members:

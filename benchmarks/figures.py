@@ -9,7 +9,10 @@ FACTORS = {"ns": 1.0, "µs": 1e3, "ms": 1e6, "s": 1e9}
 
 @dataclass(frozen=True)
 class Figure:
-    """What repeated measurements gave: the least, which is the undisturbed cost, and the middle, which is what one sees."""
+    """What repeated measurements gave.
+
+    The least, which is the undisturbed cost, and the middle, which is what one sees.
+    """
 
     minimum: float
     median: float

@@ -64,7 +64,8 @@ def rows() -> Iterator[Row]:
     store = get_typestore(Stores.ROS2_JAZZY)
     store.register(
         get_types_from_msg(
-            "float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 angular_velocity\n",
+            "float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 "
+            "angular_velocity\n",
             "turtlesim/msg/Pose",
         )
     )

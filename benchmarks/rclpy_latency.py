@@ -1,4 +1,6 @@
-"""From publish() to the callback, two processes on loopback at 1 kHz, against the same messages on the bare wire."""
+"""From publish() to the callback, two processes on loopback at 1 kHz, against the same messages on
+the bare wire.
+"""
 
 from __future__ import annotations
 

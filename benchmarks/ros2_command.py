@@ -67,7 +67,10 @@ def rows() -> Iterator[Row]:
 
 
 def measured(environment: dict[str, str], words: list[str], expected: str) -> Figure:
-    """Wall time of a command whose output has to hold a text; the first run fills the cache of compiled modules."""
+    """Wall time of a command whose output has to hold a text.
+
+    The first run fills the cache of compiled modules.
+    """
     spent = [run(environment, words, expected) for _ in range(ROUNDS + 1)][1:]
     return Figure(min(spent), statistics.median(spent))
 

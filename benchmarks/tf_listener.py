@@ -1,4 +1,6 @@
-"""What a TransformListener costs, and how soon a waiting lookup has its answer; the publisher is another process at 1 kHz.
+"""What a TransformListener costs, and how soon a waiting lookup has its answer.
+
+The publisher is another process at 1 kHz.
 
 The cost is the CPU time of the whole receiving process for each message. The wait ends with the
 return of the lookup and begins with the stamp of the transform, before the publisher makes a

@@ -1,4 +1,8 @@
-"""What a turtle costs: the simulator and the swarm of learning_tf2_py in one process, on the wire, as `swarm.launch.py` starts them."""
+"""What a turtle costs.
+
+The simulator and the swarm of learning_tf2_py in one process, on the wire, as `swarm.launch.py`
+starts them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The data that every rival gets: a chain of four frames at 1 kHz over ten seconds, all three links moving."""
+"""The data that every rival gets.
+
+A chain of four frames at 1 kHz over ten seconds, all three links moving.
+"""
 
 import math
 

@@ -30,8 +30,8 @@ if find_spec("turtlewire._native") is None:  # each child process would say that
     os.environ.setdefault("TURTLEWIRE_CORE", "python")
 
 
-# A shell starts what ends with `&` with SIGINT ignored, and `nohup` ignores SIGHUP; children inherit
-# that. With handlers here, the children have the defaults again, as the tests expect.
+# A shell starts what ends with `&` with SIGINT ignored, and `nohup` ignores SIGHUP; children
+# inherit that. With handlers here, the children have the defaults again, as the tests expect.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:

@@ -36,7 +36,9 @@ def check_lookup() -> None:
 
 
 def check_commands(bin_dir: Path) -> None:
-    """`ros2` finds its packages, and the tutorial's launch file starts, follows a Ctrl-C and leaves cleanly."""
+    """`ros2` finds its packages, and the tutorial's launch file starts, follows a Ctrl-C and leaves
+    cleanly.
+    """
     ros2 = str(bin_dir / "ros2")
     executables = subprocess.run(
         [ros2, "pkg", "executables", "learning_tf2_py"], check=True, capture_output=True, text=True

@@ -1,4 +1,7 @@
-"""Debian's python3-tf2: the C++ tf2 of ROS 1 behind its tf2_py, with its message classes. Run by the system's Python."""
+"""Debian's python3-tf2: the C++ tf2 of ROS 1 behind its tf2_py, with its message classes.
+
+Run by the system's Python.
+"""
 
 import os
 import sys

@@ -1,4 +1,7 @@
-"""Numba by hand: one compiled loop over the stamps, with a binary search and a SLERP for each of the three links."""
+"""Numba by hand.
+
+One compiled loop over the stamps, with a binary search and a SLERP for each of the three links.
+"""
 
 import math
 import os

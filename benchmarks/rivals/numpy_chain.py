@@ -1,4 +1,7 @@
-"""NumPy by hand: the chain's links as arrays, searchsorted, vectorised SLERP and products. Chain and answers as ours."""
+"""NumPy by hand: the chain's links as arrays, searchsorted, vectorised SLERP and products.
+
+Chain and answers as ours.
+"""
 
 import os
 import sys

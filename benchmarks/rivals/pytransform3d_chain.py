@@ -1,4 +1,7 @@
-"""pytransform3d's TemporalTransformManager: it interpolates by screw motion, and gives matrices. Times count from the first sample."""
+"""pytransform3d's TemporalTransformManager: it interpolates by screw motion, and gives matrices.
+
+Times count from the first sample.
+"""
 
 import os
 import sys

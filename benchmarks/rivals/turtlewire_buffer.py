@@ -122,7 +122,9 @@ def ingest(figures):
 
 
 def wake_up(figures):
-    """From the arrival of the data to the return of the lookup that waited for it, in another thread."""
+    """From the arrival of the data to the return of the lookup that waited for it, in another
+    thread.
+    """
     buffer, latencies = turtlewire.Buffer(), []
     identity = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
     asked, done = threading.Semaphore(0), threading.Semaphore(0)

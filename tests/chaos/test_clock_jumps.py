@@ -16,7 +16,8 @@ pytestmark = pytest.mark.slow
 
 HOUR = 3600
 #: A timer of the steady clock (a node's own clock is the computer's, so that its timers wait again
-#: for a time that a jump back repeats, as in ROS 2), a topic, a service and a transform with a timeout; says a line whenever all have worked.
+#: for a time that a jump back repeats, as in ROS 2), a topic, a service and a transform with a
+#: timeout; says a line whenever all have worked.
 ALIVE = """
 import itertools, sys, threading
 import rclpy
@@ -73,7 +74,9 @@ print("joined", not thread.is_alive())
 
 @pytest.fixture
 def jumping_clock(tmp_path):
-    """Environment of a process whose clock jumps, and a function that sets the offset in seconds."""
+    """Environment of a process whose clock jumps, and a function that sets the offset in
+    seconds.
+    """
     if (platform.system(), platform.machine()) != ("Linux", "x86_64") or not shutil.which("cc"):
         pytest.skip("preloads a clock that is compiled here with cc, for glibc on x86_64")
     library, offset = tmp_path / "jumping_clock.so", tmp_path / "offset"

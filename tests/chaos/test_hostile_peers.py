@@ -18,7 +18,8 @@ pytestmark = pytest.mark.slow
 
 ROS2 = Path(sys.executable).parent / "ros2"
 DATAGRAMS = 20_000
-#: Submessages of RTPS: data, fragments, heartbeats, gaps, acknowledgements, times, and unknown ones.
+#: Submessages of RTPS: data, fragments, heartbeats, gaps, acknowledgements, times, and unknown
+#: ones.
 KINDS = [0x01, 0x06, 0x07, 0x08, 0x09, 0x0C, 0x0D, 0x0E, 0x0F, 0x12, 0x13, 0x15, 0x16, 0x80, 0xFF]
 
 #: Prints what it hears on /words, until told to end.

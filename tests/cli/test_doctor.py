@@ -449,7 +449,11 @@ def test_everything_at_once_on_the_wire(run):
         thread.join()
         opened.close()
     for text in (
-        "PROBLEM: /x: /two receives nothing from /one: it asks for RELIABLE, and BEST_EFFORT is offered.",
+        (
+            "PROBLEM: /x: /two receives nothing from /one: it asks for RELIABLE, and BEST_EFFORT "
+            "is "
+            "offered."
+        ),
         "PROBLEM: The frame 'shared' is published by /one and /two.",
         "PROBLEM: The frames form 2 separate trees, with the roots odom, world.",
         "PROBLEM: Wall time and simulated time are mixed: leaping and simulated.",

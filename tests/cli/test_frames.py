@@ -1,4 +1,7 @@
-"""`turtlewire frames`: the tree of a buffer as text and JSON, and the command in pipes and terminals."""
+"""`turtlewire frames`.
+
+The tree of a buffer as text and JSON, and the command in pipes and terminals.
+"""
 
 from __future__ import annotations
 
@@ -221,8 +224,8 @@ def test_nothing_was_heard(capsys, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     assert main(["frames", "--once", "--period", "0.05"]) == 1
     assert (
-        capsys.readouterr().out
-        == f"No transforms on /tf and /tf_static yet (ROS_DOMAIN_ID={os.environ['ROS_DOMAIN_ID']}).\n"
+        capsys.readouterr().out == "No transforms on /tf and /tf_static yet "
+        f"(ROS_DOMAIN_ID={os.environ['ROS_DOMAIN_ID']}).\n"
     )
 
 

@@ -170,7 +170,8 @@ def test_choices(launch):
     assert argument.description == "One of: ['red', 'green']"
     assert (
         launch(argument).error
-        == "Argument \"colour\" provided value \"blue\" is not valid. Valid options are: ['red', 'green']"
+        == 'Argument "colour" provided value "blue" is not valid. Valid options are: [\'red\', '
+        "'green']"
     )
     with pytest.raises(ValueError, match="Provided choices are empty"):
         DeclareLaunchArgument("colour", choices=[])
@@ -191,7 +192,10 @@ def test_an_include_sets_arguments_before(launch):
 def test_an_include_asks_for_required_arguments(launch):
     inner = included(DeclareLaunchArgument("colour", description="Of the turtle."))
     outcome = launch(IncludeLaunchDescription(inner, launch_arguments=[("a", "1"), ("b", "2")]))
-    expected = "Included launch description missing required argument 'colour' (description: 'Of the turtle.'), given: [a, b]"
+    expected = (
+        "Included launch description missing required argument 'colour' (description: 'Of the "
+        "turtle.'), given: [a, b]"
+    )
     assert outcome.error == expected
 
 
@@ -200,7 +204,8 @@ def test_an_included_file_knows_its_path(launch, tmp_path):
     inner.write_text('<launch><log message="$(filename) in $(dirname)"/></launch>')
     outer = tmp_path / "outer.launch.yaml"
     outer.write_text(
-        "launch:\n- include: {file: $(dirname)/inner.launch.xml}\n- log: {message: back in $(filename)}\n"
+        "launch:\n- include: {file: $(dirname)/inner.launch.xml}\n- log: {message: back in "
+        "$(filename)}\n"
     )
     outcome = launch(IncludeLaunchDescription(str(outer)))
     assert outcome.messages == [f"{inner} in {tmp_path}", f"back in {outer}"]

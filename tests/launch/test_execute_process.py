@@ -25,9 +25,15 @@ from launch.events.process import ProcessStdin, ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration
 
 #: Say when ready, then wait for signals.
-IGNORES_SIGINT = "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); print('ready', flush=True); signal.pause()"
+IGNORES_SIGINT = (
+    "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); print('ready', "
+    "flush=True); signal.pause()"
+)
 IGNORES_BOTH = f"import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); {IGNORES_SIGINT}"
-HANDLES_SIGINT = "import signal\ntry: print('ready', flush=True); signal.pause()\nexcept KeyboardInterrupt: print('bye')"
+HANDLES_SIGINT = (
+    "import signal\ntry: print('ready', flush=True); signal.pause()\nexcept KeyboardInterrupt: "
+    "print('bye')"
+)
 
 
 def python(code, **options):
@@ -79,8 +85,8 @@ def test_a_command_that_does_not_exist(launch):
     outcome = launch(ExecuteProcess(cmd=["no_such_program"]), LogInfo(msg="goes on"))
     assert outcome.messages == ["goes on"]
     assert (
-        "exception occurred while executing process: [Errno 2] No such file or directory: 'no_such_program'"
-        in outcome.text
+        "exception occurred while executing process: [Errno 2] No such file or directory: "
+        "'no_such_program'" in outcome.text
     )
 
 
@@ -262,12 +268,14 @@ def test_shutdown_escalates(launch):
     assert sorted(steps) == sorted(
         [f"[INFO] [{name}]: sending signal 'SIGINT' to process[{name}]" for name in names]
         + [
-            f"[ERROR] [{name}]: process[{name}] failed to terminate '0.05' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
+            f"[ERROR] [{name}]: process[{name}] failed to terminate '0.05' seconds after "
+            "receiving 'SIGINT', escalating to 'SIGTERM'"
             for name in names[1:]
         ]
         + [f"[INFO] [{name}]: sending signal 'SIGTERM' to process[{name}]" for name in names[1:]]
         + [
-            f"[ERROR] [{name}]: process[{name}] failed to terminate '0.05' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'"
+            f"[ERROR] [{name}]: process[{name}] failed to terminate '0.05' seconds after "
+            "receiving 'SIGTERM', escalating to 'SIGKILL'"
             for name in names[2:]
         ]
         + [f"[INFO] [{name}]: sending signal 'SIGKILL' to process[{name}]" for name in names[2:]]
@@ -279,7 +287,8 @@ def test_single_processes_can_be_stopped_signalled_and_fed(launch):
     # Each stays until its own event comes; with the last of them the launch ends.
     stopped = python(HANDLES_SIGINT)
     signalled = python(
-        "import signal\nsignal.signal(signal.SIGUSR1, lambda *_: exit(5))\nprint('ready')\nsignal.pause()"
+        "import signal\nsignal.signal(signal.SIGUSR1, lambda *_: "
+        "exit(5))\nprint('ready')\nsignal.pause()"
     )
     fed = python("print('ready'); print('got', input())")
     outcome = launch(

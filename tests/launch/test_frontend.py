@@ -87,7 +87,10 @@ def launch_file(launch, tmp_path, language):
 
 def test_shutdown(launch_file):
     xml = '<launch><timer period="1000"><log message="never"/></timer><shutdown reason="enough"/></launch>'
-    yaml = "launch:\n- timer: {period: 1000.0, children: [{log: {message: never}}]}\n- shutdown: {reason: enough}\n"
+    yaml = (
+        "launch:\n- timer: {period: 1000.0, children: [{log: {message: never}}]}\n- shutdown: "
+        "{reason: enough}\n"
+    )
     outcome = launch_file(xml, yaml)
     assert outcome.messages == []
     assert outcome.status == 0
@@ -127,7 +130,10 @@ def test_includes_with_arguments(launch_file, tmp_path):
     (tmp_path / "inner.launch.xml").write_text(
         "<launch><arg name='who'/><log message='$(var who)'/></launch>"
     )
-    xml = "<launch><include file='$(dirname)/inner.launch.xml'><arg name='who' value='me'/></include></launch>"
+    xml = (
+        "<launch><include file='$(dirname)/inner.launch.xml'><arg name='who' "
+        "value='me'/></include></launch>"
+    )
     yaml = "launch: [{include: {file: $(dirname)/inner.launch.xml, arg: [{name: who, value: me}]}}]"
     assert launch_file(xml, yaml).messages == ["me"]
 

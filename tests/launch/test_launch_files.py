@@ -61,7 +61,10 @@ def test_python(launch, file, tmp_path, source):
 
 def test_python_without_the_function(file):
     path = file("x.launch.py", "x = 1")
-    expected = f"launch file at '{path}' does not contain the required function 'generate_launch_description\\(\\)'"
+    expected = (
+        f"launch file at '{path}' does not contain the required function "
+        "'generate_launch_description\\(\\)'"
+    )
     with pytest.raises(InvalidPythonLaunchFileError, match=expected):
         get_launch_description_from_python_launch_file(path)
 
@@ -87,7 +90,8 @@ def test_python_without_the_function(file):
             "<launch>\n  <arg name='x'>\n</launch>",
             [
                 (
-                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of format [xml]: "
+                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of "
+                    "format [xml]: "
                     "mismatched tag: line 3, column 2 (x.launch.xml, line 3)"
                 ),
                 "SyntaxError: invalid syntax (x.launch.xml, line 1)",
@@ -98,7 +102,8 @@ def test_python_without_the_function(file):
             "launch:\n- log: {message: hello\n- log:",
             [
                 (
-                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of format [yaml]: "
+                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of "
+                    "format [yaml]: "
                     "expected ',' or '}', but got ':' (x.launch.yaml, line 3)"
                 ),
                 "SyntaxError: invalid syntax (x.launch.yaml, line 1)",
@@ -109,7 +114,8 @@ def test_python_without_the_function(file):
             "- log",
             [
                 (
-                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of format [yaml]: "
+                    "InvalidFrontendLaunchFileError: Caught exception when trying to load file of "
+                    "format [yaml]: "
                     "Expected only one root element: a mapping with the key 'launch'"
                 ),
                 "NameError: name 'log' is not defined",
@@ -127,8 +133,8 @@ def test_malformed_files(launch, file, name, content, errors):
     outcome = launch(IncludeLaunchDescription(file(name, content)))
     assert outcome.status == 1
     assert (
-        outcome.error
-        == f"Caught multiple exceptions when trying to load file of format [{name.rpartition('.')[2]}]:"
+        outcome.error == "Caught multiple exceptions when trying to load file of format "
+        f"[{name.rpartition('.')[2]}]:"
     )
     listed = [line.removeprefix(" - ") for line in outcome.lines if line.startswith(" - ")]
     assert listed[: len(errors)] == errors
@@ -220,12 +226,13 @@ def test_the_tree_of_a_description():
         "├── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit object at "
     )
     assert lines[7].startswith(
-        "│   └── OnProcessExit(matcher='event == ProcessExited and event.action == <launch.actions.execute_process."
+        "│   └── OnProcessExit(matcher='event == ProcessExited and event.action == "
+        "<launch.actions.execute_process."
     )
     assert lines[8] == "│       └── LogInfo('ended')"
     assert (
-        lines[9]
-        == "└── ExecuteProcess(cmd=['echo', LaunchConfig('x')], cwd=None, env={'A': 'b'}, shell=False)"
+        lines[9] == "└── ExecuteProcess(cmd=['echo', LaunchConfig('x')], cwd=None, env={'A': 'b'}, "
+        "shell=False)"
     )
     assert lines[10].startswith(
         "    └── process '[[<launch.substitutions.text_substitution.TextSubstitution object at "

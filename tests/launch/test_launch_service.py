@@ -138,8 +138,8 @@ def test_debug_shows_tracebacks_and_events(launch):
     text = launch(OpaqueFunction(function=fail), debug=True).text
     assert "[DEBUG] [launch]: Traceback (most recent call last):" in text
     assert (
-        "[DEBUG] [launch.launch_context]: emitting event synchronously: 'launch.events.IncludeLaunchDescription'"
-        in text
+        "[DEBUG] [launch.launch_context]: emitting event synchronously: "
+        "'launch.events.IncludeLaunchDescription'" in text
     )
     assert "[INFO] [launch]: Default logging verbosity is set to DEBUG" in text
 

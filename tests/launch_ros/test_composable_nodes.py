@@ -99,7 +99,8 @@ def test_nodes_of_a_container(launch):
 
 def test_what_a_scope_adds_and_files(launch, tmp_path):
     (tmp_path / "params.yaml").write_text(
-        "/**: {ros__parameters: {speed: 1}}\n/robot/n: {ros__parameters: {speed: 7}}\n/other: {ros__parameters: {speed: 8}}"
+        "/**: {ros__parameters: {speed: 1}}\n/robot/n: {ros__parameters: {speed: 7}}\n/other: "
+        "{ros__parameters: {speed: 8}}"
     )
     container = ComposableNodeContainer(
         name="box",
@@ -124,7 +125,10 @@ def test_what_cannot_be_loaded(launch):
         ],
     )
     outcome = launch(until_loaded(container), container)
-    failed = "Failed to load node 'n' of type 'shows.Nobody' in container '/box': AttributeError: module 'shows' has no attribute 'Nobody'"
+    failed = (
+        "Failed to load node 'n' of type 'shows.Nobody' in container '/box': AttributeError: "
+        "module 'shows' has no attribute 'Nobody'"
+    )
     assert f"[ERROR] [launch_ros.actions.load_composable_nodes]: {failed}" in outcome.lines
     assert (
         "there are now at least 2 nodes with the name /m created within this launch context"

@@ -23,7 +23,8 @@ def entity(tmp_path):
 
 def test_attributes(entity):
     element = entity(
-        "<launch a='1' b='1.5' c='true' d='x' e='1;2' e-sep=';' f='a, b' g='[1, 2]'><child/><child/></launch>"
+        "<launch a='1' b='1.5' c='true' d='x' e='1;2' e-sep=';' f='a, b' g='[1, "
+        "2]'><child/><child/></launch>"
     )
     assert element.type_name == "launch"
     assert element.get_attr("a") == "1"
@@ -74,7 +75,10 @@ REMOTE = '<!DOCTYPE launch SYSTEM "http://127.0.0.1:9/evil.dtd"><launch/>'
 @pytest.mark.parametrize("text", [BOMB, EXTERNAL, REMOTE])
 def test_entities_are_refused(tmp_path, text):
     (tmp_path / "x.launch.xml").write_text(text)
-    message = r"a document type declaration, which may hold entities, is not allowed here \(x.launch.xml, line 1\)"
+    message = (
+        r"a document type declaration, which may hold entities, is not allowed here "
+        r"\(x.launch.xml, line 1\)"
+    )
     with pytest.raises(SyntaxError, match=message):
         Parser.load(str(tmp_path / "x.launch.xml"))
 

@@ -22,7 +22,8 @@ def entity(tmp_path):
 
 def test_attributes(entity):
     element = entity(
-        "launch:\n- node: {a: 1, b: 1.5, c: true, d: x, e: [1, 2], children: [{x: {}}, {y: {}}], env: [{name: n}]}"
+        "launch:\n- node: {a: 1, b: 1.5, c: true, d: x, e: [1, 2], children: [{x: {}}, {y: {}}], "
+        "env: [{name: n}]}"
     ).children[0]
     assert element.type_name == "node"
     assert element.get_attr("a", data_type=int) == 1
@@ -48,7 +49,8 @@ def test_attributes_that_are_missing_or_of_another_type(entity):
         element.get_attr("b")
     with pytest.raises(
         TypeError,
-        match="Attribute 'c' of Entity 'node' expected to be of type '<class 'int'>' but got '<class 'bool'>'",
+        match="Attribute 'c' of Entity 'node' expected to be of type '<class 'int'>' but got "
+        "'<class 'bool'>'",
     ):
         element.get_attr("c", data_type=int)
     with pytest.raises(TypeError, match="expected to be of type '<class 'bool'>'"):

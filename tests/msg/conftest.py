@@ -1,4 +1,7 @@
-"""What the message tests share: the golden data, filling a message from it, and messages of any type at random."""
+"""What the message tests share.
+
+The golden data, filling a message from it, and messages of any type at random.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,9 @@ def messages():
 
 @pytest.fixture(scope="session")
 def all_messages():
-    """Full names of all messages that come with turtlewire, those of services and actions included."""
+    """Full names of all messages that come with turtlewire, those of services and actions
+    included.
+    """
     names = []
     for package, kinds in sorted(msg.interface_names().items()):
         names += [f"{package}/msg/{name}" for name in kinds["msg"]]
@@ -64,7 +69,10 @@ def all_messages():
 
 
 def _message_from(full_name: str, values: dict[str, Any]) -> Any:
-    """A message from golden values: nested dicts, bytes as {"bytes": hex}, nan and inf as strings."""
+    """A message from golden values.
+
+    Nested dicts, bytes as {"bytes": hex}, nan and inf as strings.
+    """
     definition = load_message(full_name)
     types = {field.name: field.type for field in definition.fields}
     return msg.get_message(full_name)(

@@ -48,16 +48,25 @@ def test_what_equals_true_is_accepted_as_bool(truth):
         ),
         (
             Twist(linear=3),
-            "geometry_msgs/msg/Twist: field 'linear': expected geometry_msgs/msg/Vector3, got int (3)",
+            (
+                "geometry_msgs/msg/Twist: field 'linear': expected geometry_msgs/msg/Vector3, got "
+                "int (3)"
+            ),
         ),
         (
             Twist(angular=Header()),
-            "geometry_msgs/msg/Twist: field 'angular': expected geometry_msgs/msg/Vector3, got Header",
+            (
+                "geometry_msgs/msg/Twist: field 'angular': expected geometry_msgs/msg/Vector3, got "
+                "Header"
+            ),
         ),
         (String(data=b"x"), "std_msgs/msg/String: field 'data': expected str, got bytes (b'x')"),
         (
             String(data="\ud800"),
-            "std_msgs/msg/String: field 'data': expected str that can be encoded (no lone surrogates), got str",
+            (
+                "std_msgs/msg/String: field 'data': expected str that can be encoded (no lone "
+                "surrogates), got str"
+            ),
         ),
         (
             SetBool.Request(data="false"),
@@ -73,11 +82,17 @@ def test_what_equals_true_is_accepted_as_bool(truth):
         ),
         (
             msg.get_message("std_msgs/msg/Int32")(data=1.5),
-            "std_msgs/msg/Int32: field 'data': expected an integer from -2147483648 to 2147483647, got float (1.5)",
+            (
+                "std_msgs/msg/Int32: field 'data': expected an integer from -2147483648 to "
+                "2147483647, got float (1.5)"
+            ),
         ),
         (
             msg.get_message("std_msgs/msg/Float32")(data=1e300),
-            "std_msgs/msg/Float32: field 'data': expected a float that fits 32 bits, got float (1e+300)",
+            (
+                "std_msgs/msg/Float32: field 'data': expected a float that fits 32 bits, got float "
+                "(1e+300)"
+            ),
         ),
         (
             msg.get_message("std_msgs/msg/Byte")(data=1),
@@ -85,15 +100,25 @@ def test_what_equals_true_is_accepted_as_bool(truth):
         ),
         (
             TFMessage(transforms=[TransformStamped(), 5]),
-            "tf2_msgs/msg/TFMessage: field 'transforms[1]': expected geometry_msgs/msg/TransformStamped, got int (5)",
+            (
+                "tf2_msgs/msg/TFMessage: field 'transforms[1]': expected "
+                "geometry_msgs/msg/TransformStamped, got int (5)"
+            ),
         ),
         (
             TFMessage(transforms=7),
-            "tf2_msgs/msg/TFMessage: field 'transforms': expected a sequence (sequence<geometry_msgs/TransformStamped>), got int (7)",
+            (
+                "tf2_msgs/msg/TFMessage: field 'transforms': expected a sequence "
+                "(sequence<geometry_msgs/TransformStamped>), got int (7)"
+            ),
         ),
         (
             msg.get_message("std_msgs/msg/ByteMultiArray")(data=[b"a", b"bc"]),
-            "std_msgs/msg/ByteMultiArray: field 'data[1]': expected bytes of length 1, got bytes (b'bc')",
+            (
+                "std_msgs/msg/ByteMultiArray: field 'data[1]': expected bytes of length 1, got "
+                "bytes "
+                "(b'bc')"
+            ),
         ),
         (
             msg.get_message("shape_msgs/msg/SolidPrimitive")(dimensions=[1, 2, 3, 4]),
@@ -105,7 +130,11 @@ def test_what_equals_true_is_accepted_as_bool(truth):
         ),
         (
             msg.get_message("rmw_dds_common/msg/NodeEntitiesInfo")(node_name="é" * 129),
-            "rmw_dds_common/msg/NodeEntitiesInfo: field 'node_name': expected at most 256 bytes of UTF-8, got str",
+            (
+                "rmw_dds_common/msg/NodeEntitiesInfo: field 'node_name': expected at most 256 "
+                "bytes "
+                "of UTF-8, got str"
+            ),
         ),
     ],
 )
@@ -208,7 +237,10 @@ def test_other_encapsulations_are_refused(header):
         (
             TFMessage,
             "ffffffff00000000",
-            "field 'transforms[0].header.stamp.nanosec' at offset 12: needs 4 bytes, but the data ends after 12",
+            (
+                "field 'transforms[0].header.stamp.nanosec' at offset 12: needs 4 bytes, but the "
+                "data ends after 12"
+            ),
         ),
         (
             msg.get_message("std_msgs/msg/Float64MultiArray"),
@@ -218,22 +250,35 @@ def test_other_encapsulations_are_refused(header):
         (
             msg.get_message("rmw_dds_common/msg/NodeEntitiesInfo"),
             "ff0f0000",
-            "field 'node_namespace' at offset 4: a length of 4094, but string<256> holds at most 256",
+            (
+                "field 'node_namespace' at offset 4: a length of 4094, but string<256> holds at "
+                "most "
+                "256"
+            ),
         ),
         (
             msg.get_message("shape_msgs/msg/SolidPrimitive"),
             "0000000004000000" + "00" * 32,
-            "field 'dimensions' at offset 8: a length of 4, but sequence<double, 3> holds at most 3",
+            (
+                "field 'dimensions' at offset 8: a length of 4, but sequence<double, 3> holds at "
+                "most 3"
+            ),
         ),
         (
             msg.get_message("example_interfaces/msg/WString"),
             "0100000022f40100",
-            "field 'data' at offset 8: a string that is not valid UTF-16 (a code unit above 0xffff)",
+            (
+                "field 'data' at offset 8: a string that is not valid UTF-16 (a code unit above "
+                "0xffff)"
+            ),
         ),
         (
             msg.get_message("example_interfaces/msg/WString"),
             "020000003dd8000041000000",
-            "field 'data' at offset 8: a string that is not valid UTF-16 (illegal UTF-16 surrogate)",
+            (
+                "field 'data' at offset 8: a string that is not valid UTF-16 (illegal UTF-16 "
+                "surrogate)"
+            ),
         ),
         (
             msg.get_message("std_msgs/msg/Empty"),
@@ -264,7 +309,10 @@ def test_a_zero_byte_within_a_string_is_kept():
 
 
 def test_mutated_bytes_decode_to_a_message_or_raise_cdr_error(golden):
-    """Bits flipped, bytes cut and inserted, lengths made huge: never another exception, and what decodes encodes again."""
+    """Bits flipped, bytes cut and inserted, lengths made huge.
+
+    Never another exception, and what decodes encodes again.
+    """
     generator = random.Random(20)
     refused = decoded = 0
     for case in golden("cdr_cases.json"):

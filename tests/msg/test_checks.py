@@ -55,12 +55,18 @@ def _make(name, **fields):
         (
             "std_msgs/msg/MultiArrayLayout",
             {"dim": [3]},
-            "The 'dim' field must be a set or sequence and each value of type 'MultiArrayDimension'",
+            (
+                "The 'dim' field must be a set or sequence and each value of type "
+                "'MultiArrayDimension'"
+            ),
         ),
         (
             "turtlesim/srv/Spawn_Event",
             {"request": [msg.get_service("turtlesim/srv/Spawn").Request()] * 2},
-            "The 'request' field must be a set or sequence with length <= 1 and each value of type 'Spawn_Request'",
+            (
+                "The 'request' field must be a set or sequence with length <= 1 and each value of "
+                "type 'Spawn_Request'"
+            ),
         ),
         (
             "unique_identifier_msgs/msg/UUID",
@@ -102,8 +108,10 @@ def test_sequences_are_checked_before_they_are_converted():
     with pytest.raises(AssertionError) as caught:
         scan.ranges = [1]
     assert str(caught.value) == (
-        "The 'ranges' field must be a set or sequence and each value of type 'float' and each float in "
-        "[-340282346600000016151267322115014000640.000000, 340282346600000016151267322115014000640.000000]"
+        "The 'ranges' field must be a set or sequence and each value of type 'float' and each "
+        "float in "
+        "[-340282346600000016151267322115014000640.000000, "
+        "340282346600000016151267322115014000640.000000]"
     )
     with pytest.raises(
         AssertionError, match=r"The 'ranges' array.array\(\) must have the type code of 'f'"
@@ -121,7 +129,8 @@ def test_sequences_are_checked_before_they_are_converted():
         uuid.uuid = np.zeros(16)
     with pytest.raises(
         AssertionError,
-        match="a set or sequence with length 16 and each value of type 'int' and each unsigned integer",
+        match="a set or sequence with length 16 and each value of type 'int' and each unsigned "
+        "integer",
     ):
         uuid.uuid = [0] * 15
     with pytest.raises(AssertionError, match="The 'uuid' field must be a set or sequence"):

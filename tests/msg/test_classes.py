@@ -27,7 +27,8 @@ def test_repr_is_that_of_ros():
     assert repr(Vector3(x=1.5)) == "geometry_msgs.msg.Vector3(x=1.5, y=0.0, z=0.0)"
     assert (
         repr(Header(frame_id="map"))
-        == "std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time(sec=0, nanosec=0), frame_id='map')"
+        == "std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time(sec=0, nanosec=0), "
+        "frame_id='map')"
     )
     assert (
         repr(Spawn.Request(name="t"))
@@ -222,7 +223,9 @@ def test_the_modules_of_packages_list_their_interfaces():
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
 def test_a_ctrl_c_that_was_caught_while_a_class_is_made_does_not_decide_how_the_process_ends():
-    """After a KeyboardInterrupt in ``exec(string)``, CPython ends with -2, whatever the program did about it."""
+    """After a KeyboardInterrupt in ``exec(string)``, CPython ends with -2, whatever the program did
+    about it.
+    """
     program = """
 import os, signal, sys
 from turtlewire import msg

@@ -107,7 +107,8 @@ print(msg.interface_names()["my_interfaces"])
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         (
-            "my_interfaces.msg.Sphere(center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), radius=1.5) "
+            "my_interfaces.msg.Sphere(center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), "
+            "radius=1.5) "
             "my_interfaces.srv.AddSphere_Request(sphere=my_interfaces.msg.Sphere("
             "center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), radius=1.5)) "
             "my_interfaces.action.Roll_Goal(distance=2.0) 12 every # thing"
@@ -142,7 +143,8 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         "request = AddSphere.Request(sphere=Sphere())\n"
         "request.sphere.center.x = 1.0\n"
         "limit: int = Everything.LIMIT\n"
-        "def add(request: AddSphere.Request, response: AddSphere.Response) -> Roll.Goal: return Roll.Goal()\n"
+        "def add(request: AddSphere.Request, response: AddSphere.Response) -> Roll.Goal: return "
+        "Roll.Goal()\n"
         "Sphere(radius='big')\n"
         "Sphere().rdius\n"
     )

@@ -1,4 +1,7 @@
-"""Every interface type with random values: round trip, and the same bytes as two other implementations write."""
+"""Every interface type with random values.
+
+Round trip, and the same bytes as two other implementations write.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +52,7 @@ def _round_trip(message):
     assert msg.serialize(msg.deserialize(cls, data + bytes(-len(data) % 4))) == data
 
 
-# --- oracle one: pycdr2 ----------------------------------------------------------------------------------------------------------
+# --- oracle one: pycdr2
 
 _PYCDR2_BASICS = {
     **{
@@ -154,7 +157,7 @@ def test_wide_strings_round_trip(messages):
     _check_all(["example_interfaces/msg/WString"], messages, _round_trip, MANY)
 
 
-# --- oracle two: rosbags ---------------------------------------------------------------------------------------------------------
+# --- oracle two: rosbags
 
 
 def _rosbags_value(store, type_, value):

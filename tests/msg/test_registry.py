@@ -1,4 +1,7 @@
-"""Finding definitions: those that come with us, those of prefixes, those of generated packages, and none."""
+"""Finding definitions.
+
+Those that come with us, those of prefixes, those of generated packages, and none.
+"""
 
 from __future__ import annotations
 

@@ -28,7 +28,10 @@ HEAVY = {
     "program",
     [
         "from turtlewire import msg",
-        "from turtlewire import msg; cls = msg.get_message('tf2_msgs/msg/TFMessage'); msg.deserialize(cls, msg.serialize(cls()))",
+        (
+            "from turtlewire import msg; cls = msg.get_message('tf2_msgs/msg/TFMessage'); "
+            "msg.deserialize(cls, msg.serialize(cls()))"
+        ),
         "from geometry_msgs.msg import TransformStamped; TransformStamped()",
         "from turtlewire import msg; msg.type_hash('rcl_interfaces/srv/SetParameters_Request')",
         "import rosidl_runtime_py.utilities",
@@ -36,8 +39,8 @@ HEAVY = {
 )
 def test_nothing_heavy_is_imported(program):
     code = (
-        program
-        + "\nimport sys\nloaded = {name.partition('.')[0] for name in sys.modules}\nimport json\nprint(json.dumps(sorted(loaded)))"
+        program + "\nimport sys\nloaded = {name.partition('.')[0] for name in sys.modules}\nimport "
+        "json\nprint(json.dumps(sorted(loaded)))"
     )
     done = subprocess.run(
         [sys.executable, "-I", "-c", code], capture_output=True, text=True, check=True

@@ -1,4 +1,7 @@
-"""A context on the in-process middleware, a node and an executor; modules that need others make their own."""
+"""A context on the in-process middleware, a node and an executor.
+
+Modules that need others make their own.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +66,8 @@ class Program:
     def read_line(self) -> str:
         line = b""
         while not line.endswith(b"\n") and (byte := os.read(self.process.stdout.fileno(), 1)):
-            line += byte  # one by one: what a buffered reader took beyond the line would be lost to communicate()
+            # one by one: what a buffered reader took beyond the line would be lost to communicate()
+            line += byte
         return line.decode().rstrip("\n")
 
     def send_signal(self, signum: int) -> None:

@@ -31,7 +31,9 @@ STAMP = re.compile(r"\[\d+\.\d{9}\]")
 
 
 def golden(name):
-    """Words after `--ros-args`, log lines of rcl with masked stamps, and the error's text without places in C sources."""
+    """Words after `--ros-args`, log lines of rcl with masked stamps, and the error's text without
+    places in C sources.
+    """
     text = (GOLDEN / name).read_text()
     command = shlex.split(re.search(r"^# command: (.*)$", text, re.MULTILINE)[1])
     lines = text.split("----- stderr -----\n")[1].splitlines()
@@ -65,7 +67,10 @@ def test_golden_errors(name, capfd, monkeypatch):
     "name", ["151_rosargs_rclpy_bad_remap2.txt", "154_rosargs_rclpy_unknown_flag.txt"]
 )
 def test_golden_exit_codes(name):
-    """A program that lets the error through: the exit code and the traceback's last line are ROS 2's."""
+    """A program that lets the error through.
+
+    The exit code and the traceback's last line are ROS 2's.
+    """
     words, _, error = golden(name)
     program = "import sys, rclpy; rclpy.init(args=sys.argv)"
     run = subprocess.run(
@@ -93,11 +98,17 @@ def test_golden_exit_codes(name):
         (["-e"], "Couldn't parse trailing -e flag. No enclave path provided."),
         (
             ["-r", "a:=b:"],
-            "Couldn't parse remap rule: '-r a:=b:'. Error: Expected lexeme type 19, got 5 at index 4",
+            (
+                "Couldn't parse remap rule: '-r a:=b:'. Error: Expected lexeme type 19, got 5 at "
+                "index 4"
+            ),
         ),
         (
             ["-r", "a*:=b"],
-            "Couldn't parse remap rule: '-r a*:=b'. Error: Expected lexeme type 19, got 20 at index 1",
+            (
+                "Couldn't parse remap rule: '-r a*:=b'. Error: Expected lexeme type 19, got 20 at "
+                "index 1"
+            ),
         ),
         (
             ["-r", "*:=b"],
@@ -113,7 +124,10 @@ def test_golden_exit_codes(name):
         ),
         (
             ["-r", "a:="],
-            "Couldn't parse remap rule: '-r a:='. Error: Expected lexeme type (18) not found, search ended at index 3",
+            (
+                "Couldn't parse remap rule: '-r a:='. Error: Expected lexeme type (18) not found, "
+                "search ended at index 3"
+            ),
         ),
         (
             ["-p", "n:=[1, 2.0]"],
@@ -142,7 +156,10 @@ def test_golden_exit_codes(name):
         (["--log-level", "rcl:=loud"], "Argument does not use a valid severity level"),
         (
             ["-e", "x"],
-            "Enclave name is not valid: 'context name must be absolute, it must lead with a '/''. Invalid index: 0",
+            (
+                "Enclave name is not valid: 'context name must be absolute, it must lead with a "
+                "'/''. Invalid index: 0"
+            ),
         ),
     ],
 )

@@ -1,4 +1,6 @@
-"""What every node has of its own, against the endpoints that a real ROS 2 node announced (golden/wire/endpoints.json)."""
+"""What every node has of its own, against the endpoints that a real ROS 2 node announced
+(golden/wire/endpoints.json).
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,10 @@ GOLDEN = Path(__file__).parent.parent / "golden" / "wire" / "endpoints.json"
 
 
 def announced():
-    """Of `/ns1/bare_node`: (reader or writer, topic, type, its hash, reliable, transient local, depth, lifespan)."""
+    """Of `/ns1/bare_node`.
+
+    (reader or writer, topic, type, its hash, reliable, transient local, depth, lifespan).
+    """
     for each in json.loads(GOLDEN.read_text())["nodes"]["/ns1/bare_node"]:
         qos = each["qos"]
         yield (

@@ -97,11 +97,13 @@ def test_ros_2s_warnings(world, capfd):
     texts = sorted(line.partition("[eventful]: ")[2] for line in lines)
     assert texts == [
         (
-            "New publisher discovered on topic '/a', offering incompatible QoS. No messages will be received from it. "
+            "New publisher discovered on topic '/a', offering incompatible QoS. No messages will "
+            "be received from it. "
             "Last incompatible policy: DURABILITY"
         ),
         (
-            "New subscription discovered on topic '/a', requesting incompatible QoS. No messages will be sent to it. "
+            "New subscription discovered on topic '/a', requesting incompatible QoS. No messages "
+            "will be sent to it. "
             "Last incompatible policy: DURABILITY"
         ),
     ]
@@ -224,7 +226,8 @@ def test_wrong_overrides(context):
     options = QoSOverridingOptions.with_default_policies()
     with pytest.raises(
         ValueError,
-        match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are system_default, reliable",
+        match=r"^Unexpected QoS override for policy `reliability`: `maybe`; there are "
+        r"system_default, reliable",
     ):
         node.create_publisher(String, "a", 1, qos_overriding_options=options)
     with pytest.raises(InvalidParameterTypeException):
@@ -261,7 +264,9 @@ def test_a_publisher_misses_its_deadline_without_a_subscription(monkeypatch):
 
 
 def test_a_liveliness_change_tells_the_living_from_the_others():
-    """``EventStatus`` has those that are not alive as its total, the living as its current count."""
+    """``EventStatus`` has those that are not alive as its total, the living as its current
+    count.
+    """
     status = EventStatus(
         total_count=1, total_count_change=-2, current_count=3, current_count_change=4
     )

@@ -302,7 +302,10 @@ def test_an_async_service_answers_when_it_is_done(node, executor):
 
 
 def test_call_in_a_callback_of_a_single_thread(context, node, executor, spinning):
-    """The server is in another executor; this one hands itself the response while its only thread blocks."""
+    """The server is in another executor.
+
+    This one hands itself the response while its only thread blocks.
+    """
     server = Node("server", context=context)
     server.create_service(AddTwoInts, "add", add_two_ints)
     elsewhere = SingleThreadedExecutor(context=context)
@@ -464,7 +467,10 @@ def test_spin_until_future_complete(any_executor):
 
 
 def test_spinning_within_a_callback(node, executor):
-    """A common mistake that ROS 2 lets pass: the inner spin runs what the outer callback does not block."""
+    """A common mistake that ROS 2 lets pass.
+
+    The inner spin runs what the outer callback does not block.
+    """
     node.create_service(AddTwoInts, "add", add_two_ints, callback_group=ReentrantCallbackGroup())
     client = node.create_client(AddTwoInts, "add")
     sums = []
@@ -504,8 +510,8 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
     executor.spin_once(timeout_sec=10)
     assert done.result() == "after the warning"
     assert (
-        "A callback spins the executor that runs it, and nothing happens: what is ready (GuardCondition)"
-        in capfd.readouterr().err
+        "A callback spins the executor that runs it, and nothing happens: what is ready "
+        "(GuardCondition)" in capfd.readouterr().err
     )
 
 
@@ -529,7 +535,8 @@ def test_an_async_callback_that_waits_for_itself_is_warned_of(
     any_executor.spin_once(timeout_sec=0.05)  # says nothing a second time
     assert (
         capfd.readouterr().err.count(
-            "An async callback awaits, and service '/held_up', which was called, cannot run before it ends"
+            "An async callback awaits, and service '/held_up', which was called, cannot run "
+            "before it ends"
         )
         == 1
     )
@@ -645,7 +652,10 @@ def test_an_idle_executor_does_not_run(node, executor, spinning):
 
 
 class PoolForSomeNodes(Executor):
-    """As one writes one for ROS 2: callbacks of some nodes run in a pool, those of the others here."""
+    """As one writes one for ROS 2.
+
+    Callbacks of some nodes run in a pool, those of the others here.
+    """
 
     def __init__(self, pool, nodes, **options):
         super().__init__(**options)

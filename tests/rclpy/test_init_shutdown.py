@@ -234,7 +234,10 @@ def _int32():
 
 
 def test_every_module_is_an_attribute_of_the_package():
-    names = "time duration clock qos executors logging parameter callback_groups action node task timer exceptions"
+    names = (
+        "time duration clock qos executors logging parameter callback_groups action node task "
+        "timer exceptions"
+    )
     lines = [f"assert rclpy.{name}.__name__ == 'rclpy.{name}'" for name in names.split()]
     program = "\n".join(["import rclpy", *lines, "print(rclpy.time.Time().nanoseconds)"])
     assert (

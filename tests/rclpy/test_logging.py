@@ -285,7 +285,8 @@ def test_stdout_and_wrong_values(logger, monkeypatch, capfd):
     assert captured.out.endswith("]: x\n")
     assert (
         captured.err
-        == "RCUTILS_LOGGING_BUFFERED_STREAM has the value '7', which is neither 0 nor 1: it is ignored.\n"
+        == "RCUTILS_LOGGING_BUFFERED_STREAM has the value '7', which is neither 0 nor 1: it is "
+        "ignored.\n"
     )
 
 
@@ -428,7 +429,10 @@ def test_once_is_once_for_all_threads(capfd):
 
 
 def test_a_closed_stream_does_not_end_the_program():
-    program = "import os; os.close(2); import rclpy.logging; print(rclpy.logging.get_logger('x').info('y'))"
+    program = (
+        "import os; os.close(2); import rclpy.logging; "
+        "print(rclpy.logging.get_logger('x').info('y'))"
+    )
     run = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
     )

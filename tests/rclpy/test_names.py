@@ -30,7 +30,10 @@ def test_good_names():
         (
             lambda: validate_node_name("bad-name"),
             exceptions.InvalidNodeNameException,
-            "Invalid node name: node name must not contain characters other than alphanumerics or '_':\n  'bad-name'\n      ^",
+            (
+                "Invalid node name: node name must not contain characters other than alphanumerics "
+                "or '_':\n  'bad-name'\n      ^"
+            ),
         ),
         (
             lambda: validate_node_name(""),
@@ -55,12 +58,19 @@ def test_good_names():
         (
             lambda: validate_full_topic_name("a"),
             exceptions.InvalidTopicNameException,
-            "Invalid topic name: topic name must be absolute, it must lead with a '/':\n  'a'\n   ^",
+            (
+                "Invalid topic name: topic name must be absolute, it must lead with a '/':\n  "
+                "'a'\n  "
+                " ^"
+            ),
         ),
         (
             lambda: validate_full_topic_name("a", is_service=True),
             exceptions.InvalidServiceNameException,
-            "Invalid service name: topic name must be absolute, it must lead with a '/':\n  'a'\n   ^",
+            (
+                "Invalid service name: topic name must be absolute, it must lead with a '/':\n  "
+                "'a'\n   ^"
+            ),
         ),
         (
             lambda: validate_parameter_name(""),

@@ -84,7 +84,8 @@ def test_type_and_value_have_to_agree(type_, pair):
 def test_other_errors():
     with pytest.raises(
         TypeError,
-        match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance of '<enum 'Type'>'$",
+        match=r"^type must be an instance of '<enum 'Parameter\.Type'>'$|^type must be an instance "
+        r"of '<enum 'Type'>'$",
     ):
         Parameter("p", 4, "x")
     with pytest.raises(RuntimeError, match=r"^unexpected parameter type 99$"):

@@ -282,7 +282,10 @@ def test_the_type_description_service_can_be_left_out(context):
 
 
 def test_every_log_text_reaches_rosout(world):
-    """Also one that UTF-8 cannot hold (an undecodable file name): it is escaped, as on the console."""
+    """Also one that UTF-8 cannot hold (an undecodable file name).
+
+    It is escaped, as on the console.
+    """
     heard = []
     world.asker.create_subscription(Log, "/rosout", heard.append, 10)
     world.server.get_logger().get_child("part").warning("name \udce9.txt")

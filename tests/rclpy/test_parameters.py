@@ -122,7 +122,8 @@ def test_a_type_alone_has_to_be_set_before_it_is_read(parameters):
 def test_a_name_alone_is_deprecated_and_dynamic(parameters):
     with pytest.warns(
         UserWarning,
-        match="when declaring parameter named 'a', declaring a parameter only providing its name is deprecated",
+        match="when declaring parameter named 'a', declaring a parameter only providing its name "
+        "is deprecated",
     ):
         assert parameters.declare_parameter("a").type_ is Type.NOT_SET
     assert [reason(parameters, "a", value) for value in (1, "x", None)] == ["", "", ""]
@@ -340,7 +341,10 @@ def test_integer_ranges(parameters, value, text):
         (1.1, "Parameter a out of range. Min: 0.0, Max: 1.0, value: 1.1"),
         (
             0.25,
-            "The parameter value for a is not a valid step. Min: 0.0, max: 1.0, value: 0.25, step: 0.1",
+            (
+                "The parameter value for a is not a valid step. Min: 0.0, max: 1.0, value: 0.25, "
+                "step: 0.1"
+            ),
         ),
         (float("nan"), "Parameter a out of range. Min: 0.0, Max: 1.0, value: nan"),
     ],

@@ -1,4 +1,6 @@
-"""Whole programs in the shape of ROS 2's introductory examples, each in a process of its own, over Cyclone DDS."""
+"""Whole programs in the shape of ROS 2's introductory examples, each in a process of its own, over
+Cyclone DDS.
+"""
 
 from __future__ import annotations
 

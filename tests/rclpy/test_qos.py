@@ -129,9 +129,13 @@ def test_wrong_values():
 
 
 def test_text():
-    text = "lifespan=0 nanoseconds, deadline=0 nanoseconds, liveliness=0, liveliness_lease_duration=0 nanoseconds"
+    text = (
+        "lifespan=0 nanoseconds, deadline=0 nanoseconds, liveliness=0, "
+        "liveliness_lease_duration=0 nanoseconds"
+    )
     assert str(QoSProfile(depth=10)) == (
-        f"QoSProfile(history=1, depth=10, reliability=1, durability=2, {text}, avoid_ros_namespace_conventions=False)"
+        f"QoSProfile(history=1, depth=10, reliability=1, durability=2, {text}, "
+        "avoid_ros_namespace_conventions=False)"
     )
 
 
@@ -183,7 +187,10 @@ def test_text():
             {"reliability": B},
             {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
             "ERROR",
-            "ERROR: Best effort publisher and reliable subscription;ERROR: Volatile publisher and transient local subscription;",
+            (
+                "ERROR: Best effort publisher and reliable subscription;ERROR: Volatile publisher "
+                "and transient local subscription;"
+            ),
         ),
         (
             {"reliability": S},
@@ -210,5 +217,6 @@ def test_two_system_defaults_are_left_open():
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
     assert level is QoSCompatibility.WARNING
     assert reason.startswith(
-        "WARNING: Publisher reliability is system default and subscription reliability is system default;"
+        "WARNING: Publisher reliability is system default and subscription reliability is system "
+        "default;"
     )

@@ -79,7 +79,8 @@ def test_sigterm_leaves_spin_as_an_external_shutdown(start, middleware):
 
 def test_sigterm_that_is_not_caught_ends_the_process_with_a_traceback(start):
     program = start(
-        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('tested')\nprint('up')\nrclpy.spin(node)"
+        "import rclpy\nrclpy.init()\nnode = "
+        "rclpy.create_node('tested')\nprint('up')\nrclpy.spin(node)"
     )
     program.send_signal(signal.SIGTERM)
     status, _, errors = program.finish()
@@ -284,7 +285,10 @@ def test_signal_options(program):
         print(get_current_signal_handlers_options().name)
         rclpy.shutdown(context=context)
         """
-    expected = "NO [False, False]\nSIGINT [True, False]\nSIGTERM [False, True]\nALL [True, True]\nTrue\nNO\n"
+    expected = (
+        "NO [False, False]\nSIGINT [True, False]\nSIGTERM [False, True]\nALL [True, "
+        "True]\nTrue\nNO\n"
+    )
     assert program(source).finish() == (0, expected, "")
 
 

@@ -201,7 +201,8 @@ def test_a_rate_raises_in_the_thread_that_spins_instead_of_sleeping_for_ever(nod
     node.create_timer(0.001, rate.sleep)
     with pytest.raises(
         RuntimeError,
-        match="Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up",
+        match="Rate cannot sleep in a callback of the executor that serves its timer: it would "
+        "never wake up",
     ):
         executor.spin_once(timeout_sec=10)
 

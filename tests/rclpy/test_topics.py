@@ -250,7 +250,11 @@ def test_types_are_checked(node):
         ("", "topic name must not be empty string:\n  ''\n   ^"),
         (
             "a?b",
-            "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}':\n  'a?b'\n    ^",
+            (
+                "topic name must not contain characters other than alphanumerics, '_', '~', '{', "
+                "or "
+                "'}':\n  'a?b'\n    ^"
+            ),
         ),
         ("{wrong}", "unknown substitution"),
     ],

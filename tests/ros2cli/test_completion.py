@@ -68,7 +68,10 @@ def test_names_of_the_graph():
 
 
 def test_names_of_parameters(run):
-    program = "import rclpy; rclpy.init(); node = rclpy.create_node('some_node'); node.declare_parameter('speed', 1.0); "
+    program = (
+        "import rclpy; rclpy.init(); node = rclpy.create_node('some_node'); "
+        "node.declare_parameter('speed', 1.0); "
+    )
     other = run(sys.executable, "-c", program + "print('ready', flush=True); rclpy.spin(node)")
     other.wait_for("ready")
     for verb in ("get", "set", "delete", "describe"):

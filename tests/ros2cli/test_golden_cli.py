@@ -1,4 +1,7 @@
-"""The captured command lines of a real ROS 2, replayed; what deviates is listed here with its reason."""
+"""The captured command lines of a real ROS 2, replayed.
+
+What deviates is listed here with its reason.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,10 @@ import pytest
 
 REPLAY = Path(__file__).parents[1] / "golden" / "cli" / "replay.py"
 
-CPP = "turtlesim is a Python node here: it ends with an exception and status 1, where the C++ one aborts (250)"
+CPP = (
+    "turtlesim is a Python node here: it ends with an exception and status 1, where the C++ one "
+    "aborts (250)"
+)
 NO_DAEMON = "there is no daemon"
 CLEAN_END = "Ctrl-C ends without an error line"
 PYTHON_NODE = "the static broadcaster was a node of C++, which listens to /parameter_events"

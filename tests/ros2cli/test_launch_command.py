@@ -66,7 +66,8 @@ def test_a_path_that_is_not_there(capsys):
 def test_a_file_without_arguments_says_so(tmp_path, capsys):
     file = tmp_path / "a.launch.py"
     file.write_text(
-        "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription([])\n"
+        "from launch import LaunchDescription\ndef generate_launch_description():\n    return "
+        "LaunchDescription([])\n"
     )
     assert main(["launch", str(file), "-s"]) == 0
     assert (

@@ -195,7 +195,10 @@ def test_a_reader_of_messages_that_ends_early_is_no_error(verb, lines):
 
         talker = threading.Thread(target=talk)
         talker.start()
-        program = f"from ros2cli.main import main; import sys; sys.exit(main(['topic', '{verb}', '/chatter']))"
+        program = (
+            f"from ros2cli.main import main; import sys; sys.exit(main(['topic', '{verb}', "
+            "'/chatter']))"
+        )
         command = f'{sys.executable} -c "{program}" | head -{lines}'
         try:
             result = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)

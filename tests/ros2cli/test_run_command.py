@@ -70,12 +70,18 @@ def test_python_scripts_run_on_this_interpreter(package, capfd):
         (
             "-r",
             "foo",
-            "Couldn't parse remap rule: '-r foo'. Error: Expected lexeme type (19) not found, search ended at index 3",
+            (
+                "Couldn't parse remap rule: '-r foo'. Error: Expected lexeme type (19) not found, "
+                "search ended at index 3"
+            ),
         ),
         (
             "--params-file",
             "/nope.yaml",
-            "Couldn't parse params file: '--params-file /nope.yaml'. Error: Error opening YAML file",
+            (
+                "Couldn't parse params file: '--params-file /nope.yaml'. Error: Error opening YAML "
+                "file"
+            ),
         ),
         (
             "--params-file",

@@ -52,7 +52,8 @@ def test_events_of_a_call(run):
 def test_without_introspection_there_is_a_word_of_advice(run):
     echo = run(*ROS2, "service", "echo", "/nothing", "example_interfaces/srv/AddTwoInts")
     echo.wait_for(
-        "^No publishers on topic '/nothing/_service_event'; is service introspection on the client or server enabled\\?$"
+        "^No publishers on topic '/nothing/_service_event'; is service introspection on the "
+        "client or server enabled\\?$"
     )
 
 

@@ -1,4 +1,7 @@
-"""Unknown names: the error line is that of ROS 2, and the nearest names follow on a line of their own."""
+"""Unknown names.
+
+The error line is that of ROS 2, and the nearest names follow on a line of their own.
+"""
 
 from __future__ import annotations
 
@@ -29,21 +32,44 @@ def errors(capsys, *words):
 @pytest.mark.parametrize(
     ("line", "message", "near"),
     [
-        ("lauch", "ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: invalid choice: 'lauch'", "launch"),
-        ("topic eco", "ros2 topic: error: argument Call `ros2 topic <verb> -h` for more detailed usage.: invalid choice: 'eco'", "echo"),
-        ("topic list --includ-hidden", "ros2 topic list: error: unrecognized arguments: --includ-hidden", "--include-hidden-topics"),
+        ("lauch",
+            ("ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: "
+            "invalid choice: 'lauch'"), "launch"),
+        ("topic eco",
+            ("ros2 topic: error: argument Call `ros2 topic <verb> -h` for more detailed "
+            "usage.: invalid choice: 'eco'"), "echo"),
+        ("topic list --includ-hidden",
+            ("ros2 topic list: error: unrecognized arguments: "
+            "--includ-hidden"), "--include-hidden-topics"),
         ("run turtlesm turtlesim_node", "Package 'turtlesm' not found", "turtlesim"),
-        ("launch turtlesm x.launch.py", "Package 'turtlesm' not found: \"package 'turtlesm' not found, searching: ", "turtlesim"),
+        ("launch turtlesm x.launch.py",
+            ("Package 'turtlesm' not found: \"package 'turtlesm' not found, "
+            "searching: "), "turtlesim"),
         ("pkg prefix turtlesm", "Package not found", "turtlesim"),
         ("pkg xml turtlesm", "Package not found", "turtlesim"),
         ("pkg executables turtlesm", "Package 'turtlesm' not found", "turtlesim"),
-        ("interface show geometry_msgs/msg/Twst", "unknown interface 'geometry_msgs/msg/Twst'", "geometry_msgs/msg/Twist"),
-        ("interface proto std_msgs/msg/Strng", "AttributeError: module 'std_msgs.msg' has no attribute 'Strng'", "std_msgs/msg/String"),
+        (
+            ("interface "
+            "show "
+            "geometry_msgs/msg/Twst"), "unknown interface 'geometry_msgs/msg/Twst'", "geometry_msgs/msg/Twist"),
+        ("interface proto std_msgs/msg/Strng",
+            ("AttributeError: module 'std_msgs.msg' has no attribute "
+            "'Strng'"), "std_msgs/msg/String"),
         ("interface package geometry_msg", "Unknown package 'geometry_msg'", "geometry_msgs"),
-        ("topic pub /x geometry_msgs/msg/Twits", "The passed message type is invalid", "geometry_msgs/msg/Twist"),
-        ("topic echo /x geometry_msgs/msg/Twits", "The passed message type is invalid", "geometry_msgs/msg/Twist"),
-        ("service call /x turtlesim/srv/Spwn", "The passed service type is invalid", "turtlesim/srv/Spawn"),
-        ("action send_goal /x turtlesim/action/RotatAbsolute {}", "The passed action type is invalid", "turtlesim/action/RotateAbsolute"),
+        (
+            ("topic pub /x "
+            "geometry_msgs/msg/Twits"), "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        (
+            ("topic echo /x "
+            "geometry_msgs/msg/Twits"), "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        (
+            ("service call /x "
+            "turtlesim/srv/Spwn"), "The passed service type is invalid", "turtlesim/srv/Spawn"),
+        (
+            ("action "
+            "send_goal "
+            "/x "
+            "turtlesim/action/RotatAbsolute {}"), "The passed action type is invalid", "turtlesim/action/RotateAbsolute"),
         ("service call /x turtlesim/srv/Spawn {nme:1}", "Failed to populate field: 'Spawn_Request' object has no attribute 'nme'", "name"),
     ],
 )  # fmt: skip
@@ -109,7 +135,8 @@ def test_parameters_and_services(run, capsys):
     message, hint = capsys.readouterr().err.splitlines()
     assert (
         message
-        == "Setting parameter failed: parameter 'backgroud_r' cannot be set because it was not declared"
+        == "Setting parameter failed: parameter 'backgroud_r' cannot be set because it was not "
+        "declared"
     )
     assert hint.startswith(near)
     assert main(["param", "describe", "/turtlesim", "backgroud_r"]) == 0

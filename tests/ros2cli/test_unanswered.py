@@ -59,7 +59,11 @@ def test_a_killed_server_ends_the_wait(run, server, words, server_name):
         ("service call /slep std_srvs/srv/Empty", "Did you mean: /sleep"),
         ("service call /qqqq std_srvs/srv/Empty", "Known services: /sleep"),
         ("action send_goal /qqqq example_interfaces/action/Fibonacci {}", "Known actions: /count"),
-        ("action send_goal /count turtlesim/action/RotateAbsolute {}", "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
+        (
+            ("action "
+            "send_goal "
+            "/count "
+            "turtlesim/action/RotateAbsolute {}"), "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
         ("topic echo /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
         ("topic pub /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
     ],

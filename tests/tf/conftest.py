@@ -1,4 +1,7 @@
-"""Tests that take `buffer` or `core` run on both cores; `make_world` makes random trees with questions."""
+"""Tests that take `buffer` or `core` run on both cores.
+
+`make_world` makes random trees with questions.
+"""
 
 from __future__ import annotations
 

@@ -27,7 +27,10 @@ ADAPTER = Path(__file__).parent / "rivals" / "debian_tf2.py"
 
 
 def perform(buffer: turtlewire.Buffer, operation: tuple[Any, ...]) -> Any:
-    """What a refused sample says; what a question answers: an int, [stamp, numbers], or the exception."""
+    """What a refused sample says.
+
+    What a question answers: an int, [stamp, numbers], or the exception.
+    """
     kind, *arguments = operation
     if kind == "set":
         parent, child, stamp, pose, static = arguments

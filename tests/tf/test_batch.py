@@ -19,7 +19,10 @@ START = 1_700_000_000_000_000_000
 
 @pytest.fixture
 def chain(buffer: turtlewire.Buffer) -> turtlewire.Buffer:
-    """map <- odom <- base <- camera, and base <- lidar <- chip: moving, moving, fixed; fixed, moving in leaps above 10 degrees."""
+    """map <- odom <- base <- camera, and base <- lidar <- chip: moving, moving, fixed.
+
+    Fixed, moving in leaps above 10 degrees.
+    """
     for i in range(200):
         a = 0.01 * i
         t = START + i * 5 * MS + (i % 7) * 1000
@@ -223,7 +226,10 @@ def test_points_at_their_own_times(chain: turtlewire.Buffer) -> None:
 
 
 class TestVelocity:
-    """A disc of frame `disc` turns at 2 rad/s about z and moves at 3 m/s along x of `world`; `rim` is fixed to it, 1 m out."""
+    """A disc of frame `disc` turns at 2 rad/s about z and moves at 3 m/s along x of `world`.
+
+    `rim` is fixed to it, 1 m out.
+    """
 
     @pytest.fixture
     def disc(self, buffer: turtlewire.Buffer) -> turtlewire.Buffer:

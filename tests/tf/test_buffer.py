@@ -1,4 +1,7 @@
-"""The buffer's public interface, on both cores. What tf2 answers is in tests/tf2_py/test_golden.py."""
+"""The buffer's public interface, on both cores.
+
+What tf2 answers is in tests/tf2_py/test_golden.py.
+"""
 
 from __future__ import annotations
 
@@ -278,7 +281,8 @@ class TestRefusals:
         assert buffer.set_transform(
             "a", "b", 90 * SECOND - 1, (0, 0, 0), NO_TURN, authority="me"
         ) == (
-            "TF_OLD_DATA ignoring data from the past for frame b at time 90.000000 according to authority me\n"
+            "TF_OLD_DATA ignoring data from the past for frame b at time 90.000000 according to "
+            "authority me\n"
             "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
         )
 
@@ -409,7 +413,8 @@ class TestTransform:
         assert t != core.Transform("a", "c", 5, (1, 2, 3), QUARTER)
         assert (
             repr(t)
-            == f"Transform(frame_id='a', child_frame_id='b', stamp_ns=5, translation=(1.0, 2.0, 3.0), rotation={QUARTER!r})"
+            == "Transform(frame_id='a', child_frame_id='b', stamp_ns=5, translation=(1.0, 2.0, "
+            f"3.0), rotation={QUARTER!r})"
         )
         assert t.inverse().inverse().translation == near((1, 2, 3))
         with pytest.raises(AttributeError):
@@ -537,7 +542,10 @@ class TestWaiting:
 
 class TestThreads:
     def test_readers_beside_a_writer(self, core: Any) -> None:
-        """100 transforms a message; readers of every kind, each of whose answers must be of one state of the buffer."""
+        """100 transforms a message.
+
+        Readers of every kind, each of whose answers must be of one state of the buffer.
+        """
         import numpy as np
 
         buffer = core.Buffer(SECOND)
@@ -656,5 +664,8 @@ class TestChoiceOfCore:
         )
 
     def test_import_is_light(self) -> None:
-        code = "import sys, turtlewire; turtlewire.Buffer().set_transform('a', 'b', 1, (0, 0, 0), (0, 0, 0, 1)); print('numpy' in sys.modules)"
+        code = (
+            "import sys, turtlewire; turtlewire.Buffer().set_transform('a', 'b', 1, (0, 0, 0), "
+            "(0, 0, 0, 1)); print('numpy' in sys.modules)"
+        )
         assert self.run(code).stdout == "False\n"

@@ -1,4 +1,7 @@
-"""The short way of transforms: from the wire's receiving thread into the compiled core, without Python."""
+"""The short way of transforms.
+
+From the wire's receiving thread into the compiled core, without Python.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The raw-bytes listener over both middlewares: data arrive without anybody spinning, and no message object is ever made."""
+"""The raw-bytes listener over both middlewares.
+
+Data arrive without anybody spinning, and no message object is ever made.
+"""
 
 from __future__ import annotations
 
@@ -251,7 +254,10 @@ def test_two_publishers_of_one_frame_are_told_apart(domain):
             lambda: (
                 [conflict.text for conflict in inspection.conflicts(buffer)]
                 == [
-                    "'robot' is sent by '/other' and '/talker'; each frame should have one publisher."
+                    (
+                        "'robot' is sent by '/other' and '/talker'; each frame should have one "
+                        "publisher."
+                    )
                 ]
             ),
             LONG_NS,

@@ -1,4 +1,7 @@
-"""Listeners, buffers and contexts end in any order while messages arrive on Cyclone's threads: nothing is used after its end."""
+"""Listeners, buffers and contexts end in any order while messages arrive on Cyclone's threads.
+
+Nothing is used after its end.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The compiled decoder and the readable one agree on what broken bytes are, and on what they say."""
+"""The compiled decoder and the readable one agree on what broken bytes are, and on what they
+say.
+"""
 
 from __future__ import annotations
 

@@ -77,7 +77,10 @@ def test_any_distance_fits(buffer, translation):
 
 
 def test_pictures_are_loaded_when_they_are_asked_for():
-    program = "import sys, turtlewire; turtlewire.Buffer(); print('turtlewire.tf.notebook' in sys.modules, 'numpy' in sys.modules)"
+    program = (
+        "import sys, turtlewire; turtlewire.Buffer(); print('turtlewire.tf.notebook' in "
+        "sys.modules, 'numpy' in sys.modules)"
+    )
     assert subprocess.run(
         [sys.executable, "-c", program], check=True, capture_output=True, text=True
     ).stdout.split() == ["False", "False"]

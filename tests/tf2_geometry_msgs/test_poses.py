@@ -128,7 +128,9 @@ def test_a_covariance_by_hand(quarter_turn):
 
 
 def test_a_covariance_is_that_of_a_cloud_of_poses(some_world):
-    """Small errors of a pose are drawn, each such pose is transformed, and the errors are measured in the new frame."""
+    """Small errors of a pose are drawn, each such pose is transformed, and the errors are measured
+    in the new frame.
+    """
     covariance = some_covariance(SEED) * 1e-6
     pose = some_pose(SEED)
     errors = np.random.default_rng(SEED).multivariate_normal(np.zeros(6), covariance, size=20_000)

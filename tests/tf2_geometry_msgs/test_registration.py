@@ -87,7 +87,10 @@ def test_a_buffer_says_when_it_cannot(buffer):
 
 
 def test_importing_it_is_light():
-    program = "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
+    program = (
+        "import sys, tf2_geometry_msgs; print('numpy' in sys.modules); "
+        "tf2_geometry_msgs.array_from_pose; print('numpy' in sys.modules)"
+    )
     printed = subprocess.run(
         [sys.executable, "-c", program], check=True, capture_output=True, text=True
     ).stdout

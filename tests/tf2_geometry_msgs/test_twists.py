@@ -36,14 +36,20 @@ def six(first, second):
 
 
 def test_a_turning_body_moves_what_is_far_from_its_centre(make_world):
-    """The body turns about its z axis with 2 rad/s; the camera is 3 m ahead of the centre, so it moves to the left with 6 m/s."""
+    """The body turns about its z axis with 2 rad/s.
+
+    The camera is 3 m ahead of the centre, so it moves to the left with 6 m/s.
+    """
     camera_from_body = make_world((-3.0, 0.0, 0.0))
     twist = tf2.do_transform_twist(Twist(angular=vector(0, 0, 2)), camera_from_body.message)
     assert twist == Twist(linear=vector(0, 6, 0), angular=vector(0, 0, 2))
 
 
 def test_a_weight_at_the_tool_pulls_at_the_sensor(make_world):
-    """The tool is 0.2 m ahead (x) of the sensor; 10 N down at the tool are a torque of 2 Nm about the sensor's y axis."""
+    """The tool is 0.2 m ahead (x) of the sensor.
+
+    10 N down at the tool are a torque of 2 Nm about the sensor's y axis.
+    """
     sensor_from_tool = make_world((0.2, 0.0, 0.0))
     wrench = tf2.do_transform_wrench(Wrench(force=vector(0, 0, -10)), sensor_from_tool.message)
     assert wrench == Wrench(force=vector(0, 0, -10), torque=vector(0, 2, 0))
@@ -99,7 +105,10 @@ def test_there_and_back(make_world, first, second, translation, seed):
 
 
 def test_the_velocity_of_a_point_is_its_derivative(some_world):
-    """A body with this twist is moved for a microsecond; where the target's origin, as a point of it, goes, is its linear velocity."""
+    """A body with this twist is moved for a microsecond.
+
+    Where the target's origin, as a point of it, goes, is its linear velocity.
+    """
     linear, angular, dt = np.array((1.0, -2.0, 0.5)), np.array((0.3, 0.9, -0.4)), 1e-6
     target_origin = some_world.inverse().translation  # in source
     moved = Rotation.from_rotvec(angular * dt).apply(target_origin) + linear * dt

@@ -106,7 +106,10 @@ def test_it_may_replace_what_a_destroyed_node_sent(make_node, heard, stamped):
 
 
 def test_none_is_lost_over_a_thousand_joins_with_updates_and_restarts(make_node, stamped):
-    """Any order of sending, joining and restarting: a late joiner sees exactly what the living broadcasters sent last."""
+    """Any order of sending, joining and restarting.
+
+    A late joiner sees exactly what the living broadcasters sent last.
+    """
     chance = random.Random(20261121)
     broadcasters, expected, owner = {}, {}, {}
     joins = step = 0

@@ -1,4 +1,7 @@
-"""tf2_ros.Buffer: answers, waiting in callbacks, futures, the frames service, jumps of the clock."""
+"""tf2_ros.Buffer.
+
+Answers, waiting in callbacks, futures, the frames service, jumps of the clock.
+"""
 
 from __future__ import annotations
 
@@ -420,7 +423,9 @@ def test_deadlines_come_in_order_and_leave_no_thread():
 )
 @settings(max_examples=25)
 def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
-    """Whatever comes before the timeout, after it or never, the callback returns and the executor goes on."""
+    """Whatever comes before the timeout, after it or never, the callback returns and the executor
+    goes on.
+    """
     context = Context()
     context.init(args=[])
     node, buffer = Node("waits", context=context), Buffer()

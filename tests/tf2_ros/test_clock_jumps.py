@@ -1,4 +1,7 @@
-"""A simulated world that is killed and begins anew, earlier: the server, the client, filters and tools, each in its own process."""
+"""A simulated world that is killed and begins anew, earlier.
+
+The server, the client, filters and tools, each in its own process.
+"""
 
 from __future__ import annotations
 
@@ -127,7 +130,10 @@ def place(client, frame="robot"):
 
 
 def wait_until_there(client, x):
-    """Ask as often as it takes: a server may not have heard of the new time yet, or may have been killed just now."""
+    """Ask as often as it takes.
+
+    A server may not have heard of the new time yet, or may have been killed just now.
+    """
     until = time.monotonic() + 90
     found = None
     while found != x:

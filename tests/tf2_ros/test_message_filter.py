@@ -1,4 +1,7 @@
-"""tf2_ros.MessageFilter: what can be transformed passes, what never can is dropped with a reason."""
+"""tf2_ros.MessageFilter.
+
+What can be transformed passes, what never can is dropped with a reason.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""tf2_echo, tf2_monitor, static_transform_publisher and buffer_server: as processes over Cyclone DDS, and their parts."""
+"""tf2_echo, tf2_monitor, static_transform_publisher and buffer_server.
+
+As processes over Cyclone DDS, and their parts.
+"""
 
 from __future__ import annotations
 
@@ -157,7 +160,8 @@ def test_a_static_transform_is_published_until_stopped(tool, listening):
     assert stop(process)[0] == 0
     assert re.search(
         r"\[static_transform_publisher_\w{16}\]: Spinning until stopped - publishing transform\n"
-        r"translation: \('1\.000000', '-0\.500000', '0\.000000'\)\nrotation: \('0\.000000', '0\.000000', '0\.707107', '0\.707107'\)\n"
+        r"translation: \('1\.000000', '-0\.500000', '0\.000000'\)\nrotation: \('0\.000000', "
+        r"'0\.000000', '0\.707107', '0\.707107'\)\n"
         r"from 'a' to 'b'",
         err,
     )
@@ -267,11 +271,14 @@ def test_echo_prints_what_ros_2_prints(tool):
     status, out, _ = finish(tool("tf2_echo", "world", "robot", "50", "--limit", "2", "--distance"))
     assert status == 0
     block = (
-        r"At time \d+\.\d{9}\n- Translation: \[2\.000, -1\.000, 0\.000\]\n- Rotation: in Quaternion \[0\.000, 0\.000, 0\.000, 1\.000\]\n"
-        r"- Rotation: in RPY \(radian\) \[0\.000, -0\.000, 0\.000\]\n- Rotation: in RPY \(degree\) \[0\.000, -0\.000, 0\.000\]\n- Matrix:\n"
+        r"At time \d+\.\d{9}\n- Translation: \[2\.000, -1\.000, 0\.000\]\n- Rotation: in "
+        r"Quaternion \[0\.000, 0\.000, 0\.000, 1\.000\]\n"
+        r"- Rotation: in RPY \(radian\) \[0\.000, -0\.000, 0\.000\]\n- Rotation: in RPY "
+        r"\(degree\) \[0\.000, -0\.000, 0\.000\]\n- Matrix:\n"
         r"  1\.000  0\.000  0\.000  2\.000\n  0\.000  1\.000  0\.000 -1\.000\n"
         r"  0\.000  0\.000  1\.000  0\.000\n  0\.000  0\.000  0\.000  1\.000\n"
-        r"- Distance: 2\.236\n- In words: seen from world, robot is 2\.000 m ahead, 1\.000 m to the right\n"
+        r"- Distance: 2\.236\n- In words: seen from world, robot is 2\.000 m ahead, 1\.000 m to "
+        r"the right\n"
     )
     assert re.fullmatch(block * 2, out), out
 
@@ -289,7 +296,8 @@ def test_echo_says_what_it_waits_for(tool):
     process = tool("tf2_echo", "world", "nothing")
     line = process.stderr.readline()
     assert re.search(
-        r"\[tf2_echo\]: Waiting for transform world ->  nothing: Invalid frame ID \"world\" passed to canTransform",
+        r"\[tf2_echo\]: Waiting for transform world ->  nothing: Invalid frame ID \"world\" "
+        r"passed to canTransform",
         line,
     )
     assert stop(process)[0] == 0

@@ -1,4 +1,7 @@
-"""Waiting for a transform inside the callbacks of a single-threaded executor: whatever comes when, it never hangs, and answers right."""
+"""Waiting for a transform inside the callbacks of a single-threaded executor.
+
+Whatever comes when, it never hangs, and answers right.
+"""
 
 from __future__ import annotations
 

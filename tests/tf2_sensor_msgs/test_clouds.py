@@ -30,7 +30,10 @@ def transform():
 
 
 def make_cloud(dtype, values, *, shape=None, row_gap=0, bigendian=False):
-    """A cloud of a structured dtype; values of its fields by name; rows may be followed by a gap of filled bytes."""
+    """A cloud of a structured dtype.
+
+    Values of its fields by name; rows may be followed by a gap of filled bytes.
+    """
     points = np.zeros(
         len(next(iter(values.values()))), np.dtype(dtype).newbyteorder(">" if bigendian else "<")
     )
@@ -190,7 +193,10 @@ def test_a_buffer_transforms_clouds(transform):
 
 
 def test_far_away_nothing_is_lost():
-    """Coordinates of a map, in the millions of metres, come into a frame nearby: single precision would be 0.25 m off."""
+    """Coordinates of a map, in the millions of metres, come into a frame nearby.
+
+    Single precision would be 0.25 m off.
+    """
     transform = transform_from_array([-4e6, 0, 0, 0, 0, 0, 1])
     cloud = make_cloud(
         [("x", "f8"), ("y", "f4"), ("z", "f4")], {"x": [4e6 + 0.125], "y": [1.0], "z": [0.0]}

@@ -63,7 +63,8 @@ def test_shapes_stand_where_they_should_with_y_upwards():
     assert lines[1] == "1 1 1 rg 1.000 0.000 0.000 RG 1 w 10.00 140.00 30.00 40.00 re B"
     assert (
         lines[2]
-        == "0.000 1.000 0.000 RG 2 w [5 3] 0 d 0.00 200.00 m 100.00 200.00 l 100.00 150.00 l S [] 0 d"
+        == "0.000 1.000 0.000 RG 2 w [5 3] 0 d 0.00 200.00 m 100.00 200.00 l 100.00 150.00 l S "
+        "[] 0 d"
     )
     assert lines[4].startswith("BT 0.000 0.000 0.000 rg /F1 9 Tf 10.00 50.00 Td <")
 

@@ -111,7 +111,10 @@ def test_an_identity_has_no_negative_zeros():
 
 
 def test_the_broadcaster_s_function_needs_no_numpy():
-    code = "import sys, tf_transformations as t; t.quaternion_from_euler(0, 0, 1.0); print('numpy' in sys.modules)"
+    code = (
+        "import sys, tf_transformations as t; t.quaternion_from_euler(0, 0, 1.0); print('numpy' "
+        "in sys.modules)"
+    )
     assert (
         subprocess.run(
             [sys.executable, "-c", code], capture_output=True, text=True, check=True

@@ -91,7 +91,10 @@ class Simulator:
 
 @pytest.fixture
 def make_simulator(monkeypatch):
-    """Starts simulators, each at a port of its own; one that follows another may take its port again."""
+    """Starts simulators, each at a port of its own.
+
+    One that follows another may take its port again.
+    """
     monkeypatch.setenv("TURTLEWIRE_PORT", "0")
     simulators = []
 
@@ -142,7 +145,8 @@ def open_page(browser):
         )
         page.goto(url)
         page.wait_for_function(
-            "() => document.querySelector('#connection').dataset.state === 'live' && document.querySelector('#roster tr')"
+            "() => document.querySelector('#connection').dataset.state === 'live' && "
+            "document.querySelector('#roster tr')"
         )
         return page
 

@@ -33,7 +33,11 @@ def node():
         (
             "red",
             "abc",
-            "Wrong parameter type, parameter {red} is of type {integer}, setting it to {string} is not allowed.",
+            (
+                "Wrong parameter type, parameter {red} is of type {integer}, setting it to "
+                "{string} "
+                "is not allowed."
+            ),
         ),
         ("red", None, "cannot undeclare a statically typed parameter"),
         ("nope", 1, "parameter 'nope' cannot be set because it was not declared"),

@@ -84,7 +84,9 @@ def test_a_crowd_moves_as_its_turtles_do_one_by_one():
 
 
 def test_the_simulator_shows_the_same_either_way(monkeypatch):
-    """Colours as the sensors see them between the strokes of one tick, commands, a rotation and a teleport in between."""
+    """Colours as the sensors see them between the strokes of one tick, commands, a rotation and a
+    teleport in between.
+    """
     one_by_one = _story()
     monkeypatch.setattr(turtlesim_node, "_CROWD", 1)
     assert _story() == one_by_one

@@ -1,4 +1,6 @@
-"""From Kilted on, turtlesim's interfaces are those of `turtlesim_msgs`, with their own names on the wire."""
+"""From Kilted on, turtlesim's interfaces are those of `turtlesim_msgs`, with their own names on the
+wire.
+"""
 
 from __future__ import annotations
 
@@ -45,14 +47,19 @@ def test_types_are_those_of_the_distribution(distro, package):
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [
-        f"['{package}/msg/Pose'] ['{package}/msg/Color'] ['{package}/srv/Spawn'] ['{package}/action/RotateAbsolute_FeedbackMessage']",
+        (
+            f"['{package}/msg/Pose'] ['{package}/msg/Color'] ['{package}/srv/Spawn'] "
+            f"['{package}/action/RotateAbsolute_FeedbackMessage']"
+        ),
         f"{package}/msg/Pose {package}/srv/Spawn {package}/action/RotateAbsolute",
         f"('turtle7',) {package}/srv/Spawn",
     ]
 
 
 def test_both_packages_hold_the_same_but_for_the_name():
-    """The hash of a type covers its name, so that a peer of the other distribution is never taken for one of ours."""
+    """The hash of a type covers its name, so that a peer of the other distribution is never taken
+    for one of ours.
+    """
     names = msg.interface_names()
     assert names["turtlesim_msgs"] == names["turtlesim"]
     for kind, found in names["turtlesim"].items():

@@ -98,7 +98,10 @@ def test_older_lines_are_bounded(monkeypatch):
 
 @given(st.lists(st.tuples(st.floats(0.2, 4), st.floats(-0.6, 0.6)), min_size=2, max_size=60))
 def test_joined_lines_stay_close_to_every_point(steps):
-    """A random walk, all of it joined: each visited point is within the tolerance of the line that stands for it."""
+    """A random walk, all of it joined.
+
+    Each visited point is within the tolerance of the line that stands for it.
+    """
     points = [(250.0, 250.0)]
     heading = 0.0
     for length, turn in steps:

@@ -1,4 +1,7 @@
-"""The model and the path picture against traces of the real turtlesim: every bit of every pose, colour and feedback."""
+"""The model and the path picture against traces of the real turtlesim.
+
+Every bit of every pose, colour and feedback.
+"""
 
 from __future__ import annotations
 

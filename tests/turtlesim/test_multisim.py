@@ -1,4 +1,7 @@
-"""Two simulators at once: the launch file that comes along, with draw_square and mimic, as processes of their own."""
+"""Two simulators at once.
+
+The launch file that comes along, with draw_square and mimic, as processes of their own.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The page in a real browser, on the model and its screen (no ROS; `test_turtlesim_node.py` has the way through ROS)."""
+"""The page in a real browser, on the model and its screen (no ROS; `test_turtlesim_node.py` has the
+way through ROS).
+"""
 
 from __future__ import annotations
 

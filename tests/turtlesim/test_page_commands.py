@@ -59,7 +59,10 @@ def test_commands(message, command):
         ('{"a":' * 10_000, "nested too deeply"),
         (
             "[1]",
-            "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, unwatch",
+            (
+                "type is one of drive, rotate, cancel, spawn, teleport, kill, clear, reset, watch, "
+                "unwatch"
+            ),
         ),
         ('{"type": "explode"}', "type is one of"),
         ('{"type": ["drive"]}', "type is one of"),

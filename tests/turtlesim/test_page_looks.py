@@ -1,4 +1,6 @@
-"""What the page looks like, against pictures and boxes that were looked at; ``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
+"""What the page looks like, against pictures and boxes that were looked at.
+
+``TURTLEWIRE_WRITE_GOLDEN=1`` writes them anew.
 
 Pictures are compared after they were made small, boxes with a tolerance; where the page has another
 font than in the golden pictures, only what must be so with any font is looked at.
@@ -81,7 +83,8 @@ def skip_with_other_fonts(page) -> None:
     widths = page.evaluate(FONT_WIDTHS)
     if widths != DEJAVU_WIDTHS:
         pytest.skip(
-            f"the golden pictures show DejaVu Sans, which this machine has not or does not prefer (text widths {widths})"
+            "the golden pictures show DejaVu Sans, which this machine has not or does not prefer "
+            f"(text widths {widths})"
         )
 
 
@@ -163,7 +166,9 @@ def test_long_names_and_many_turtles_fit(simulator, open_page, width):
 
 
 def check_boxes(size: str, boxes: dict[str, list[int]]) -> None:
-    """Each part where it was, as wide and as high as it was, but for a line of text more or less in a part above it."""
+    """Each part where it was, as wide and as high as it was, but for a line of text more or less in
+    a part above it.
+    """
     file = GOLDEN / f"{size}-boxes.json"
     if WRITES:
         file.write_text(json.dumps(boxes, indent=1) + "\n")

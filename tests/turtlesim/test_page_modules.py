@@ -1,4 +1,7 @@
-"""The page's modules one by one, in the browser: words, the time between two frames, the camera, the drawing's memory."""
+"""The page's modules one by one, in the browser.
+
+Words, the time between two frames, the camera, the drawing's memory.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,10 @@ SENTENCES = [
     (
         (-1, -2, 0),
         (0.5**0.5, 0.5**0.5),
-        "turtle1 is 1.00 m behind and 2.00 m to the right of turtle2, and looks 90° further to the left",
+        (
+            "turtle1 is 1.00 m behind and 2.00 m to the right of turtle2, and looks 90° further to "
+            "the left"
+        ),
     ),
     (
         (0, -2, 0),
@@ -36,7 +42,10 @@ SENTENCES = [
     (
         (1, 1, 0.5),
         (0, 1),
-        "turtle1 is 1.00 m ahead, 1.00 m to the left and 0.50 m above turtle2, and looks the same way",
+        (
+            "turtle1 is 1.00 m ahead, 1.00 m to the left and 0.50 m above turtle2, and looks the "
+            "same way"
+        ),
     ),
     ((1, None, 0), (0, 1), "turtle1 is not at a finite place as turtle2 sees it"),
 ]
@@ -71,7 +80,10 @@ PLAYBACK = """
 
 @pytest.mark.parametrize("ticks", [1, 2, 4])
 def test_the_display_goes_smoothly_between_frames(js, ticks):
-    """At any display's rate, when frames come up to 12 ms late and not for each tick: 2 m/s are 2 mm a millisecond."""
+    """At any display's rate, when frames come up to 12 ms late and not for each tick.
+
+    2 m/s are 2 mm a millisecond.
+    """
     for display in (1000 / 30, 1000 / 60, 1000 / 144):
         seen = js(
             PLAYBACK, {"display": display, "late": [0, 7, 2, 12, 1], "jump": 1000, "ticks": ticks}

@@ -19,7 +19,10 @@ from turtlesim.msg import Pose
 from turtlesim.srv import Spawn
 
 EXERCISE = Path(__file__).parent.parent.parent / "examples" / "graded_exercise"
-NODE = "import rclpy, sys; from {module} import {name}; rclpy.init(args=sys.argv); rclpy.spin({name}())"
+NODE = (
+    "import rclpy, sys; from {module} import {name}; rclpy.init(args=sys.argv); "
+    "rclpy.spin({name}())"
+)
 SPEED = 5.0
 
 

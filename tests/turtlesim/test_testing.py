@@ -1,4 +1,7 @@
-"""The lock-step simulation: the same bits every time, faster than real time, and the example exercise that is graded with it."""
+"""The lock-step simulation.
+
+The same bits every time, faster than real time, and the example exercise that is graded with it.
+"""
 
 from __future__ import annotations
 

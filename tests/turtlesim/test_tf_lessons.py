@@ -1,4 +1,7 @@
-"""The lessons of learning_tf2_py after the follow demo: carrots, time travel and awaiting, in lock-step."""
+"""The lessons of learning_tf2_py after the follow demo.
+
+Carrots, time travel and awaiting, in lock-step.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The node as other nodes see it: topics, services, parameters and texts, in one process on the `local` middleware."""
+"""The node as other nodes see it.
+
+Topics, services, parameters and texts, in one process on the `local` middleware.
+"""
 
 from __future__ import annotations
 
@@ -174,7 +177,8 @@ def test_what_is_not_finite_is_ignored_with_one_line(world, capfd):
     assert [line[:7] for line in logged] == ["[WARN] "] * 3 + ["[ERROR]"] * 2
     assert (
         logged[0]
-        == "[WARN] Ignored a velocity command for [turtle1] that is not finite: x=nan, y=0.0, angular z=0.0"
+        == "[WARN] Ignored a velocity command for [turtle1] that is not finite: x=nan, y=0.0, "
+        "angular z=0.0"
     )
 
 
@@ -359,8 +363,10 @@ class TestMissingTurtles:
         assert world.sim._missing.names == ("turtle2",)
         (hint,) = lines(capfd)
         assert hint == (
-            "[INFO] Somebody waits for turtle2, and there is no turtle of that name. To add it, type: "
-            "ros2 service call /spawn turtlesim/srv/Spawn \"{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}\""
+            "[INFO] Somebody waits for turtle2, and there is no turtle of that name. To add it, "
+            "type: "
+            'ros2 service call /spawn turtlesim/srv/Spawn "{x: 4.0, y: 2.0, theta: 0.0, name: '
+            "'turtle2'}\""
         )
         world.call(Spawn, "/spawn", x=4.0, y=2.0, name="turtle2")
         assert world.sim._missing.names == ()

@@ -1,4 +1,7 @@
-"""The programs as processes of their own over DDS: the simulator with its page, and teleop on a pseudo-terminal."""
+"""The programs as processes of their own over DDS.
+
+The simulator with its page, and teleop on a pseudo-terminal.
+"""
 
 from __future__ import annotations
 
@@ -234,7 +237,10 @@ def terminal():
 
 
 def test_teleop_does_what_the_original_did(ear, terminal):
-    """Every key of the capture, on a real simulator that hurries: the same commands, and the same heading after each rotation."""
+    """Every key of the capture, on a real simulator that hurries.
+
+    The same commands, and the same heading after each rotation.
+    """
     simulator = Process("turtlesim.turtlesim_node", "--headless", "--speed", "4")
     poses = ear.listen(Pose, "/turtle1/pose")
     commands = ear.listen(Twist, "/turtle1/cmd_vel")

@@ -1,4 +1,7 @@
-"""``colcon build`` of a user's own interface packages, as typed, in a shell: no CMake, no compiler, then Python and ros2 know them."""
+"""``colcon build`` of a user's own interface packages, as typed, in a shell.
+
+No CMake, no compiler, then Python and ros2 know them.
+"""
 
 from __future__ import annotations
 
@@ -109,7 +112,10 @@ def test_built_sourced_used(workspace):
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         "Summary: 2 packages finished ",
-        "my_interfaces.msg.Sphere(center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), radius=2.0) 0.0 True",
+        (
+            "my_interfaces.msg.Sphere(center=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0), "
+            "radius=2.0) 0.0 True"
+        ),
         "True",
         "geometry_msgs/Point center",
         "\tfloat64 x",

@@ -1,4 +1,8 @@
-"""The shell files: fish gets the same environment as bash, and bash, zsh and fish complete words, topics, nodes and frames."""
+"""The shell files.
+
+Fish gets the same environment as bash, and bash, zsh and fish complete words, topics, nodes and
+frames.
+"""
 
 from __future__ import annotations
 
@@ -96,7 +100,8 @@ def test_tab_completes_words_topics_nodes_and_frames(prefix, run, shell):
     ros2 = prefix / "bin/ros2"
     ros2.parent.mkdir()
     ros2.write_text(
-        f"#!{sys.executable}\n# PYTHON_ARGCOMPLETE_OK\nimport sys\nfrom ros2cli.main import main\nsys.exit(main())\n"
+        f"#!{sys.executable}\n# PYTHON_ARGCOMPLETE_OK\nimport sys\nfrom ros2cli.main import "
+        "main\nsys.exit(main())\n"
     )
     ros2.chmod(0o755)
     path = os.pathsep.join((str(ros2.parent), str(Path(sys.executable).parent), "/usr/bin", "/bin"))

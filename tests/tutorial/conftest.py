@@ -16,7 +16,10 @@ BIN = Path(sys.executable).parent
 
 @pytest.fixture
 def workspace(tmp_path):
-    """Lays an ament_python package out as `colcon build --symlink-install` does; the environment that sourcing it would set."""
+    """Lays an ament_python package out as `colcon build --symlink-install` does.
+
+    The environment that sourcing it would set.
+    """
 
     def build(source):
         name, prefix = source.name, tmp_path / "install" / source.name

@@ -1,4 +1,8 @@
-"""scripts/demo: what it says, how it ends, and that its check notices when something that the demo lives on is killed."""
+"""scripts/demo.
+
+What it says, how it ends, and that its check notices when something that the demo lives on is
+killed.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Our own tutorial package: two turtles appear, one follows; and the static broadcaster that the tutorial's setup.py names."""
+"""Our own tutorial package: two turtles appear, one follows.
+
+And the static broadcaster that the tutorial's setup.py names.
+"""
 
 from __future__ import annotations
 

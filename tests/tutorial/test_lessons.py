@@ -1,4 +1,7 @@
-"""Each lesson of our tutorial package after the follow demo, launched for real: what turtle2 does, and a clean end."""
+"""Each lesson of our tutorial package after the follow demo, launched for real.
+
+What turtle2 does, and a clean end.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,10 @@ LONG_NS = 60_000_000_000
 
 @pytest.fixture
 def lesson(run, workspace):
-    """Starts a launch file of the package; at the end Ctrl-C must end all of its processes cleanly."""
+    """Starts a launch file of the package.
+
+    At the end Ctrl-C must end all of its processes cleanly.
+    """
     started = []
 
     def start(name, *arguments, processes):
@@ -93,7 +99,9 @@ def test_time_travel(lesson, turtles):
 
 @pytest.mark.slow
 def test_a_target_is_an_argument(lesson, turtles, run, workspace):
-    """The launch file of the demo with another target, and the carrot from a terminal of its own."""
+    """The launch file of the demo with another target, and the carrot from a terminal of its
+    own.
+    """
     lesson("turtle_tf2_demo.launch.py", "target_frame:=carrot1", processes=4)
     static = ["--x", "-2", "--frame-id", "turtle1", "--child-frame-id", "carrot1"]
     run(ROS2, "run", "tf2_ros", "static_transform_publisher", *static)

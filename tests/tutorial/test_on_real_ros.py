@@ -1,4 +1,7 @@
-"""Our tutorial package must run on a real ROS 2: it imports only names that a real ROS 2 Jazzy has."""
+"""Our tutorial package must run on a real ROS 2.
+
+It imports only names that a real ROS 2 Jazzy has.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The tutorial's terminal work on a machine without ROS: a fresh venv, a fresh home, and the commands as they are typed there.
+"""The tutorial's terminal work on a machine without ROS.
+
+A fresh venv, a fresh home, and the commands as they are typed there.
 
 The venv is filled from the wheelhouse that `scripts/smoke` makes, and from nothing else; what is
 run afterwards gets no network.
@@ -31,7 +33,10 @@ def why_not():
     if min(wheel.stat().st_mtime for wheel in wheels) < max(
         path.stat().st_mtime for path in sources
     ):
-        return f"the wheels in {WHEELHOUSE.relative_to(ROOT)} are older than the sources: scripts/smoke makes them anew"
+        return (
+            f"the wheels in {WHEELHOUSE.relative_to(ROOT)} are older than the sources: "
+            "scripts/smoke makes them anew"
+        )
     return ""
 
 
@@ -65,7 +70,10 @@ def home(tmp_path):
 
 @pytest.fixture
 def bash(run, venv, home):
-    """Opens a terminal: a shell in the home folder which knows nothing but the venv, and in which commands are typed."""
+    """Opens a terminal.
+
+    A shell in the home folder which knows nothing but the venv, and in which commands are typed.
+    """
 
     def environment():
         kept = {
@@ -121,7 +129,10 @@ def built(bash):
 
 
 def drive(turtles, teleop, key, arrived):
-    """Press a key until turtle1 has arrived and stands; the first ones may be typed before the programs know each other."""
+    """Press a key until turtle1 has arrived and stands.
+
+    The first ones may be typed before the programs know each other.
+    """
 
     def done():
         pose = turtles.poses["turtle1"]
@@ -142,7 +153,8 @@ def test_the_five_commands(bash, turtles):
     )
     launch.wait_for("Could not retrieve transform")  # the listings spawn no turtle2
     spawn = bash(
-        "ros2 service call /spawn turtlesim/srv/Spawn \"{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}\""
+        'ros2 service call /spawn turtlesim/srv/Spawn "{x: 4.0, y: 2.0, theta: 0.0, name: '
+        "'turtle2'}\""
     )
     assert spawn.wait() == 0, spawn.text
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 0.1)

@@ -22,7 +22,10 @@ LISTINGS = {
     "learning_tf2_py/turtle_tf2_listener.py": "092ec3f9d2a181b4bccb2c851a05054db6fbc6e86449b9ecee8acefc55117892",
     "launch/turtle_tf2_demo.launch.py": "6b4c39bd73a786080deff6e04930817069a525fa61bf7d0b57344021e7bb8017",
 }
-COULD_NOT = r"^\[turtle_tf2_listener-4\] \[INFO\] \[(\d+\.\d+)\] \[listener\]: (Could not retrieve transform: .*)$"
+COULD_NOT = (
+    r"^\[turtle_tf2_listener-4\] \[INFO\] \[(\d+\.\d+)\] \[listener\]: (Could not retrieve "
+    r"transform: .*)$"
+)
 #: What a lookup of the latest time says between the first and the second pose of turtle2. Whether
 #: the listener's timer fires in these 16 ms is chance: the captured run has no such line.
 ONE_POSE_YET = re.compile(
@@ -33,7 +36,10 @@ SPAWN = "{x: 4.0, y: 2.0, theta: 0.0, name: 'turtle2'}"
 
 
 def additions(text, golden):
-    """Normalised lines that the captured run has not; `ONE_POSE_YET` and the order of ends aside."""
+    """Normalised lines that the captured run has not.
+
+    `ONE_POSE_YET` and the order of ends aside.
+    """
     return {
         line
         for line in normalised(text) - normalised(golden)

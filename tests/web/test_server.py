@@ -1,4 +1,7 @@
-"""The server over real sockets: files, refusals, latest-wins streams, and that closing always returns."""
+"""The server over real sockets.
+
+Files, refusals, latest-wins streams, and that closing always returns.
+"""
 
 from __future__ import annotations
 
@@ -293,7 +296,10 @@ def test_running_out_of_files_is_reported_once_and_passes(page):
 
 
 def test_importing_the_room_stays_light():
-    code = "import sys, turtlewire.web; print(*[name for name in ('asyncio', 'websockets', 'http') if name in sys.modules])"
+    code = (
+        "import sys, turtlewire.web; print(*[name for name in ('asyncio', 'websockets', 'http') "
+        "if name in sys.modules])"
+    )
     assert (
         subprocess.run(
             [sys.executable, "-c", code], check=True, capture_output=True, text=True

@@ -1,4 +1,7 @@
-"""What a broken peer may send over the real wire: one clear line on stderr, the node lives, later good messages arrive."""
+"""What a broken peer may send over the real wire.
+
+One clear line on stderr, the node lives, later good messages arrive.
+"""
 
 from __future__ import annotations
 
@@ -122,7 +125,10 @@ def test_a_malformed_message_is_named_once_and_the_next_good_one_arrives(victim,
 
 
 def test_a_type_of_our_name_with_other_fields_is_named_once(victim, capfd, monkeypatch):
-    """Three longs where we have five floats: as many bytes, so that only the hash tells the difference."""
+    """Three longs where we have five floats.
+
+    As many bytes, so that only the hash tells the difference.
+    """
     monkeypatch.setattr(report, "_said", set())
     got, arrived = [], threading.Event()
 

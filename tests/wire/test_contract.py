@@ -503,7 +503,10 @@ def test_an_unknown_middleware_is_named():
 
 
 def wait_for_event(node: Node, event, expected) -> EventStatus:
-    """Take until ``expected(status)``; every wait must report the event, and nothing after it is taken."""
+    """Take until ``expected(status)``.
+
+    Every wait must report the event, and nothing after it is taken.
+    """
     wait_set = node.context.create_wait_set()
     wait_set.attach(event)
     while True:

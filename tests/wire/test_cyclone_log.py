@@ -25,7 +25,10 @@ def test_a_datagram_that_the_network_refuses_is_explained():
 
 
 def test_what_cyclone_says_of_a_domain_goes_into_the_pipe():
-    """In a process of its own: Cyclone keeps the first stderr that it sees for what belongs to no domain."""
+    """In a process of its own.
+
+    Cyclone keeps the first stderr that it sees for what belongs to no domain.
+    """
     code = (
         "from turtlewire.wire.cyclone import library as dds\n"
         "from turtlewire.wire.cyclone.log import CycloneLog\n"

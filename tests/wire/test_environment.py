@@ -194,7 +194,10 @@ def test_a_static_peer_that_nobody_knows_is_left_out_with_one_warning(
 @pytest.mark.parametrize("peer", ["a..b", "0.0.0.0"])  # no name server is asked for these
 def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning(peer: str):
     """In a process of its own, which has to survive it."""
-    code = "from turtlewire.wire import open_context; open_context().close(); open_context().close(); print('alive')"
+    code = (
+        "from turtlewire.wire import open_context; open_context().close(); "
+        "open_context().close(); print('alive')"
+    )
     variables = os.environ | {"ROS_STATIC_PEERS": f"{peer};localhost", "ROS_DOMAIN_ID": OWN_DOMAIN}
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -211,7 +214,10 @@ def test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
 
 @pytest.mark.parametrize("chosen", ["LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT"])
 def test_cyclone_accepts_the_configuration_of_each_range(chosen: str):
-    code = "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
+    code = (
+        "from turtlewire.wire import open_context; c = open_context(); c.create_node('n'); "
+        "print(len(c.graph.nodes())); c.close()"
+    )
     variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": chosen, "ROS_DOMAIN_ID": OWN_DOMAIN}
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -268,7 +274,10 @@ def test_a_domain_that_is_full_says_so():
 
 
 def test_the_last_domain_works():
-    code = "from turtlewire.wire import open_context; c = open_context(232); c.create_node('n'); print(len(c.graph.nodes())); c.close()"
+    code = (
+        "from turtlewire.wire import open_context; c = open_context(232); c.create_node('n'); "
+        "print(len(c.graph.nodes())); c.close()"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
     )
@@ -276,7 +285,10 @@ def test_the_last_domain_works():
 
 
 def test_a_platform_without_cyclone_gets_one_clear_line():
-    code = "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom turtlewire.wire import open_context\nopen_context()\n"
+    code = (
+        "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom "
+        "turtlewire.wire import open_context\nopen_context()\n"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
     )

@@ -1,4 +1,7 @@
-"""Programs on other vendors' DDS exchange messages with ours, both ways: C on Debian's Cyclone DDS, C++ on Debian's Fast DDS."""
+"""Programs on other vendors' DDS exchange messages with ours, both ways.
+
+C on Debian's Cyclone DDS, C++ on Debian's Fast DDS.
+"""
 
 from __future__ import annotations
 

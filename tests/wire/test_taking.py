@@ -1,4 +1,6 @@
-"""Both ways of taking messages out of a Cyclone reader, by native code and through ctypes, give the same."""
+"""Both ways of taking messages out of a Cyclone reader, by native code and through ctypes, give the
+same.
+"""
 
 from __future__ import annotations
 
@@ -77,7 +79,10 @@ def test_there_is_nothing_in_an_empty_or_closed_reader(pair, take):
 
 
 def test_publishers_that_left_are_forgotten(context, pair):
-    """Peers come and go for weeks; the caches of their gids and user data must not grow with them."""
+    """Peers come and go for weeks.
+
+    The caches of their gids and user data must not grow with them.
+    """
     _, subscription = pair
     wait_set = context.create_wait_set()
     wait_set.attach(subscription)

@@ -145,7 +145,10 @@ def test_static_peers_find_the_other_host_without_multicast(chosen: str):
 
 @pytest.mark.usefixtures("hosts")
 def test_nobody_from_outside_gets_in_by_default():
-    """The older process has no range set; the younger one, which is found, shows that the older one would have been."""
+    """The older process has no range set.
+
+    The younger one, which is found, shows that the older one would have been.
+    """
     with ExitStack() as stack:
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE=""))
         stack.enter_context(echo_there(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"))

@@ -1,4 +1,7 @@
-"""Answers questions with Debian's python3-tf2. Run by the system's Python: worlds come as JSON on stdin, answers go to stdout."""
+"""Answers questions with Debian's python3-tf2.
+
+Run by the system's Python: worlds come as JSON on stdin, answers go to stdout.
+"""
 
 import json
 import sys

@@ -1,4 +1,7 @@
-"""Publishes each line of its input to the peer ``echo.py`` and prints what comes back; ends with its input."""
+"""Publishes each line of its input to the peer ``echo.py`` and prints what comes back.
+
+Ends with its input.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""A foreign peer on the ``cyclonedds`` package: prints every endpoint that it discovers as one line of JSON.
+"""A foreign peer on the ``cyclonedds`` package.
+
+Prints every endpoint that it discovers as one line of JSON.
 
 Argument: how many endpoints to wait for; a limit of 20 s stands for the case that they do not come.
 """

@@ -1,4 +1,8 @@
-"""One of many processes: says when its node is there, and when it sees so many nodes and their endpoints (arguments: how many, in turn)."""
+"""One of many processes.
+
+Says when its node is there, and when it sees so many nodes and their endpoints (arguments: how
+many, in turn).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A process of ours: echoes a topic, answers a service, keeps a latched message; ends when its standard input does."""
+"""A process of ours: echoes a topic, answers a service, keeps a latched message.
+
+Ends when its standard input does.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Waits until it sees a node ``/peer/echo``, asks its service once, and prints how many such nodes there are."""
+"""Waits until it sees a node ``/peer/echo``, asks its service once, and prints how many such nodes
+there are.
+"""
 
 from __future__ import annotations
 
