@@ -32,6 +32,7 @@ class DirectNode:
 
     def __init__(self, args: argparse.Namespace, *, name: str | None = None) -> None:
         import rclpy
+        import rclpy.executors  # now: Python loses an interrupt that comes during an import
         from rclpy.parameter import Parameter
 
         rclpy.init(args=[])

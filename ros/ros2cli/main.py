@@ -6,7 +6,9 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import signal
 import sys
+import threading
 from contextlib import nullcontext
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -65,6 +67,8 @@ def main(argv: list[str] | None = None) -> int:
         The exit status.
     """
     words = sys.argv[1:] if argv is None else argv
+    if threading.current_thread() is threading.main_thread():  # no other may set handlers
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         return _run(words)
     except KeyboardInterrupt:
