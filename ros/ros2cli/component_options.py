@@ -4,44 +4,48 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
+from ros2cli.completion import packages
 from ros2cli.values import assignment
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_component_arguments", "load_request"]
-
-
-def add_component_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define package, plugin and the options of the node."""
-    from ros2cli.completion import packages
-
-    package = parser.add_argument("package_name", help="Name of the package")
-    package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument(
-        "plugin_name",
-        help="Name of the component: package.module.Class of a node of Python,"
-        " package::Class in a container of C++",
-    )
-    parser.add_argument("-n", "--node-name", default="", help="Name of the node")
-    parser.add_argument("--node-namespace", default="", help="Namespace of the node")
-    parser.add_argument("--log-level", choices=_LEVELS, help="Least severity that is logged")
-    parser.add_argument(
-        "-r", "--remap", dest="remap_rules", action="append", default=[], help="from:=to"
-    )
-    for option, target in (("-p", "parameters"), ("-e", "extra_arguments")):
-        parser.add_argument(
-            option,
-            "--parameter" if option == "-p" else "--extra-argument",
-            dest=target,
-            action="append",
-            type=assignment,
-            default=[],
-            help="name:=value, as YAML",
-        )
+__all__ = ["COMPONENT_ARGUMENTS", "load_request"]
 
 
 _LEVELS = ("unknown", "debug", "info", "warn", "error", "fatal")
+
+COMPONENT_ARGUMENTS = (
+    argument("package_name", help="Name of the package", completer=packages),
+    argument(
+        "plugin_name",
+        help="Name of the component: package.module.Class of a node of Python,"
+        " package::Class in a container of C++",
+    ),
+    argument("-n", "--node-name", default="", help="Name of the node"),
+    argument("--node-namespace", default="", help="Namespace of the node"),
+    argument("--log-level", choices=_LEVELS, help="Least severity that is logged"),
+    argument("-r", "--remap-rules", nargs="+", default=[], help="Remappings of names, as from:=to"),
+    argument(
+        "-p",
+        "--parameter",
+        dest="parameters",
+        action="append",
+        type=assignment,
+        default=[],
+        help="A parameter, as name:=value",
+    ),
+    argument(
+        "-e",
+        "--extra-argument",
+        dest="extra_arguments",
+        action="append",
+        type=assignment,
+        default=[],
+        help="An argument for the container, as name:=value",
+    ),
+)
 
 
 def load_request(args: argparse.Namespace) -> Any:
@@ -58,7 +62,7 @@ def load_request(args: argparse.Namespace) -> Any:
         plugin_name=args.plugin_name,
         node_name=args.node_name,
         node_namespace=args.node_namespace,
-        log_level=max(0, (_LEVELS.index(args.log_level) if args.log_level else 0) * 10),
+        log_level=_LEVELS.index(args.log_level or "unknown") * 10,
         remap_rules=args.remap_rules,
         parameters=messages(args.parameters),
         extra_arguments=messages(args.extra_arguments),

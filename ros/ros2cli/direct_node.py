@@ -26,7 +26,7 @@ class DirectNode:
     """A hidden node that knows the graph; a context manager.
 
     Args:
-        args: The command line, with the options of :func:`ros2cli.discovery.add_spin_arguments`.
+        args: The command line, with the options of :func:`ros2cli.discovery.SPIN_ARGUMENTS`.
         name: Name of the node; by default one made of the process id.
     """
 

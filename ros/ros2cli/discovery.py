@@ -8,15 +8,15 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from turtlewire.wire.environment import Range, discovery
 
 if TYPE_CHECKING:
-    import argparse
     from types import TracebackType
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["GraphNode", "add_spin_arguments", "add_strategy_arguments", "wait_until_discovered"]
+__all__ = ["SPIN_ARGUMENTS", "STRATEGY_ARGUMENTS", "GraphNode", "wait_until_discovered"]
 
 # Other hosts are given so much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
@@ -39,25 +39,23 @@ _NODE_TOPICS = (
 )
 
 
-def add_spin_arguments(parser: argparse.ArgumentParser) -> None:
-    """Options of all verbs that take part in a domain."""
-    parser.add_argument(
+SPIN_ARGUMENTS = (
+    argument(
         "--spin-time",
         type=float,
         default=None,
         help="Seconds to wait for discovery; by default until all is known",
-    )
-    parser.add_argument(
-        "-s", "--use-sim-time", action="store_true", help="Take the time from /clock"
-    )
+    ),
+    argument("-s", "--use-sim-time", action="store_true", help="Take the time from /clock"),
+)
 
 
-def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
-    """Options of verbs that only look at the graph."""
-    add_spin_arguments(parser)
-    parser.add_argument(
+STRATEGY_ARGUMENTS = (
+    *SPIN_ARGUMENTS,
+    argument(
         "--no-daemon", action="store_true", help="Accepted for compatibility: there is no daemon"
-    )
+    ),
+)
 
 
 def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:

@@ -13,6 +13,7 @@ from contextlib import nullcontext
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import add_arguments
 from ros2cli.commands import COMMANDS
 from ros2cli.output import escaped_output, tell
 
@@ -139,8 +140,7 @@ def _add_choices(
 
 def _load(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
     module = import_module(module_name)
-    if hasattr(module, "add_arguments"):
-        module.add_arguments(parser)
+    add_arguments(parser, getattr(module, "ARGUMENTS", ()))
     if hasattr(module, "main"):
         parser.set_defaults(module=module, parser=parser)
     else:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
+
 if TYPE_CHECKING:
     import argparse
 
     from ros2cli.direct_node import DirectNode
     from turtlewire.wire.base import Graph
 
-__all__ = ["add_hidden_argument", "ask", "managed_nodes", "require_managed_node"]
+__all__ = ["HIDDEN_ARGUMENT", "ask", "managed_nodes", "require_managed_node"]
 
 _SERVICE = "/get_state"
 _TYPE = "lifecycle_msgs/srv/GetState"
@@ -29,13 +31,11 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
     return sorted(name for name in names if hidden or not is_hidden_node(name))
 
 
-def add_hidden_argument(parser: argparse.ArgumentParser) -> None:
-    """Define the option that admits hidden nodes."""
-    parser.add_argument(
-        "--include-hidden-nodes",
-        action="store_true",
-        help="Also nodes whose name begins with an underscore",
-    )
+HIDDEN_ARGUMENT = argument(
+    "--include-hidden-nodes",
+    action="store_true",
+    help="Also nodes whose name begins with an underscore",
+)
 
 
 def require_managed_node(graph: Graph, args: argparse.Namespace) -> str:

@@ -8,24 +8,16 @@ from argparse import ArgumentTypeError
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Iterator
     from types import TracebackType
 
-__all__ = ["MulticastSocket", "add_group_arguments"]
+__all__ = ["GROUP_ARGUMENTS", "MulticastSocket"]
 
 _LONGEST = 4096
-
-
-def add_group_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the options that sender and receiver have to agree on."""
-    parser.add_argument(
-        "--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)"
-    )
-    parser.add_argument("--port", type=_port, default=49150, help="UDP port (default: 49150)")
 
 
 class MulticastSocket:
@@ -103,3 +95,12 @@ def _port(text: str) -> int:
     if not 0 < port < 1 << 16:
         raise ArgumentTypeError(f"'{text}' is no UDP port; those are 1 to 65535")
     return port
+
+
+#: What sender and receiver have to agree on.
+GROUP_ARGUMENTS = (
+    argument(
+        "--group", type=_group, default="225.0.0.1", help="Multicast group (default: 225.0.0.1)"
+    ),
+    argument("--port", type=_port, default=49150, help="UDP port (default: 49150)"),
+)

@@ -2,43 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ros2cli.arguments import Argument, argument
 from ros2cli.completion import node_names, parameter_names
-from ros2cli.discovery import add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS
 
-if TYPE_CHECKING:
-    import argparse
-
-__all__ = ["add_name_argument", "add_node_arguments"]
+__all__ = ["NAME_ARGUMENT", "node_arguments"]
 
 _TIMEOUT_S = 5.0
 
 
-def add_node_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
-    """Define what all verbs share."""
-    add_strategy_arguments(parser)
-    node = parser.add_argument(
-        "node_name",
-        nargs="?" if optional else None,
-        help="Full name of the node, for example /turtlesim",
-    )
-    node.completer = node_names  # type: ignore[attr-defined]
-    parser.add_argument(
-        "--include-hidden-nodes",
-        action="store_true",
-        help="Also nodes whose name begins with an underscore",
-    )
-    parser.add_argument(
-        "--timeout",
-        metavar="N",
-        type=float,
-        default=_TIMEOUT_S,
-        help="Wait at most N seconds for the node's answer",
+def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
+    """What all verbs of ``ros2 param`` share."""
+    return (
+        *STRATEGY_ARGUMENTS,
+        argument(
+            "node_name",
+            nargs="?" if optional else None,
+            help="Full name of the node, for example /turtlesim",
+            completer=node_names,
+        ),
+        argument(
+            "--include-hidden-nodes",
+            action="store_true",
+            help="Also nodes whose name begins with an underscore",
+        ),
+        argument(
+            "--timeout",
+            metavar="N",
+            type=float,
+            default=_TIMEOUT_S,
+            help="Wait at most N seconds for the node's answer",
+        ),
     )
 
 
-def add_name_argument(parser: argparse.ArgumentParser) -> None:
-    """Define the name of one parameter."""
-    name = parser.add_argument("parameter_name", help="Name of the parameter")
-    name.completer = parameter_names  # type: ignore[attr-defined]
+NAME_ARGUMENT = argument("parameter_name", help="Name of the parameter", completer=parameter_names)

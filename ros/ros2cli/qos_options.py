@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.values import positive_float, unsigned_int
 
 if TYPE_CHECKING:
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from turtlewire.wire.base import Graph
 
-__all__ = ["add_qos_arguments", "asked_for", "matching_publishers", "with_options"]
+__all__ = ["QOS_ARGUMENTS", "asked_for", "matching_publishers", "with_options"]
 
 _PROFILES = (
     *("unknown", "default", "system_default", "sensor_data", "services_default", "parameters"),
@@ -24,25 +25,23 @@ _DURABILITY = ("system_default", "transient_local", "volatile", "unknown", "best
 _LIVELINESS = ("system_default", "automatic", "manual_by_topic", "unknown", "best_available")
 
 
-def add_qos_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the options."""
-    parser.add_argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with")
-    parser.add_argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue")
-    parser.add_argument("--qos-history", choices=_HISTORY, help="What the queue keeps")
-    parser.add_argument(
+QOS_ARGUMENTS = (
+    argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with"),
+    argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue"),
+    argument("--qos-history", choices=_HISTORY, help="What the queue keeps"),
+    argument(
         "--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again"
-    )
-    parser.add_argument(
+    ),
+    argument(
         "--qos-durability", choices=_DURABILITY, help="Whether late joiners get earlier messages"
-    )
-    parser.add_argument(
-        "--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive"
-    )
-    parser.add_argument(
+    ),
+    argument("--qos-liveliness", choices=_LIVELINESS, help="Who says that a publisher is alive"),
+    argument(
         "--qos-liveliness-lease-duration-seconds",
         type=positive_float,
         help="How long it counts as alive without saying so",
-    )
+    ),
+)
 
 
 def asked_for(args: argparse.Namespace) -> bool:

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.extension_points import EXTENSION_POINTS, extensions
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
         "-a",
         "--all",
         action="store_true",
         help="Accepted for compatibility: no extension fails to load",
-    )
-    parser.add_argument(
-        "-v", "--verbose", action="store_true", help="Show where the extensions are"
-    )
+    ),
+    argument("-v", "--verbose", action="store_true", help="Show where the extensions are"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -8,6 +8,7 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
@@ -16,61 +17,79 @@ if TYPE_CHECKING:
 
     from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
-__all__ = ["PASSES_COLOURS_ON", "add_arguments", "main"]
+__all__ = ["ARGUMENTS", "PASSES_COLOURS_ON", "main"]
 
 PASSES_COLOURS_ON = True
 _SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
+def _at_terminal() -> bool:
+    return sys.stdin is not None and sys.stdin.isatty()  # None if it was closed at the start
+
+
+def _files_in(share: str) -> list[str]:
+    return sorted(
+        file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES)
+    )
+
+
+def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    from turtlewire_ros.prefix import share_directory
+
+    share = share_directory(parsed_args.package_name)
+    return [] if share is None else _files_in(share)
+
+
+def _packages_and_files(prefix: str, **_: Any) -> list[str]:
+    return packages() + files(prefix)
+
+
+ARGUMENTS = (
+    argument(
         "-n",
         "--noninteractive",
         action="store_true",
         default=not _at_terminal(),
         help="Nobody at a terminal watches",
-    )
-    parser.add_argument(
-        "-d", "--debug", action="store_true", help="Log what the launch does in detail"
-    )
-    either = parser.add_mutually_exclusive_group()
-    either.add_argument(
-        "-p",
-        "--print",
-        "--print-description",
-        action="store_true",
-        help="Show what would be launched, and end",
-    )
-    either.add_argument(
-        "-s",
-        "--show-args",
-        "--show-arguments",
-        action="store_true",
-        help="Show the arguments of the file, and end",
-    )
-    parser.add_argument(
+    ),
+    argument("-d", "--debug", action="store_true", help="Log what the launch does in detail"),
+    exclusive(
+        argument(
+            "-p",
+            "--print",
+            "--print-description",
+            action="store_true",
+            help="Show what would be launched, and end",
+        ),
+        argument(
+            "-s",
+            "--show-args",
+            "--show-arguments",
+            action="store_true",
+            help="Show the arguments of the file, and end",
+        ),
+    ),
+    argument(
         "-a",
         "--show-all-subprocesses-output",
         action="store_true",
         help="Show all output of all processes",
-    )
-    parser.add_argument(
-        "--launch-prefix", help="Command to put before all processes, for example a debugger"
-    )
-    parser.add_argument(
+    ),
+    argument("--launch-prefix", help="Command to put before all processes, for example a debugger"),
+    argument(
         "--launch-prefix-filter",
         help="Pattern of the executables that get the prefix; all when it is not given",
-    )
-    package = parser.add_argument(
-        "package_name", help="Name of the package, or path of a launch file"
-    )
-    package.completer = _packages_and_files  # type: ignore[attr-defined]
-    file = parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
-    file.completer = _launch_files  # type: ignore[attr-defined]
-    parser.add_argument(
-        "launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value"
-    )
+    ),
+    argument(
+        "package_name",
+        help="Name of the package, or path of a launch file",
+        completer=_packages_and_files,
+    ),
+    argument(
+        "launch_file_name", nargs="?", help="Name of the launch file", completer=_launch_files
+    ),
+    argument("launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value"),
+)
 
 
 def main(args: argparse.Namespace) -> int | str | None:
@@ -126,10 +145,6 @@ def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
     )
     service.include_launch_description(description)
     return service.run()
-
-
-def _at_terminal() -> bool:
-    return sys.stdin is not None and sys.stdin.isatty()  # None if it was closed at the start
 
 
 @contextlib.contextmanager
@@ -228,23 +243,6 @@ def _in_share(package: str, share: str, name: str) -> str:
     return found[0]
 
 
-def _files_in(share: str) -> list[str]:
-    return sorted(
-        file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES)
-    )
-
-
-def _packages_and_files(prefix: str, **_: Any) -> list[str]:
-    return packages() + files(prefix)
-
-
-def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    from turtlewire_ros.prefix import share_directory
-
-    share = share_directory(parsed_args.package_name)
-    return [] if share is None else _files_in(share)
-
-
 def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     """``name:=value`` pairs, the last one of each name.
 
@@ -284,19 +282,19 @@ def _show_arguments(description: LaunchDescription) -> int:
 
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     conditional = False
-    for argument in description.get_launch_arguments():
-        conditional |= argument.conditionally_included
-        star = "*" if argument.conditionally_included else ""
+    for declared in description.get_launch_arguments():
+        conditional |= declared.conditionally_included
+        star = "*" if declared.conditionally_included else ""
         lines += [
             "",
-            f"    '{argument.name}'{star}:",
-            *(f"        {line}" for line in argument.description.splitlines()),
+            f"    '{declared.name}'{star}:",
+            *(f"        {line}" for line in declared.description.splitlines()),
         ]
-        if argument.default_value is not None:
+        if declared.default_value is not None:
             try:
-                default = f"'{perform_substitutions(LaunchContext(), argument.default_value)}'"
+                default = f"'{perform_substitutions(LaunchContext(), declared.default_value)}'"
             except Exception:  # noqa: BLE001  it depends on what happens during the launch
-                default = " + ".join(part.describe() for part in argument.default_value)
+                default = " + ".join(part.describe() for part in declared.default_value)
             lines.append(f"        (default: {default})")
     if len(lines) == 1:
         lines += ["", "  No arguments."]

@@ -8,30 +8,31 @@ import shlex
 import signal
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.child import run
 from ros2cli.completion import arguments_of_executable, executables, packages
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
         "--prefix",
         help="Command to put before the executable, for example a debugger: "
         "--prefix 'gdb -ex run --args'",
-    )
-    package = parser.add_argument("package_name", help="Name of the package")
-    package.completer = packages  # type: ignore[attr-defined]
-    executable = parser.add_argument("executable_name", help="Name of the executable")
-    executable.completer = executables  # type: ignore[attr-defined]
-    argv = parser.add_argument(
-        "argv", nargs=argparse.REMAINDER, help="Arguments for the executable"
-    )
-    argv.completer = arguments_of_executable  # type: ignore[attr-defined]
+    ),
+    argument("package_name", help="Name of the package", completer=packages),
+    argument("executable_name", help="Name of the executable", completer=executables),
+    argument(
+        "argv",
+        nargs=argparse.REMAINDER,
+        help="Arguments for the executable",
+        completer=arguments_of_executable,
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> int | str:

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import action_names
 from ros2cli.discovery import GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    action = parser.add_argument(
-        "action_name", help="Name of the action, for example /turtle1/rotate_absolute"
-    )
-    action.completer = action_names  # type: ignore[attr-defined]
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
-    parser.add_argument("-c", "--count", action="store_true", help="Only show how many there are")
+ARGUMENTS = (
+    argument(
+        "action_name",
+        help="Name of the action, for example /turtle1/rotate_absolute",
+        completer=action_names,
+    ),
+    argument("-t", "--show-types", action="store_true", help="Show the types too"),
+    argument("-c", "--count", action="store_true", help="Only show how many there are"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.discovery import GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show the types too")
-    parser.add_argument(
-        "-c", "--count-actions", action="store_true", help="Only show how many there are"
-    )
+ARGUMENTS = (
+    argument("-t", "--show-types", action="store_true", help="Show the types too"),
+    argument("-c", "--count-actions", action="store_true", help="Only show how many there are"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import action_names, action_types, goal_values
 from ros2cli.values import read_values, shortened
 
@@ -13,31 +14,35 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _CANCEL_TIMEOUT_S = 5.0
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    action = parser.add_argument(
-        "action_name", help="Name of the action, for example /turtle1/rotate_absolute"
-    )
-    action.completer = action_names  # type: ignore[attr-defined]
-    kind = parser.add_argument(
-        "action_type", help="Type of the action, for example turtlesim/action/RotateAbsolute"
-    )
-    kind.completer = action_types  # type: ignore[attr-defined]
-    values = parser.add_mutually_exclusive_group(required=True)
-    prototype = values.add_argument(
-        "goal",
-        nargs="?",
-        default="{}",
-        help="Values of the goal as YAML, for example '{theta: 1.57}'",
-    )
-    prototype.completer = goal_values  # type: ignore[attr-defined]
-    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
-    parser.add_argument("-f", "--feedback", action="store_true", help="Show the feedback")
+ARGUMENTS = (
+    argument(
+        "action_name",
+        help="Name of the action, for example /turtle1/rotate_absolute",
+        completer=action_names,
+    ),
+    argument(
+        "action_type",
+        help="Type of the action, for example turtlesim/action/RotateAbsolute",
+        completer=action_types,
+    ),
+    exclusive(
+        argument(
+            "goal",
+            nargs="?",
+            default="{}",
+            help="Values of the goal as YAML, for example '{theta: 1.57}'",
+            completer=goal_values,
+        ),
+        argument("--stdin", action="store_true", help="Read the values from stdin"),
+        required=True,
+    ),
+    argument("-f", "--feedback", action="store_true", help="Show the feedback"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

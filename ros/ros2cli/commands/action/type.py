@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import action_names
 from ros2cli.discovery import GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    action = parser.add_argument(
-        "action_name", help="Name of the action, for example /turtle1/rotate_absolute"
-    )
-    action.completer = action_names  # type: ignore[attr-defined]
+ARGUMENTS = (
+    argument(
+        "action_name",
+        help="Name of the action, for example /turtle1/rotate_absolute",
+        completer=action_names,
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import container_node_names
 from ros2cli.direct_node import DirectNode
-from ros2cli.discovery import add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    container = parser.add_argument(
-        "container_node_name", nargs="?", help="Full name of a container; all if it is left out"
-    )
-    container.completer = container_node_names  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name",
+        nargs="?",
+        help="Full name of a container; all if it is left out",
+        completer=container_node_names,
+    ),
+    argument(
         "--containers-only", action="store_true", help="Show the containers without their nodes"
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> None:

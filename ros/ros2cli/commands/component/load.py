@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import container_node_names
-from ros2cli.component_options import add_component_arguments, load_request
+from ros2cli.component_options import COMPONENT_ARGUMENTS, load_request
 from ros2cli.direct_node import DirectNode
-from ros2cli.discovery import add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    container = parser.add_argument("container_node_name", help="Full name of the container")
-    container.completer = container_node_names  # type: ignore[attr-defined]
-    add_component_arguments(parser)
-    parser.add_argument("-q", "--quiet", action="store_true", help="Print only the node's number")
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name", help="Full name of the container", completer=container_node_names
+    ),
+    *COMPONENT_ARGUMENTS,
+    argument("-q", "--quiet", action="store_true", help="Print only the node's number"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.component_options import add_component_arguments, load_request
+from ros2cli.arguments import argument
+from ros2cli.component_options import COMPONENT_ARGUMENTS, load_request
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
         "-c", "--container-node-name", default="standalone_container", help="Name of the container"
-    )
-    add_component_arguments(parser)
+    ),
+    *COMPONENT_ARGUMENTS,
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

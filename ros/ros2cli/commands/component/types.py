@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import packages
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _RESOURCE = "rclcpp_components"
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    package = parser.add_argument(
-        "package_name", nargs="?", help="Name of a package; all if it is left out"
-    )
-    package.completer = packages  # type: ignore[attr-defined]
+ARGUMENTS = (
+    argument(
+        "package_name",
+        nargs="?",
+        help="Name of a package; all if it is left out",
+        completer=packages,
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

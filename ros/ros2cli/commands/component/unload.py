@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import container_node_names
 from ros2cli.direct_node import DirectNode
-from ros2cli.discovery import add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.output import tell
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    container = parser.add_argument("container_node_name", help="Full name of the container")
-    container.completer = container_node_names  # type: ignore[attr-defined]
-    parser.add_argument(
-        "component_uid", type=unsigned_int, nargs="+", help="Numbers of the nodes to unload"
-    )
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "container_node_name", help="Full name of the container", completer=container_node_names
+    ),
+    argument("component_uid", type=unsigned_int, nargs="+", help="Numbers of the nodes to unload"),
+)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
+
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
         "-d", "--debug", action="store_true", help="Accepted for compatibility: there is no daemon"
-    )
+    ),
+)
 
 
 def main(_args: argparse.Namespace) -> None:

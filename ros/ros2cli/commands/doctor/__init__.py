@@ -4,49 +4,51 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument, exclusive
 from turtlewire.cli.parser import seconds
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["VERBS", "add_arguments", "main"]
+__all__ = ["ARGUMENTS", "VERBS", "main"]
 
 VERBS = {"hello": "Find out which hosts can hear each other"}
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    either = parser.add_mutually_exclusive_group()
-    either.add_argument(
-        "-r",
-        "--report",
-        action="store_true",
-        help="Print facts for a bug report instead: computer, environment, topics",
-    )
-    either.add_argument(
-        "-rf",
-        "--report-failed",
-        action="store_true",
-        help="Accepted for compatibility: only what fails is printed",
-    )
-    parser.add_argument(
+ARGUMENTS = (
+    exclusive(
+        argument(
+            "-r",
+            "--report",
+            action="store_true",
+            help="Print facts for a bug report instead: computer, environment, topics",
+        ),
+        argument(
+            "-rf",
+            "--report-failed",
+            action="store_true",
+            help="Accepted for compatibility: only what fails is printed",
+        ),
+    ),
+    argument(
         "-iw",
         "--include-warnings",
         action="store_true",
         help="Count what is only worth knowing as a failure too",
-    )
-    parser.add_argument(
+    ),
+    argument(
         "-ep",
         "--exclude-packages",
         action="store_true",
         help="Accepted for compatibility: versions of packages are not compared",
-    )
-    parser.add_argument(
+    ),
+    argument(
         "--listen",
         type=seconds,
         metavar="S",
         help="Listen to the transforms for S seconds (default: 2; less if all are static)",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> int:

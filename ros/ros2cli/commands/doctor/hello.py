@@ -6,41 +6,42 @@ import socket
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.discovery import add_spin_arguments
-from ros2cli.multicast import MulticastSocket, add_group_arguments
+from ros2cli.arguments import argument
+from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.multicast import GROUP_ARGUMENTS, MulticastSocket
 from ros2cli.values import positive_float, positive_int
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _WIDTH = 60
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_spin_arguments(parser)
-    add_group_arguments(parser)
-    parser.add_argument("-t", "--topic", default="/canyouhearme", help="Topic for the greetings")
-    parser.add_argument(
+ARGUMENTS = (
+    *SPIN_ARGUMENTS,
+    *GROUP_ARGUMENTS,
+    argument("-t", "--topic", default="/canyouhearme", help="Topic for the greetings"),
+    argument(
         "-ep",
         "--emit-period",
         metavar="N",
         type=positive_float,
         default=0.1,
         help="Seconds between greetings",
-    )
-    parser.add_argument(
+    ),
+    argument(
         "-pp",
         "--print-period",
         metavar="N",
         type=positive_float,
         default=1.0,
         help="Seconds between tables",
-    )
-    parser.add_argument("--ttl", type=positive_int, help="How many routers a datagram may pass")
-    parser.add_argument("-1", "--once", action="store_true", help="End after the first table")
+    ),
+    argument("--ttl", type=positive_int, help="How many routers a datagram may pass"),
+    argument("-1", "--once", action="store_true", help="End after the first table"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
+
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _KINDS = (("msg", "Messages"), ("srv", "Services"), ("action", "Actions"))
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument("-m", "--only-msgs", action="store_true", help="Only messages")
-    parser.add_argument("-s", "--only-srvs", action="store_true", help="Only services")
-    parser.add_argument("-a", "--only-actions", action="store_true", help="Only actions")
+ARGUMENTS = (
+    argument("-m", "--only-msgs", action="store_true", help="Only messages"),
+    argument("-s", "--only-srvs", action="store_true", help="Only services"),
+    argument("-a", "--only-actions", action="store_true", help="Only actions"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

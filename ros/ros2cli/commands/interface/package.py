@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import interface_packages
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    package = parser.add_argument("package_name", help="Name of the package")
-    package.completer = interface_packages  # type: ignore[attr-defined]
-    parser.add_argument("-m", "--only-msgs", action="store_true", help="Only messages")
-    parser.add_argument("-s", "--only-srvs", action="store_true", help="Only services")
-    parser.add_argument("-a", "--only-actions", action="store_true", help="Only actions")
+ARGUMENTS = (
+    argument("package_name", help="Name of the package", completer=interface_packages),
+    argument("-m", "--only-msgs", action="store_true", help="Only messages"),
+    argument("-s", "--only-srvs", action="store_true", help="Only services"),
+    argument("-a", "--only-actions", action="store_true", help="Only actions"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

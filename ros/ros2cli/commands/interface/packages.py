@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
+
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
-        "-m", "--only-msgs", action="store_true", help="Only packages with messages"
-    )
-    parser.add_argument(
-        "-s", "--only-srvs", action="store_true", help="Only packages with services"
-    )
-    parser.add_argument(
-        "-a", "--only-actions", action="store_true", help="Only packages with actions"
-    )
+ARGUMENTS = (
+    argument("-m", "--only-msgs", action="store_true", help="Only packages with messages"),
+    argument("-s", "--only-srvs", action="store_true", help="Only packages with services"),
+    argument("-a", "--only-actions", action="store_true", help="Only packages with actions"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import interfaces
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    interface = parser.add_argument(
-        "type", help="Name of the interface, for example geometry_msgs/msg/Twist"
-    )
-    interface.completer = interfaces  # type: ignore[attr-defined]
-    parser.add_argument(
-        "--no-quotes", action="store_true", help="Without the quotes that a shell needs"
-    )
+ARGUMENTS = (
+    argument(
+        "type",
+        help="Name of the interface, for example geometry_msgs/msg/Twist",
+        completer=interfaces,
+    ),
+    argument("--no-quotes", action="store_true", help="Without the quotes that a shell needs"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

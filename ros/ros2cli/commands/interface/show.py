@@ -5,29 +5,29 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import interfaces
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    interface = parser.add_argument(
+ARGUMENTS = (
+    argument(
         "type",
         help="Name of the interface, for example geometry_msgs/msg/Twist; '-' reads it from stdin",
-    )
-    interface.completer = interfaces  # type: ignore[attr-defined]
-    comments = parser.add_mutually_exclusive_group()
-    comments.add_argument(
-        "--all-comments", action="store_true", help="With the comments of nested interfaces too"
-    )
-    comments.add_argument(
-        "--no-comments", action="store_true", help="Without comments and blank lines"
-    )
+        completer=interfaces,
+    ),
+    exclusive(
+        argument(
+            "--all-comments", action="store_true", help="With the comments of nested interfaces too"
+        ),
+        argument("--no-comments", action="store_true", help="Without comments and blank lines"),
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import managed_node_names
 from ros2cli.direct_node import DirectNode
-from ros2cli.discovery import add_strategy_arguments
-from ros2cli.managed_nodes import add_hidden_argument
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.managed_nodes import HIDDEN_ARGUMENT
 from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    add_hidden_argument(parser)
-    node = parser.add_argument("node_name", help="Full name of the node")
-    node.completer = managed_node_names  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    HIDDEN_ARGUMENT,
+    argument("node_name", help="Full name of the node", completer=managed_node_names),
+    argument(
         "transition",
         help="Label or number of a transition that the node offers, for example configure",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.multicast import MulticastSocket, add_group_arguments
+from ros2cli.multicast import GROUP_ARGUMENTS, MulticastSocket
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_group_arguments(parser)
+ARGUMENTS = (*GROUP_ARGUMENTS,)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import node_names
-from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    node = parser.add_argument("node_name", help="Full name of the node, for example /turtlesim")
-    node.completer = node_names  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "node_name", help="Full name of the node, for example /turtlesim", completer=node_names
+    ),
+    argument(
         "--include-hidden",
         action="store_true",
         help="Also topics and services with a part that begins with an underscore",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

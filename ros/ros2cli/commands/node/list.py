@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.arguments import argument
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 from ros2cli.output import tell
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
         "-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore"
-    )
-    parser.add_argument(
-        "-c", "--count-nodes", action="store_true", help="Only show how many there are"
-    )
+    ),
+    argument("-c", "--count-nodes", action="store_true", help="Only show how many there are"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.completion import parameter_names
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
-from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import TYPE_NAMES, RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser)
-    names = parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
-    names.completer = parameter_names  # type: ignore[attr-defined]
+ARGUMENTS = (
+    *node_arguments(),
+    argument(
+        "parameter_names", nargs="+", help="Names of the parameters", completer=parameter_names
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> None:

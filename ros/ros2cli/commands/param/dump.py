@@ -5,18 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser)
+ARGUMENTS = (*node_arguments(),)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.direct_node import DirectNode
-from ros2cli.parameter_options import add_name_argument, add_node_arguments
+from ros2cli.parameter_options import NAME_ARGUMENT, node_arguments
 from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _LABELS = {
     1: "Boolean value is:",
@@ -26,11 +27,11 @@ _LABELS = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser)
-    add_name_argument(parser)
-    parser.add_argument("--hide-type", action="store_true", help="Show only the value")
+ARGUMENTS = (
+    *node_arguments(),
+    NAME_ARGUMENT,
+    argument("--hide-type", action="store_true", help="Show only the value"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -5,27 +5,26 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
-from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import TYPE_NAMES, Question
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser, optional=True)
-    parser.add_argument(
+ARGUMENTS = (
+    *node_arguments(optional=True),
+    argument(
         "--param-prefixes", nargs="+", default=[], help="Only parameters below these prefixes"
-    )
-    parser.add_argument("--param-type", action="store_true", help="Show the types too")
-    parser.add_argument(
-        "--filter", help="Only parameters whose name matches this regular expression"
-    )
+    ),
+    argument("--param-type", action="store_true", help="Show the types too"),
+    argument("--filter", help="Only parameters whose name matches this regular expression"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

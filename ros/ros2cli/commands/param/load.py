@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.completion import files
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
-from ros2cli.parameter_options import add_node_arguments
+from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser)
-    file = parser.add_argument("parameter_file", help="Path of the parameter file")
-    file.completer = files  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    *node_arguments(),
+    argument("parameter_file", help="Path of the parameter file", completer=files),
+    argument(
         "--no-use-wildcard",
         action="store_true",
         help="Leave out what the file says of '/**' (all nodes)",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> None:

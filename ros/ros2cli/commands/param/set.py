@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
-from ros2cli.parameter_options import add_name_argument, add_node_arguments
+from ros2cli.parameter_options import NAME_ARGUMENT, node_arguments
 from ros2cli.parameters import RemoteParameters
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_node_arguments(parser)
-    add_name_argument(parser)
-    parser.add_argument("value", help="Value of the parameter, as YAML")
+ARGUMENTS = (
+    *node_arguments(),
+    NAME_ARGUMENT,
+    argument("value", help="Value of the parameter, as YAML"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

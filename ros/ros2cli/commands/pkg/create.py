@@ -7,55 +7,52 @@ import re
 from typing import TYPE_CHECKING
 
 from ros2cli import package_template
+from ros2cli.arguments import argument
 from ros2cli.completion import files
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _NAME = re.compile(r"[a-z](?:[a-z0-9]|_(?!_))*")
 _NODE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument(
-        "package_name", help="Name of the package: small letters, digits and underscores"
-    )
-    parser.add_argument(
+ARGUMENTS = (
+    argument("package_name", help="Name of the package: small letters, digits and underscores"),
+    argument(
         "--package-format",
         "--package_format",
         choices=["2", "3"],
         default="3",
         help="Format of the package.xml",
-    )
-    parser.add_argument(
-        "--description", default="TODO: Package description", help="What the package is for"
-    )
-    parser.add_argument(
+    ),
+    argument("--description", default="TODO: Package description", help="What the package is for"),
+    argument(
         "--license", default="TODO: License declaration", help="Its licence, for example Apache-2.0"
-    )
-    folder = parser.add_argument(
+    ),
+    argument(
         "--destination-directory",
         default=os.curdir,
         help="Folder in which the package's folder is made",
-    )
-    folder.completer = files  # type: ignore[attr-defined]
-    parser.add_argument(
+        completer=files,
+    ),
+    argument(
         "--build-type",
         default="ament_python",
         choices=["ament_python"],
         help="Packages of C++ need a real ROS",
-    )
-    parser.add_argument("--dependencies", nargs="+", default=[], help="Packages that it depends on")
-    parser.add_argument("--maintainer-email", help="Address of the maintainer")
-    parser.add_argument(
+    ),
+    argument("--dependencies", nargs="+", default=[], help="Packages that it depends on"),
+    argument("--maintainer-email", help="Address of the maintainer"),
+    argument(
         "--maintainer-name",
         default=os.environ.get("USER") or "maintainer",
         help="Name of the maintainer",
-    )
-    parser.add_argument("--node-name", help="Make a node of this name")
+    ),
+    argument("--node-name", help="Make a node of this name"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -5,21 +5,24 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import packages
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    package = parser.add_argument(
-        "package_name", nargs="?", help="Name of the package; all when it is not given"
-    )
-    package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument("--full-path", action="store_true", help="Show the paths")
+ARGUMENTS = (
+    argument(
+        "package_name",
+        nargs="?",
+        help="Name of the package; all when it is not given",
+        completer=packages,
+    ),
+    argument("--full-path", action="store_true", help="Show the paths"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

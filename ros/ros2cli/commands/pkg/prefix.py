@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import packages
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    package = parser.add_argument("package_name", help="Name of the package")
-    package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument(
-        "--share", action="store_true", help="Show the folder with its data instead"
-    )
+ARGUMENTS = (
+    argument("package_name", help="Name of the package", completer=packages),
+    argument("--share", action="store_true", help="Show the folder with its data instead"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

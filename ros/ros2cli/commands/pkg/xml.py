@@ -5,21 +5,19 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import packages
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    package = parser.add_argument("package_name", help="Name of the package")
-    package.completer = packages  # type: ignore[attr-defined]
-    parser.add_argument(
-        "-t", "--tag", help="Show only the content of this tag, for example version"
-    )
+ARGUMENTS = (
+    argument("package_name", help="Name of the package", completer=packages),
+    argument("-t", "--tag", help="Show only the content of this tag, for example version"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

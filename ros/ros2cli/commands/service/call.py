@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import request_values, service_names, service_types
 from ros2cli.values import positive_float, read_values, shortened
 
@@ -14,33 +15,36 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
-    name.completer = service_names  # type: ignore[attr-defined]
-    kind = parser.add_argument(
-        "service_type", help="Type of the service, for example turtlesim/srv/Spawn"
-    )
-    kind.completer = service_types  # type: ignore[attr-defined]
-    values = parser.add_mutually_exclusive_group()
-    prototype = values.add_argument(
-        "values",
-        nargs="?",
-        default="{}",
-        help="Values of the request as YAML, for example '{x: 1.0}'",
-    )
-    prototype.completer = request_values  # type: ignore[attr-defined]
-    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
+        "service_name", help="Name of the service, for example /spawn", completer=service_names
+    ),
+    argument(
+        "service_type",
+        help="Type of the service, for example turtlesim/srv/Spawn",
+        completer=service_types,
+    ),
+    exclusive(
+        argument(
+            "values",
+            nargs="?",
+            default="{}",
+            help="Values of the request as YAML, for example '{x: 1.0}'",
+            completer=request_values,
+        ),
+        argument("--stdin", action="store_true", help="Read the values from stdin"),
+    ),
+    argument(
         "-r",
         "--rate",
         metavar="N",
         type=positive_float,
         help="Call again and again, N times a second",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.completion import service_names, service_types
-from ros2cli.qos_options import add_qos_arguments, with_options
+from ros2cli.qos_options import QOS_ARGUMENTS, with_options
 from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
@@ -13,36 +14,35 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    name = parser.add_argument("service_name", help="Name of the service, for example /spawn")
-    name.completer = service_names  # type: ignore[attr-defined]
-    kind = parser.add_argument(
+ARGUMENTS = (
+    argument(
+        "service_name", help="Name of the service, for example /spawn", completer=service_names
+    ),
+    argument(
         "service_type",
         nargs="?",
         help="Type of the service; by default that of the service there is",
-    )
-    kind.completer = service_types  # type: ignore[attr-defined]
-    add_qos_arguments(parser)
-    parser.add_argument(
+        completer=service_types,
+    ),
+    *QOS_ARGUMENTS,
+    argument(
         "--csv", action="store_true", help="One line of comma-separated values for each event"
-    )
-    parser.add_argument(
-        "-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"
-    )
-    parser.add_argument(
+    ),
+    argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"),
+    argument(
         "-l",
         "--truncate-length",
         type=unsigned_int,
         default=128,
         help="Length to which arrays and strings are shortened",
-    )
-    parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
-    parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
-    parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
+    ),
+    argument("--no-arr", action="store_true", help="Show only the types of arrays"),
+    argument("--no-str", action="store_true", help="Show only the lengths of strings"),
+    argument("--flow-style", action="store_true", help="Write sequences on one line"),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import interfaces
-from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    kind = parser.add_argument(
-        "service_type", help="Name of the type, for example turtlesim/srv/Spawn"
-    )
-    kind.completer = interfaces  # type: ignore[attr-defined]
-    parser.add_argument(
-        "-c", "--count-services", action="store_true", help="Only show how many there are"
-    )
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "service_type",
+        help="Name of the type, for example turtlesim/srv/Spawn",
+        completer=interfaces,
+    ),
+    argument("-c", "--count-services", action="store_true", help="Only show how many there are"),
+    argument(
         "--include-hidden-services",
         action="store_true",
         help="Also services with a part that begins with an underscore",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> None:

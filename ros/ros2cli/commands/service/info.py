@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import service_names
-from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    service = parser.add_argument("service_name", help="Name of the service, for example /spawn")
-    service.completer = service_names  # type: ignore[attr-defined]
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument(
+        "service_name", help="Name of the service, for example /spawn", completer=service_names
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

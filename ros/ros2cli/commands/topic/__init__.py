@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from ros2cli.arguments import argument
 
-if TYPE_CHECKING:
-    import argparse
-
-__all__ = ["VERBS", "add_arguments"]
+__all__ = ["ARGUMENTS", "VERBS"]
 
 VERBS = {
     "bw": "Show the bandwidth of a topic",
@@ -22,10 +19,10 @@ VERBS = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define what all verbs share."""
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
         "--include-hidden-topics",
         action="store_true",
         help="Also topics with a part that begins with an underscore",
-    )
+    ),
+)

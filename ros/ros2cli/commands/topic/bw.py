@@ -5,30 +5,30 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.commands.topic.statistics import Sizes
 from ros2cli.completion import topic_names
-from ros2cli.discovery import add_spin_arguments
+from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive_int
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
-    topic.completer = topic_names  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+    argument(
         "-w",
         "--window",
         metavar="WINDOW",
         type=positive_int,
         default=100,
         help="How many messages count",
-    )
-    add_spin_arguments(parser)
+    ),
+    *SPIN_ARGUMENTS,
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument
 from ros2cli.completion import topic_names, topic_types
-from ros2cli.discovery import add_strategy_arguments
-from ros2cli.qos_options import add_qos_arguments, asked_for, matching_publishers, with_options
+from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.qos_options import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
 from ros2cli.values import positive_float, unsigned_int
 
 if TYPE_CHECKING:
@@ -16,63 +17,58 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["add_arguments", "main", "make_filter"]
+__all__ = ["ARGUMENTS", "main", "make_filter"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
-    topic.completer = topic_names  # type: ignore[attr-defined]
-    kind = parser.add_argument(
-        "message_type", nargs="?", help="Type of the messages; by default that of the topic"
-    )
-    kind.completer = topic_types  # type: ignore[attr-defined]
-    add_qos_arguments(parser)
-    parser.add_argument(
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+    argument(
+        "message_type",
+        nargs="?",
+        help="Type of the messages; by default that of the topic",
+        completer=topic_types,
+    ),
+    *QOS_ARGUMENTS,
+    argument(
         "--csv", action="store_true", help="One line of comma-separated values for each message"
-    )
-    parser.add_argument(
-        "--field", metavar="FIELD", help="Only this field, for example pose.position.x"
-    )
-    parser.add_argument(
-        "-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"
-    )
-    parser.add_argument(
+    ),
+    argument("--field", metavar="FIELD", help="Only this field, for example pose.position.x"),
+    argument("-f", "--full-length", action="store_true", help="Do not shorten arrays and strings"),
+    argument(
         "-l",
         "--truncate-length",
         type=unsigned_int,
         default=128,
         help="Length to which arrays and strings are shortened",
-    )
-    parser.add_argument("--no-arr", action="store_true", help="Show only the types of arrays")
-    parser.add_argument("--no-str", action="store_true", help="Show only the lengths of strings")
-    parser.add_argument("--flow-style", action="store_true", help="Write sequences on one line")
-    parser.add_argument(
+    ),
+    argument("--no-arr", action="store_true", help="Show only the types of arrays"),
+    argument("--no-str", action="store_true", help="Show only the lengths of strings"),
+    argument("--flow-style", action="store_true", help="Write sequences on one line"),
+    argument(
         "--lost-messages",
         action="store_true",
         help="Accepted for compatibility: lost messages are reported by default",
-    )
-    parser.add_argument(
-        "--no-lost-messages", action="store_true", help="Do not report lost messages"
-    )
-    parser.add_argument("--raw", action="store_true", help="Show the bytes of the messages")
-    parser.add_argument(
+    ),
+    argument("--no-lost-messages", action="store_true", help="Do not report lost messages"),
+    argument("--raw", action="store_true", help="Show the bytes of the messages"),
+    argument(
         "--filter",
         dest="filter_expr",
         metavar="FILTER-EXPR",
         help="Only messages m for which this Python expression is true",
-    )
-    parser.add_argument("--once", action="store_true", help="End after the first message")
-    parser.add_argument(
+    ),
+    argument("--once", action="store_true", help="End after the first message"),
+    argument(
         "--timeout", metavar="N", type=positive_float, help="End after N seconds without messages"
-    )
-    parser.add_argument(
+    ),
+    argument(
         "-i",
         "--include-message-info",
         action="store_true",
         help="Show when a message was sent and received",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

@@ -6,9 +6,10 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import message_values, topic_names, topic_types
-from ros2cli.discovery import add_spin_arguments
-from ros2cli.qos_options import add_qos_arguments, with_options
+from ros2cli.discovery import SPIN_ARGUMENTS
+from ros2cli.qos_options import QOS_ARGUMENTS, with_options
 from ros2cli.values import positive_float, positive_int, read_values, shortened, unsigned_int
 
 if TYPE_CHECKING:
@@ -16,61 +17,65 @@ if TYPE_CHECKING:
 
     from ros2cli.direct_node import DirectNode
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _SAY_WAITING_EVERY_S = 1.0
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    topic = parser.add_argument(
-        "topic_name", help="Name of the topic, for example /turtle1/cmd_vel"
-    )
-    topic.completer = topic_names  # type: ignore[attr-defined]
-    kind = parser.add_argument(
-        "message_type", help="Type of the messages, for example geometry_msgs/msg/Twist"
-    )
-    kind.completer = topic_types  # type: ignore[attr-defined]
-    values = parser.add_mutually_exclusive_group()
-    prototype = values.add_argument(
-        "values",
-        nargs="?",
-        default="{}",
-        help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'",
-    )
-    prototype.completer = message_values  # type: ignore[attr-defined]
-    values.add_argument("--stdin", action="store_true", help="Read the values from stdin")
-    parser.add_argument(
+ARGUMENTS = (
+    argument(
+        "topic_name", help="Name of the topic, for example /turtle1/cmd_vel", completer=topic_names
+    ),
+    argument(
+        "message_type",
+        help="Type of the messages, for example geometry_msgs/msg/Twist",
+        completer=topic_types,
+    ),
+    exclusive(
+        argument(
+            "values",
+            nargs="?",
+            default="{}",
+            help="Values as YAML, for example '{linear: {x: 2.0}}'; a header may be 'auto'",
+            completer=message_values,
+        ),
+        argument("--stdin", action="store_true", help="Read the values from stdin"),
+    ),
+    argument(
         "-r", "--rate", metavar="N", type=positive_float, default=1.0, help="Messages a second"
-    )
-    parser.add_argument(
+    ),
+    argument(
         "-p",
         "--print",
         metavar="N",
         type=positive_int,
         default=1,
         help="Show only every Nth message",
-    )
-    times = parser.add_mutually_exclusive_group()
-    times.add_argument("-1", "--once", action="store_true", help="Publish one message")
-    times.add_argument(
-        "-t", "--times", type=positive_int, default=0, help="Publish so many messages"
-    )
-    wait_help = "Wait for so many subscriptions; by default for one with --once and --times"
-    parser.add_argument("-w", "--wait-matching-subscriptions", type=unsigned_int, help=wait_help)
-    parser.add_argument(
+    ),
+    exclusive(
+        argument("-1", "--once", action="store_true", help="Publish one message"),
+        argument("-t", "--times", type=positive_int, default=0, help="Publish so many messages"),
+    ),
+    argument(
+        "-w",
+        "--wait-matching-subscriptions",
+        type=unsigned_int,
+        help="Wait for so many subscriptions; by default for one with --once and --times",
+    ),
+    argument(
         "--max-wait-time-secs", type=positive_float, help="Wait at most so long for subscriptions"
-    )
-    parser.add_argument(
+    ),
+    argument(
         "--keep-alive",
         metavar="N",
         type=positive_float,
         default=0.1,
         help="Stay for N seconds after the last message",
-    )
-    parser.add_argument("-n", "--node-name", help="Name of the publishing node")
-    add_qos_arguments(parser)
-    add_spin_arguments(parser)
+    ),
+    argument("-n", "--node-name", help="Name of the publishing node"),
+    *QOS_ARGUMENTS,
+    *SPIN_ARGUMENTS,
+)
 
 
 def main(args: argparse.Namespace) -> str | None:

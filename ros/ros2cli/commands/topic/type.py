@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.completion import topic_names
-from ros2cli.discovery import GraphNode, add_strategy_arguments
+from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    add_strategy_arguments(parser)
-    topic = parser.add_argument("topic_name", help="Name of the topic, for example /tf")
-    topic.completer = topic_names  # type: ignore[attr-defined]
+ARGUMENTS = (
+    *STRATEGY_ARGUMENTS,
+    argument("topic_name", help="Name of the topic, for example /tf", completer=topic_names),
+)
 
 
 def main(args: argparse.Namespace) -> int:
