@@ -18,6 +18,7 @@ __all__ = [
     "container_node_names",
     "executables",
     "files",
+    "folders",
     "frame_names",
     "goal_values",
     "interface_packages",
@@ -103,6 +104,13 @@ def files(prefix: str, **_: Any) -> list[str]:
     from argcomplete.completers import FilesCompleter
 
     return list(FilesCompleter()(prefix))
+
+
+def folders(prefix: str, **_: Any) -> list[str]:
+    """Folders."""
+    from argcomplete.completers import DirectoriesCompleter
+
+    return list(DirectoriesCompleter()(prefix))
 
 
 def message_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

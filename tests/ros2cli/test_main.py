@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 import signal
 import subprocess
 import sys
@@ -215,3 +217,12 @@ def test_a_reader_of_messages_that_ends_early_is_no_error(verb, lines):
         context.close()
     assert len(result.stdout.splitlines()) == lines
     assert result.stderr == ""
+
+
+def test_the_command_line_of_every_verb_is_data():
+    import ros2cli.commands
+
+    found = pkgutil.walk_packages(ros2cli.commands.__path__, "ros2cli.commands.")
+    modules = [importlib.import_module(module.name) for module in found]
+    assert len(modules) > 50
+    assert [module.__name__ for module in modules if hasattr(module, "add_arguments")] == []

@@ -5,7 +5,10 @@ from __future__ import annotations
 import argparse
 import os
 
-__all__ = ["add_arguments", "bag_path", "main"]
+from ros2cli.arguments import argument
+from ros2cli.completion import files
+
+__all__ = ["ARGUMENTS", "bag_path", "main"]
 
 
 def bag_path(text: str) -> str:
@@ -19,25 +22,20 @@ def bag_path(text: str) -> str:
     return text
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    from argcomplete.completers import FilesCompleter
-
-    path = parser.add_argument("bag_path", type=bag_path, help="Folder of the bag, or one file")
-    path.completer = FilesCompleter()  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    argument("bag_path", type=bag_path, help="Folder of the bag, or one file", completer=files),
+    argument(
         "-s",
         "--storage",
         choices=("sqlite3", "mcap"),
         default="",
         help="Accepted as in ROS 2; the storage is found out from the files",
-    )
-    parser.add_argument(
-        "-t", "--topic-name", action="store_true", help="Only print the names of the topics"
-    )
-    parser.add_argument(
+    ),
+    argument("-t", "--topic-name", action="store_true", help="Only print the names of the topics"),
+    argument(
         "-v", "--verbose", action="store_true", help="Count requests and responses of services"
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
+
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 _PLUGINS = {
     "storage": {
@@ -20,10 +22,10 @@ _PLUGINS = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    parser.add_argument("plugin_type", choices=tuple(_PLUGINS), help="What to list")
-    parser.add_argument("-v", "--verbose", action="store_true", help="Say what each is")
+ARGUMENTS = (
+    argument("plugin_type", choices=tuple(_PLUGINS), help="What to list"),
+    argument("-v", "--verbose", action="store_true", help="Say what each is"),
+)
 
 
 def main(args: argparse.Namespace) -> None:

@@ -5,27 +5,26 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from ros2cli.arguments import argument
 from ros2cli.commands.bag.info import bag_path
+from ros2cli.completion import folders
 
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_arguments", "main"]
+__all__ = ["ARGUMENTS", "main"]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Define the command line."""
-    from argcomplete.completers import DirectoriesCompleter
-
-    path = parser.add_argument("bag_path", type=bag_path, help="Folder of the bag")
-    path.completer = DirectoriesCompleter()  # type: ignore[attr-defined]
-    parser.add_argument(
+ARGUMENTS = (
+    argument("bag_path", type=bag_path, help="Folder of the bag", completer=folders),
+    argument(
         "-s",
         "--storage",
         choices=("sqlite3", "mcap"),
         default="",
         help="Accepted as in ROS 2; the storage is found out from the files",
-    )
+    ),
+)
 
 
 def main(args: argparse.Namespace) -> str | None:
