@@ -55,25 +55,20 @@ class ChildProcess:
         """
         loop = asyncio.get_running_loop()
         protocol = _Protocol(on_start, on_output)
-        terminals = (
-            {fd: os.openpty() for fd in (1, 2)} if emulate_tty and hasattr(os, "openpty") else {}
-        )
+        terminals = _open_terminals() if emulate_tty else {}
         options: dict[str, Any] = {
             "cwd": cwd,
             "env": dict(env),
             "stdin": None if inherit_stdin else subprocess.PIPE,
-        }
-        options |= {
-            name: terminals[fd][1] if terminals else subprocess.PIPE
-            for fd, name in ((1, "stdout"), (2, "stderr"))
+            "stdout": terminals[1][1] if terminals else subprocess.PIPE,
+            "stderr": terminals[2][1] if terminals else subprocess.PIPE,
         }
         try:
             if shell:
-                transport, _ = await loop.subprocess_shell(
-                    lambda: protocol, " ".join(command), **options
-                )
+                started = loop.subprocess_shell(lambda: protocol, " ".join(command), **options)
             else:
-                transport, _ = await loop.subprocess_exec(lambda: protocol, *command, **options)
+                started = loop.subprocess_exec(lambda: protocol, *command, **options)
+            transport, _ = await started
         except BaseException:
             for controller, _ in terminals.values():
                 os.close(controller)
@@ -176,6 +171,11 @@ class _TerminalStream(asyncio.Protocol):
     def connection_lost(self, error: Exception | None) -> None:
         # Linux reports the end of a pseudo terminal as an input/output error; it is no error here.
         self._child.pipe_connection_lost(self._fd, error)
+
+
+def _open_terminals() -> dict[int, tuple[int, int]]:
+    """A pseudo terminal for each output stream, as controller and terminal; none on Windows."""
+    return {fd: os.openpty() for fd in (1, 2)} if hasattr(os, "openpty") else {}
 
 
 async def _read_terminal(

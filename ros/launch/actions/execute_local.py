@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import signal
 import sys
 from typing import TYPE_CHECKING, Any
@@ -25,7 +24,7 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.output_lines import OutputLines
+from launch.process_output import ProcessOutput
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -92,13 +91,8 @@ class ExecuteLocal(Action):
         self._sigterm_timeout = _seconds(sigterm_timeout, "sigterm_timeout")
         self._sigkill_timeout = _seconds(sigkill_timeout, "sigkill_timeout")
         self._emulate_tty = emulate_tty
-        override = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
-        chosen: Any = override or output
-        self._output = (
-            dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
-        )
+        self._output = ProcessOutput(output, cached=cached_output)
         self._output_format = output_format
-        self._cached_output = cached_output
         self._log_cmd = log_cmd
         self._on_exit = on_exit
         self._respawn = respawn
@@ -110,8 +104,6 @@ class ExecuteLocal(Action):
         self._completed: asyncio.Future[None] | None = None
         self._shutting_down: asyncio.Event | None = None
         self._end_was_handled: asyncio.Event | None = None
-        self._lines = {1: OutputLines(), 2: OutputLines()}
-        self._cache = {1: bytearray(), 2: bytearray()}
 
     @property
     def process_description(self) -> Executable:
@@ -131,7 +123,7 @@ class ExecuteLocal(Action):
     @property
     def output(self) -> Any:
         """Where its output goes."""
-        return self._output
+        return self._output.destination
 
     @property
     def process_details(self) -> dict[str, Any] | None:
@@ -145,11 +137,11 @@ class ExecuteLocal(Action):
 
     def get_stdout(self) -> bytes:
         """Its output to stdout; kept only with ``cached_output``."""
-        return bytes(self._cache[1])
+        return self._output.kept(1)
 
     def get_stderr(self) -> bytes:
         """Its output to stderr; kept only with ``cached_output``."""
-        return bytes(self._cache[2])
+        return self._output.kept(2)
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when the process has ended and is not started again."""
@@ -186,7 +178,9 @@ class ExecuteLocal(Action):
             raise
         assert context.asyncio_loop is not None
         self._logger = logging.get_logger(self._name)
-        self._loggers = logging.get_output_loggers(self._name, self._output_choice(context))
+        self._output.open(
+            context, self._name, lambda line: self._output_format.format(line=line, this=self)
+        )
         self._completed = context.asyncio_loop.create_future()
         self._shutting_down = asyncio.Event()
         self._end_was_handled = asyncio.Event()
@@ -330,22 +324,19 @@ class ExecuteLocal(Action):
     # output
 
     def _on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
-        if self._cached_output:
-            self._cache[fd] += data
+        self._output.keep(fd, data)
         event_class = ProcessStdout if fd == 1 else ProcessStderr
         context.emit_event_sync(event_class(text=data, action=self, **self._event_details()))
 
     def _show_output(self, event: Event, _context: LaunchContext) -> None:
         assert isinstance(event, ProcessIO)
-        fd = 1 if event.from_stdout else 2
-        self._log_lines(fd, self._lines[fd].feed(event.text))
+        self._output.show(1 if event.from_stdout else 2, event.text)
 
     def _show_end(self, event: Event, _context: LaunchContext) -> None:
         """Show the last line, even if it is not complete, and how the process ended."""
         assert isinstance(event, ProcessExited)
         assert self._end_was_handled is not None
-        for fd, lines in self._lines.items():
-            self._log_lines(fd, lines.rest())
+        self._output.show_rest()
         if event.returncode == 0:
             self._logger.info("process has finished cleanly [pid %s]", event.pid)
         else:
@@ -356,11 +347,6 @@ class ExecuteLocal(Action):
                 " ".join(event.cmd),
             )
         self._end_was_handled.set()
-
-    def _log_lines(self, fd: int, lines: list[str]) -> None:
-        for line in lines:
-            shown = self._output_format.format(line=line, this=self)
-            self._loggers[fd - 1].info("%s", shown, extra={"from_process": True})
 
     # the end
 
@@ -410,13 +396,6 @@ class ExecuteLocal(Action):
         process.send_signal(number)
 
     # settings that are substitutions
-
-    def _output_choice(self, context: LaunchContext) -> Any:
-        return (
-            self._output
-            if isinstance(self._output, dict)
-            else perform_substitutions(context, self._output)
-        )
 
     def _performed_respawn(self, context: LaunchContext) -> bool:
         if isinstance(self._respawn, bool):

@@ -1,0 +1,76 @@
+"""The output of one process: kept, split into lines and logged."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from launch import logging
+from launch.output_lines import OutputLines
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+__all__ = ["ProcessOutput"]
+
+
+class ProcessOutput:
+    """Knows where the lines of a process go, and what it has written.
+
+    File descriptors are 1 for stdout and 2 for stderr.
+
+    Args:
+        output: Where lines go, as for ``ExecuteLocal``; the environment variable
+            ``OVERRIDE_LAUNCH_PROCESS_OUTPUT`` replaces it.
+        cached: Whether to keep all bytes.
+    """
+
+    def __init__(self, output: SomeSubstitutionsType | Mapping[str, Any], *, cached: bool) -> None:
+        chosen: Any = os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT") or output
+        #: The choice, as a mapping or as substitutions of its name.
+        self.destination: Any = (
+            dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
+        )
+        self._cached = cached
+        self._cache = {1: bytearray(), 2: bytearray()}
+        self._lines = {1: OutputLines(), 2: OutputLines()}
+
+    def open(self, context: LaunchContext, name: str, form: Callable[[str], str]) -> None:
+        """Prepare the log files.
+
+        Args:
+            context: Performs the substitutions of the destination.
+            name: Unique name of the process.
+            form: Makes the shown line from a line of output.
+        """
+        chosen = self.destination
+        if not isinstance(chosen, dict):
+            chosen = perform_substitutions(context, chosen)
+        self._loggers = logging.get_output_loggers(name, chosen)
+        self._form = form
+
+    def keep(self, fd: int, data: bytes) -> None:
+        """Keep bytes, if that is wanted."""
+        if self._cached:
+            self._cache[fd] += data
+
+    def kept(self, fd: int) -> bytes:
+        """The kept bytes."""
+        return bytes(self._cache[fd])
+
+    def show(self, fd: int, data: bytes) -> None:
+        """Log the lines that the bytes complete."""
+        self._log(fd, self._lines[fd].feed(data))
+
+    def show_rest(self) -> None:
+        """Log the last lines, even if they are not complete."""
+        for fd, lines in self._lines.items():
+            self._log(fd, lines.rest())
+
+    def _log(self, fd: int, lines: list[str]) -> None:
+        for line in lines:
+            self._loggers[fd - 1].info("%s", self._form(line), extra={"from_process": True})
