@@ -1,4 +1,4 @@
-"""message_filters as in ROS 2: messages of several topics brought together by their stamps."""
+"""message_filters as in ROS 2: combines messages of several topics by their stamps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Keeps the newest messages, to be asked for by time."""
+"""Keeps the newest messages, and finds them by time."""
 
 from __future__ import annotations
 
@@ -17,13 +17,12 @@ __all__ = ["Cache"]
 
 
 class Cache(SimpleFilter):
-    """Keeps the last messages of a filter in the order of their stamps, and passes them on. Thread-safe.
+    """Keeps the last messages of a filter, ordered by stamp, and passes them on. Thread-safe.
 
     Args:
-        f: The filter to listen to; None to :meth:`add` messages by hand.
+        f: The filter to listen to; None if you :meth:`add` messages yourself.
         cache_size: How many messages are kept.
-        allow_headerless: Whether messages without a stamp are taken, with the time of their
-            arrival.
+        allow_headerless: Accept messages without a stamp, with the time of their arrival.
     """
 
     def __init__(
@@ -44,7 +43,7 @@ class Cache(SimpleFilter):
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Take a message, and pass it on."""
+        """Store a message, and pass it on."""
         stamp = stamp_of(
             msg, allow_headerless=self.allow_headerless, logger="message_filters_cache"
         )
@@ -60,13 +59,19 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def _forget(self, stamp: Time, msg: Any) -> None:
-        """The first to come goes: after a clock has jumped back, those of before have the newest stamps."""
+        """Drop the message that arrived first.
+
+        It need not have the oldest stamp: after a clock has jumped back, the messages from before
+        have newer stamps.
+        """
         place = bisect_left(self.cache_times, stamp)
         while self.cache_msgs[place] is not msg:
             place += 1
         del self.cache_times[place], self.cache_msgs[place]
 
-    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802 -- ROS 2's name
+    def getInterval(  # noqa: N802 -- ROS 2's name
+        self, from_stamp: Time, to_stamp: Time
+    ) -> list[Any]:
         """The messages from one time to another, both included."""
         with self._lock:
             return self.cache_msgs[
@@ -74,31 +79,31 @@ class Cache(SimpleFilter):
             ]
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
-        """The oldest message that is not older than a time; None when there is none."""
+        """The oldest message that is not older than a time, or None."""
         with self._lock:
             place = bisect_left(self.cache_times, stamp)
             return self.cache_msgs[place] if place < len(self.cache_msgs) else None
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
-        """The newest message that is not newer than a time; None when there is none."""
+        """The newest message that is not newer than a time, or None."""
         with self._lock:
             place = bisect_right(self.cache_times, stamp)
             return self.cache_msgs[place - 1] if place else None
 
     def getLatestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
-        """The newest stamp; None when there is none."""
+        """The newest stamp, or None."""
         with self._lock:
             return self.cache_times[-1] if self.cache_times else None
 
-    #: The name that ROS 2 spelt first.
+    #: ROS 2's older, misspelt name.
     getLastestTime = getLatestTime  # noqa: N815
 
     def getOldestTime(self) -> Time | None:  # noqa: N802 -- ROS 2's name
-        """The oldest stamp; None when there is none."""
+        """The oldest stamp, or None."""
         with self._lock:
             return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802 -- ROS 2's name
-        """The newest message; None when there is none."""
+        """The newest message, or None."""
         with self._lock:
             return self.cache_msgs[-1] if self.cache_msgs else None

@@ -1,4 +1,4 @@
-"""What all filters have in common: callbacks that get what passes."""
+"""The base of all filters: registered callbacks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["SimpleFilter"]
 
 
 class SimpleFilter:
-    """Base of the filters: passes messages on to whoever registered. Thread-safe.
+    """Passes messages on to registered callbacks. Thread-safe.
 
     Attributes:
         callbacks: By number, each callback with its further arguments.
@@ -23,8 +23,10 @@ class SimpleFilter:
         self._next_number = 0
         self._callbacks_lock = threading.Lock()
 
-    def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802 -- ROS 2's name
-        """Call ``cb(message, …, *args)`` for what passes; the number to :meth:`disconnect` it."""
+    def registerCallback(  # noqa: N802 -- ROS 2's name
+        self, cb: Callable[..., Any], *args: Any
+    ) -> int:
+        """Call ``cb(message, …, *args)`` for each message; a number for :meth:`disconnect`."""
         with self._callbacks_lock:
             number = self._next_number
             self._next_number += 1
@@ -32,7 +34,7 @@ class SimpleFilter:
         return number
 
     def disconnect(self, number: int) -> None:
-        """Call the callback of this number no longer."""
+        """Remove the callback with this number."""
         with self._callbacks_lock:
             self.callbacks = {
                 other: entry for other, entry in self.callbacks.items() if other != number

@@ -1,4 +1,4 @@
-"""When a message is of."""
+"""The stamps of messages."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | Non
     """The stamp of a message.
 
     Args:
-        message: What has a ``header`` with a ``stamp``, or not.
+        message: A message with or without a ``header``.
         allow_headerless: Give messages without a stamp the present time.
-        logger: Who warns when they are not allowed.
+        logger: Name of the logger that warns if they are not allowed.
 
     Returns:
-        The time; None when the message is not to be used.
+        The time; None if the message is to be dropped.
     """
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     if stamp is None:

@@ -1,4 +1,4 @@
-"""Where messages come in."""
+"""The filter that subscribes to a topic."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ __all__ = ["Subscriber"]
 
 
 class Subscriber(SimpleFilter):
-    """Passes on what comes on a topic.
+    """Passes on the messages of a topic.
 
     Args:
-        node: Who subscribes.
+        node: The subscribing node.
         msg_type: Class of the messages.
         topic: Name of the topic.
         args: Further arguments of :meth:`Node.create_subscription
             <rclpy.node.Node.create_subscription>`, after the callback.
-        qos_profile: Quality of service, or a depth; 10 unless given.
+        qos_profile: Quality of service, or a depth; by default depth 10.
         kwargs: Further keywords of ``create_subscription``.
 
     Attributes:
-        node: Who subscribes.
+        node: The subscribing node.
         topic: Name of the topic, as given.
         sub: The subscription.
     """
@@ -53,7 +53,7 @@ class Subscriber(SimpleFilter):
         self.node.destroy_subscription(self.sub)
 
     def __getattr__(self, name: str) -> Any:
-        # what it does not have itself, the subscription has, as in ROS 2
+        # As in ROS 2, a Subscriber also has the attributes of its subscription.
         if name == "sub":
             raise AttributeError(name)
         return getattr(self.sub, name)

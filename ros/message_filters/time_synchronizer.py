@@ -1,4 +1,4 @@
-"""Brings messages of several topics together by their stamps."""
+"""Combines messages of several topics by their stamps."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class TimeSynchronizer(SimpleFilter):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the one that has
-            waited longest is dropped beyond.
+        queue_size: How many messages of each filter may wait for their partners; then the one that
+            has waited longest is dropped.
 
     Attributes:
-        queues: The waiting messages of each filter, by nanoseconds.
+        queues: The waiting messages of each filter, by stamp [ns].
     """
 
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
@@ -40,15 +40,20 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802 -- ROS 2's name
-        """Listen to filters; what waited is forgotten."""
+        """Listen to other filters, and drop the waiting messages."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             f.registerCallback(self.add, queue, index)
             for index, (f, queue) in enumerate(zip(fs, self.queues, strict=True))
         ]
 
-    def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:  # noqa: ARG002 -- the other one needs it
-        """Take a message of one filter, and pass on the set that it completes."""
+    def add(
+        self,
+        msg: Any,
+        my_queue: dict[int, Any],
+        my_queue_index: int | None = None,  # noqa: ARG002 -- the subclass needs it
+    ) -> None:
+        """Store a message of one filter, and pass on the set that it completes."""
         stamp = stamp_of(msg, allow_headerless=False, logger=_LOGGER)
         if stamp is None:
             return
@@ -63,9 +68,8 @@ class TimeSynchronizer(SimpleFilter):
         queue.pop(stamp_ns, None)
         queue[stamp_ns] = msg
         while len(queue) > self.queue_size:
-            del queue[
-                next(iter(queue))
-            ]  # by arrival: after a clock has jumped back, those of before have the newest stamps
+            # By arrival: after a clock has jumped back, older messages have newer stamps.
+            del queue[next(iter(queue))]
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
@@ -73,11 +77,10 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each filter wait for their partners; the one that has
-            waited longest is dropped beyond.
-        slop: All stamps of a set lie within less than so many seconds.
-        allow_headerless: Whether messages without a stamp are taken, with the time of their
-            arrival.
+        queue_size: How many messages of each filter may wait for their partners; then the one that
+            has waited longest is dropped.
+        slop: The stamps of a set differ by less than this [s].
+        allow_headerless: Accept messages without a stamp, with the time of their arrival.
     """
 
     def __init__(
@@ -92,7 +95,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int | None = None) -> None:
-        """Take a message of one filter, and pass on the set that it completes: of all sets, the one closest to this message."""
+        """Store a message of one filter, and pass on the closest set that it completes."""
         stamp = stamp_of(msg, allow_headerless=self.allow_headerless, logger=_LOGGER)
         if stamp is None:
             return
@@ -107,7 +110,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             self.signalMessage(*messages)
 
     def _closest_set(self, stamp_ns: int, index: int | None) -> tuple[int, ...] | None:
-        """A stamp of each queue, all within the slop, or None; the queue of the new message gives the new stamp."""
+        """A stamp of each queue, all within the slop of the new message's stamp, or None."""
         slop_ns = self.slop.nanoseconds
         candidates = []
         for number, queue in enumerate(self.queues):

@@ -1,4 +1,4 @@
-"""Point clouds to NumPy arrays and back."""
+"""Converts point clouds to NumPy arrays and back."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
-"""Name of fields without a name, before the field's number."""
+"""The name of a nameless field is this prefix and the field's number."""
 
 _DATATYPES: dict[int, np.dtype[Any]] = {
     PointField.INT8: np.dtype(np.int8),
@@ -55,13 +55,12 @@ def read_points(
         cloud: The cloud.
         field_names: The fields to read, in this order; None for all.
         skip_nans: Leave out points with a NaN, unless the cloud says that it is dense.
-        uvs: Indices of the points to read; None for all. They count the points that are left after
-            NaNs were skipped.
+        uvs: Indices of the points to read, counted after NaNs were skipped; None for all.
         reshape_organized_cloud: Give the points of a cloud with rows the shape (width, height).
 
     Returns:
-        The points, shape (N,). Without ``skip_nans``, ``uvs``, foreign byte order and padded rows
-        they share the memory of the message.
+        The points, shape (N,). They share the memory of the message, except with ``skip_nans``,
+        ``uvs``, foreign byte order or padded rows.
 
     Raises:
         AssertionError: A name is not a field of the cloud.
@@ -86,14 +85,14 @@ def read_points(
 
 
 def _points(cloud: PointCloud2, dtype: np.dtype[np.void]) -> np.ndarray[Any, np.dtype[np.void]]:
-    """All points, one after the other, also when there is padding between the rows."""
+    """All points in one row, without the padding between rows."""
     points: np.ndarray[Any, np.dtype[np.void]]
     if cloud.height > 1 and cloud.row_step > cloud.width * cloud.point_step:
         strides = (cloud.row_step, cloud.point_step)
         points = np.ndarray(
             (cloud.height, cloud.width), dtype, cloud.data, strides=strides
         ).reshape(-1)
-    else:  # many writers leave row_step unset
+    else:  # many writers do not set row_step
         points = np.ndarray((cloud.height * cloud.width,), dtype, cloud.data)
     return points
 
@@ -105,7 +104,9 @@ def read_points_numpy(
     uvs: Iterable[int] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray[Any, np.dtype[Any]]:
-    """Points of a cloud whose fields are of one type, as a plain array of shape (N, fields); the arguments are those of `read_points`.
+    """Points of a cloud whose fields have one type, as a plain array of shape (N, fields).
+
+    The arguments are those of `read_points`.
 
     Raises:
         AssertionError: The fields are of several types, or a name is not a field of the cloud.
@@ -127,9 +128,12 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[int] | None = None,
 ) -> list[Any]:
-    """Points of a cloud as a list of named tuples; the arguments are those of `read_points`. Slow for large clouds."""
+    """Points of a cloud as a list of named tuples; slow for large clouds.
+
+    The arguments are those of `read_points`.
+    """
     names = [field.name for field in cloud.fields] if field_names is None else list(field_names)
-    point = namedtuple("Point", names)  # type: ignore[misc] # noqa: PYI024 - the fields are known at run time only
+    point = namedtuple("Point", names)  # type: ignore[misc]  # noqa: PYI024
     return [
         point._make(values) for values in read_points(cloud, field_names, skip_nans, uvs).tolist()
     ]
@@ -142,7 +146,7 @@ def dtype_from_fields(
 
     Args:
         fields: Its fields; one with a count above one becomes ``name_0``, ``name_1`` and so on.
-        point_step: Bytes from point to point; None to end after the last field.
+        point_step: Bytes from point to point; None ends a point after its last field.
 
     Raises:
         AssertionError: A count is zero, or two fields have one name.
@@ -178,15 +182,16 @@ def create_cloud(
         fields: The fields of a point.
         points: A structured array of their dtype, a plain array with a last axis of that length, or
             an iterable of tuples.
-        step: Bytes from point to point; None to end after the last field.
+        step: Bytes from point to point; None ends a point after its last field.
 
     Raises:
-        AssertionError: The array does not go with the fields, or has more than two axes of points.
+        AssertionError: The array does not fit the fields, or has more than two axes of points.
     """
     structured = np.ascontiguousarray(_structured(fields, points, step))
     if structured.ndim > 2:
         raise AssertionError(
-            "Too many dimensions for organized cloud! Points can only be organized in max. two dimensional space"
+            "Too many dimensions for organized cloud! "
+            "Points can only be organized in max. two dimensional space"
         )
     width, height = structured.shape[0], structured.shape[1] if structured.ndim == 2 else 1
     data = array("B")
@@ -220,11 +225,13 @@ def _structured(fields: Sequence[PointField], points: Any, step: int | None) -> 
     if points.dtype.names is None:
         if len({field.datatype for field in fields}) > 1:
             raise AssertionError(
-                "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
+                "All fields need to have the same datatype. "
+                "Pass a structured NumPy array with multiple dtypes otherwise."
             )
         return unstructured_to_structured(points, dtype=dtype)
     if points.dtype != dtype:
         raise AssertionError(
-            "PointFields and structured NumPy array dtype do not match for all fields! Check their field order, names and types."
+            "PointFields and structured NumPy array dtype do not match for all fields! "
+            "Check their field order, names and types."
         )
     return points

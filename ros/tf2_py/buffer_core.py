@@ -26,10 +26,10 @@ class BufferCore:
 
     Args:
         cache_time: How long samples are kept (``rclpy.duration.Duration`` or a duration message);
-            10 s without it.
+            by default 10 s.
 
     Attributes:
-        engine: The ``turtlewire.Buffer`` that does the work: integer nanoseconds, bytes, batches.
+        engine: The ``turtlewire.Buffer`` underneath, with integer nanoseconds, bytes and batches.
     """
 
     engine: turtlewire.Buffer
@@ -43,7 +43,7 @@ class BufferCore:
     # -- data in
 
     def set_transform(self, transform: TransformStamped | Any, authority: str) -> None:
-        """Add a transform of which one may ask at the times around its stamp. A refusal is logged, with its reason."""
+        """Add a transform at the time of its stamp. A refusal is logged with its reason."""
         self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: TransformStamped | Any, authority: str) -> None:
@@ -67,7 +67,7 @@ class BufferCore:
             _log_refusal(refusal)
 
     def clear(self) -> None:
-        """Forget all samples; frame names and static transforms stay."""
+        """Drop all samples; frame names and static transforms stay."""
         self.engine.clear()
 
     # -- questions
@@ -75,11 +75,13 @@ class BufferCore:
     def lookup_transform_core(
         self, target_frame: str, source_frame: str, time: Time | Any
     ) -> TransformStamped:
-        """The transform that takes data of ``source_frame`` into ``target_frame``, at once or not at all.
+        """The transform that takes data from ``source_frame`` into ``target_frame``; does not wait.
 
         Raises:
-            TransformException: One of its kinds: Lookup, Connectivity, Extrapolation,
-                InvalidArgument.
+            LookupException: A frame does not exist.
+            ConnectivityException: The frames are not in one tree.
+            ExtrapolationException: The data does not reach the time.
+            InvalidArgumentException: A frame id is empty or starts with a slash.
         """
         return self._messages.lookup(target_frame, source_frame, time)
 
@@ -91,7 +93,7 @@ class BufferCore:
         source_time: Time | Any,
         fixed_frame: str,
     ) -> TransformStamped:
-        """From ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of a frame that did not move."""
+        """The transform between two frames at two times, by way of a frame that did not move."""
         return self._messages.lookup_full(
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
@@ -111,7 +113,7 @@ class BufferCore:
         source_time: Time | Any,
         fixed_frame: str,
     ) -> tuple[int, str]:
-        """As can_transform_core, for lookup_transform_full_core."""
+        """:meth:`can_transform_core` for :meth:`lookup_transform_full_core`."""
         times = to_nanoseconds(target_time), to_nanoseconds(source_time)
         reason = self.engine.can_transform_full_reason(
             target_frame, times[0], source_frame, times[1], fixed_frame
@@ -133,9 +135,10 @@ class BufferCore:
         time: Time | Any,
         averaging_interval: Duration | Any,
     ) -> tuple[Triple, Triple]:
-        """The velocity of the origin of ``tracking_frame`` (m/s) and its angular velocity (rad/s), seen from ``observation_frame``.
+        """Linear [m/s] and angular velocity [rad/s] of ``tracking_frame``.
 
-        The mean over the interval around ``time``, in the axes of the observation frame.
+        Velocity of its origin relative to ``observation_frame`` and in the axes of that frame, as
+        mean over the interval around ``time``.
         """
         return self.lookupVelocityFullCore(
             tracking_frame,
@@ -158,7 +161,7 @@ class BufferCore:
         averaging_interval: Duration | Any,
         /,
     ) -> tuple[Triple, Triple]:
-        """The same for the point of the body that is at ``reference_point`` of another frame, in the axes of ``reference_frame``."""
+        """The velocity at a ``reference_point`` of the body, in the axes of ``reference_frame``."""
         vx, vy, vz, wx, wy, wz = self.engine.lookup_velocity(
             tracking_frame,
             observation_frame,
@@ -180,10 +183,10 @@ class BufferCore:
         source_time: Time | Any,
         fixed_frame: str,
     ) -> list[str]:
-        """The frames on the way from the source over the fixed frame to the target.
+        """The frames from the source over the fixed frame to the target.
 
         Raises:
-            TransformException: There is no way at these times.
+            TransformException: They are not connected at these times.
         """
         self.lookup_transform_full_core(
             target_frame, target_time, source_frame, source_time, fixed_frame
@@ -210,7 +213,7 @@ class BufferCore:
         return self.engine._repr_svg_()
 
     def _frameExists(self, frame_id: str, /) -> bool:  # noqa: N802 -- ROS 2's name
-        """Whether the frame was ever heard of."""
+        """Whether any transform has named the frame."""
         return self.engine.frame_exists(frame_id)
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802 -- ROS 2's name

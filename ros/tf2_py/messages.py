@@ -1,4 +1,7 @@
-"""Lookups that return ``TransformStamped`` messages: the compiled core builds them itself, the plain one needs some Python."""
+"""Lookups that return ``TransformStamped`` messages.
+
+The compiled core builds the messages itself; for the plain-Python core this module does it.
+"""
 
 from __future__ import annotations
 
@@ -70,7 +73,7 @@ def _timeout(timeout: Any) -> int:
 
 
 def to_message(transform: turtlewire.Transform) -> TransformStamped:
-    """A transform of the engine as the message of ROS."""
+    """A transform of the engine as ROS message."""
     from geometry_msgs.msg import TransformStamped
 
     message = TransformStamped()
@@ -86,7 +89,7 @@ def to_message(transform: turtlewire.Transform) -> TransformStamped:
 
 
 def message_lookup(buffer: turtlewire.Buffer) -> MessageLookup:
-    """The quickest way from a buffer to messages."""
+    """The message lookup that fits the core in use."""
     if CORE == "python":
         return _PlainMessageLookup(buffer)
     from geometry_msgs.msg import TransformStamped

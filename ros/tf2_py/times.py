@@ -1,4 +1,4 @@
-"""tf2_py's duck-typed times: messages with ``sec`` and ``nanosec``, and rclpy's with ``nanoseconds``."""
+"""tf2_py's times: messages with ``sec`` and ``nanosec``, and rclpy's with ``nanoseconds``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def to_nanoseconds(value: Any, what: str = "time") -> int:
         what: ``time`` or ``duration``, for the error.
 
     Raises:
-        TypeError: It is neither; numbers are refused, because their unit would be a guess.
+        TypeError: ``value`` is neither. Numbers are refused, because their unit is unknown.
     """
     if hasattr(value, "sec") and hasattr(value, "nanosec"):
         return int(value.sec) * 1_000_000_000 + int(value.nanosec)

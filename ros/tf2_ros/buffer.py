@@ -1,4 +1,4 @@
-"""The buffer of a node: lookups that can wait, in callbacks too, and awaitable ones."""
+"""The buffer of a node, with lookups that wait, also in callbacks, and lookups to ``await``."""
 
 from __future__ import annotations
 
@@ -30,25 +30,25 @@ if TYPE_CHECKING:
 
 __all__ = ["JUMP_BACK", "Buffer"]
 
-#: The jumps of a clock after which what was stored is of another time.
+#: The jumps of a clock after which the stored samples belong to another time.
 JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Stores transforms and answers questions about them. Safe for use from many threads.
+    """Stores transforms and answers lookups. Safe for use from many threads.
 
-    A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a timeout works
-    wherever a lookup is called: the call sleeps until the data is there, polls nothing, and needs
-    nobody to spin.
+    A :class:`~tf2_ros.TransformListener` fills it from a thread of its own, so a lookup with a
+    timeout works anywhere, callbacks included: it blocks until the data arrives, and no executor
+    has to spin.
 
-    When the clock jumps back, as at the end of a bag that is played in a loop, what was stored is
-    of another time, and is forgotten; static transforms stay. The clock is the one of ``node``, and
-    without a node that of the listener's node; a simulated clock moves while that node is spun.
+    When the clock jumps back, as at the end of a bag that is played in a loop, the buffer drops all
+    samples; static transforms stay. The clock is that of ``node`` or, without a node, that of the
+    listener's node. A simulated clock advances while that node is spun.
 
     Args:
-        cache_time: How long samples are kept; 10 s unless given.
-        node: Offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``) on this node, and has
-            the clock.
+        cache_time: How long samples are kept; the default is 10 s.
+        node: The node that offers the service ``tf2_frames`` (``tf2_msgs/srv/FrameGraph``), and
+            whose clock counts.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -72,8 +72,8 @@ class Buffer(BufferCore, BufferInterface):
 
         self.srv = node.create_service(FrameGraph, "tf2_frames", answer)
 
-    def time_jump_callback(self, time_jump: TimeJump) -> None:  # noqa: ARG002 -- any jump that passed the threshold counts
-        """Forget all samples after the clock has jumped back."""
+    def time_jump_callback(self, time_jump: TimeJump) -> None:  # noqa: ARG002 -- its size is unused
+        """Drop all samples; called after the clock has jumped back."""
         from rclpy.logging import get_logger
 
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
@@ -82,13 +82,15 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Duration | Any = NO_TIMEOUT
     ) -> TransformStamped:
-        """The transform that takes data of ``source_frame`` into ``target_frame``: the pose of the source, seen from the target.
+        """The transform that takes data from ``source_frame`` into ``target_frame``.
+
+        It is the pose of the source frame, expressed in the target frame.
 
         Args:
             target_frame: The frame in which the answer is expressed.
             source_frame: The frame whose pose is asked for.
-            time: ``rclpy.time.Time`` or a time message; ``Time()`` asks for the latest time known
-                to all links in between.
+            time: ``rclpy.time.Time`` or a time message; ``Time()`` asks for the latest time that
+                all links between the frames have reached.
             timeout: How long to wait for the data (``rclpy.duration.Duration``).
 
         Raises:
@@ -110,13 +112,13 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration | Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform from ``source_frame`` as it was at ``source_time`` into ``target_frame`` as it was at ``target_time``.
+        """The transform from ``source_frame`` at one time into ``target_frame`` at another time.
 
         Args:
             target_frame: The frame in which the answer is expressed.
-            target_time: When.
+            target_time: The time of the target frame.
             source_frame: The frame whose pose is asked for.
-            source_time: When.
+            source_time: The time of the source frame.
             fixed_frame: A frame that did not move between the two times.
             timeout: How long to wait for the data.
 
@@ -135,7 +137,10 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration | Any = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """1 if :meth:`lookup_transform` would succeed, within ``timeout``, else 0; with ``return_debug_tuple`` the reason besides."""
+        """1 if :meth:`lookup_transform` would succeed within ``timeout``, else 0.
+
+        ``return_debug_tuple`` adds the reason of a failure: ``(0, text)``.
+        """
         reason = self.engine.can_transform_reason(
             target_frame, source_frame, to_nanoseconds(time), to_nanoseconds(timeout, "duration")
         )
@@ -151,7 +156,10 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration | Any = NO_TIMEOUT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """1 if :meth:`lookup_transform_full` would succeed, within ``timeout``, else 0; with ``return_debug_tuple`` the reason besides."""
+        """1 if :meth:`lookup_transform_full` would succeed within ``timeout``, else 0.
+
+        ``return_debug_tuple`` adds the reason of a failure: ``(0, text)``.
+        """
         times = to_nanoseconds(target_time), to_nanoseconds(source_time)
         timeout_ns = to_nanoseconds(timeout, "duration")
         reason = self.engine.can_transform_full_reason(
@@ -162,17 +170,17 @@ class Buffer(BufferCore, BufferInterface):
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None
     ) -> TransformStamped:
-        """:meth:`lookup_transform` for ``async def`` callbacks and asyncio: waits until the transform is known.
+        """:meth:`lookup_transform` for ``async def`` callbacks and asyncio.
 
         Args:
             target_frame: The frame in which the answer is expressed.
             source_frame: The frame whose pose is asked for.
-            time: When; ``Time()`` asks for the latest time.
-            timeout: How long to wait; without limit unless given.
+            time: The time of the transform; ``Time()`` asks for the latest time.
+            timeout: How long to wait; None waits without limit.
 
         Raises:
-            TransformException: As :meth:`lookup_transform`, when the time is over, or when the
-                answer cannot come any more.
+            TransformException: As :meth:`lookup_transform`, when the time is over, or when no
+                later data can bring the answer.
         """
         return await _outcome(
             self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
@@ -188,17 +196,17 @@ class Buffer(BufferCore, BufferInterface):
         *,
         timeout: Duration | Any = None,
     ) -> TransformStamped:
-        """:meth:`lookup_transform_full` for ``async def`` callbacks and asyncio; waits as :meth:`lookup_transform_async`."""
+        """:meth:`lookup_transform_full`, waiting like :meth:`lookup_transform_async`."""
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
         return await _outcome(self.wait_for_transform_full_async(*asked, timeout=timeout))
 
     def wait_for_transform_async(
         self, target_frame: str, source_frame: str, time: Any, *, timeout: Duration | Any = None
     ) -> Future:
-        """A future whose result will be the transform, once it is known. Cancel it when it is not wanted any more.
+        """A future for the transform. Cancel it if you no longer need the transform.
 
-        Done-callbacks run on the thread that brings the data, and should be short. Arguments and
-        errors as :meth:`lookup_transform_async`.
+        Its done-callbacks run on the thread that receives the data, and should be short. Arguments
+        and errors are those of :meth:`lookup_transform_async`.
         """
         leg = _Leg(target_frame, source_frame, to_nanoseconds(time))
         answer = functools.partial(self.lookup_transform_core, target_frame, source_frame, time)
@@ -214,7 +222,7 @@ class Buffer(BufferCore, BufferInterface):
         *,
         timeout: Duration | Any = None,
     ) -> Future:
-        """As :meth:`wait_for_transform_async`, for :meth:`lookup_transform_full`."""
+        """:meth:`wait_for_transform_async` for :meth:`lookup_transform_full`."""
         legs = (
             _Leg(target_frame, fixed_frame, to_nanoseconds(target_time)),
             _Leg(fixed_frame, source_frame, to_nanoseconds(source_time)),
@@ -231,7 +239,7 @@ class Buffer(BufferCore, BufferInterface):
 
 
 class _Leg(NamedTuple):
-    """One way between two frames at one time."""
+    """A lookup between two frames at one time."""
 
     target: str
     source: str
@@ -239,14 +247,18 @@ class _Leg(NamedTuple):
 
 
 class _Question(NamedTuple):
-    """What a future waits for."""
+    """A lookup that a future waits for; see :class:`~.transform_futures.Question`."""
 
     engine: turtlewire.Buffer
     legs: tuple[_Leg, ...]
     answer: Callable[[], TransformStamped]
 
     def never(self, error: TransformException) -> bool:
-        """Whether no data will bring an answer: a frame id is not valid, or a link has forgotten the time. The latest time moves on."""
+        """Whether no later data can bring the answer.
+
+        That is so for invalid frame ids, and for a time that has left a link's cache. The latest
+        time advances with the data.
+        """
         if isinstance(error, InvalidArgumentException):
             return True
         keep_ns = self.engine.cache_time_ns
@@ -266,7 +278,7 @@ async def _outcome(future: Future) -> TransformStamped:
     try:
         transform: TransformStamped = await future
     finally:
-        future.cancel()  # of effect when whoever waits has been cancelled himself
+        future.cancel()  # has an effect only if the awaiting task was cancelled
     return transform
 
 

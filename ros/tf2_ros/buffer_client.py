@@ -28,23 +28,29 @@ __all__ = ["BufferClient"]
 
 _SUCCEEDED = 4
 _NOT_READY = "The BufferServer is not ready."
-_NOT_BACK = "The LookupTransform goal sent to the BufferServer did not come back in the specified time. Something is likely wrong with the server."
-_NOT_ACCEPTED = "The LookupTransform goal sent to the BufferServer did not come back with accepted status. Something is likely wrong with the server."
-_GONE = "The BufferServer went away before it had answered."
-_NO_RESULT = "The BufferServer returned None for result or result.error!  Something is likely wrong with the server."
+_WRONG = "Something is likely wrong with the server."
+_NOT_BACK = (
+    "The LookupTransform goal sent to the BufferServer did not come back in the specified time. "
+    + _WRONG
+)
+_NOT_ACCEPTED = (
+    "The LookupTransform goal sent to the BufferServer did not come back with accepted status. "
+    + _WRONG
+)
+_GONE = "The BufferServer left the graph before it answered."
+_NO_RESULT = f"The BufferServer returned None for result or result.error!  {_WRONG}"
 
 
 class BufferClient(BufferInterface):
-    """Has the interface of a buffer, and asks a :class:`~tf2_ros.BufferServer`. Thread-safe.
+    """A buffer interface whose lookups a :class:`~tf2_ros.BufferServer` answers. Thread-safe.
 
-    It has a node and a thread of its own, so that a lookup works in any callback, whether the
-    user's node is being spun or not.
+    The client has a node and a thread of its own, so that a lookup works in any callback, whether
+    or not the user's node is being spun.
 
     Args:
-        node: Whose context and namespace it takes.
+        node: The client takes its context and namespace.
         ns: Name of the server's action.
-        check_frequency: Of no effect: it waits for answers, it does not look for them again and
-            again.
+        check_frequency: Has no effect: the client waits for answers instead of polling.
         timeout_padding: How much longer than the lookup's own timeout to wait for the server.
     """
 
@@ -78,7 +84,7 @@ class BufferClient(BufferInterface):
     def destroy(self) -> bool:
         """End the thread and leave the graph.
 
-        When the server was killed, the middleware waits up to a second for it to confirm the last
+        If the server was killed, the middleware waits up to a second for it to acknowledge the last
         request.
         """
         self._executor.shutdown()
@@ -90,18 +96,18 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration | Any = NO_TIMEOUT
     ) -> TransformStamped:
-        """The transform that takes data of ``source_frame`` into ``target_frame``, as the server knows it.
+        """The server's transform that takes data from ``source_frame`` into ``target_frame``.
 
         Args:
             target_frame: The frame in which the answer is expressed.
             source_frame: The frame whose pose is asked for.
-            time: When.
+            time: The time of the transform.
             timeout: How long the server may wait for the data.
 
         Raises:
-            TimeoutException: The server is not there, or does not answer.
-            TransformException: What the lookup raised there.
-            TypeError: ``time`` is no time.
+            TimeoutException: There is no server, or it does not answer.
+            TransformException: The lookup failed on the server.
+            TypeError: ``time`` is not a time.
         """
         goal = LookupTransform.Goal(
             target_frame=target_frame,
@@ -121,7 +127,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration | Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform from ``source_frame`` at ``source_time`` into ``target_frame`` at ``target_time``, as the server knows it.
+        """The server's transform from one frame and time into another frame and time.
 
         Raises:
             TransformException: As :meth:`lookup_transform`.
@@ -187,7 +193,11 @@ class BufferClient(BufferInterface):
         }
 
     def _wait(self, future: Future, seconds: float, servers: set[bytes]) -> Any:
-        """What a future gives; it is not waited for when one of the servers that were asked has left the graph."""
+        """The result of a future.
+
+        Raises:
+            TimeoutException: The time is over, or one of the servers has left the graph.
+        """
         until, news = time.monotonic() + seconds, threading.Event()
         future.add_done_callback(lambda _future: news.set())
         stop_listening = self._node.context.wire.graph.add_listener(news.set)
@@ -204,29 +214,28 @@ class BufferClient(BufferInterface):
 
 
 def _transform(response: Any) -> TransformStamped:
-    """What the server found.
+    """The transform of a response.
 
     Raises:
-        TransformException: It found nothing.
+        TransformException: The response is an error.
     """
     result = response.result
     if result is None or result.error is None:
         raise TransformException(_NO_RESULT)
     if result.error.error != TF2Error.NO_ERROR:
         raise exception_for(result.error)
-    if (
-        response.status != _SUCCEEDED
-    ):  # a server of ROS 2 in C++ says nothing else when the time is over
+    # A C++ server of ROS 2 reports a timeout by the status alone.
+    if response.status != _SUCCEEDED:
         raise TimeoutException("The BufferServer gave up: the transform was not available in time.")
     transform: TransformStamped = result.transform
     return transform
 
 
 def _message(time: Time | Any) -> Any:
-    """A time message.
+    """A time as message.
 
     Raises:
-        TypeError: It is no time.
+        TypeError: ``time`` is not a time.
     """
     if isinstance(time, Time):
         return time.to_msg()

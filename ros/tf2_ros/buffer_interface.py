@@ -1,5 +1,5 @@
-# ruff: noqa: ARG002 -- the methods of the interface itself use none of their arguments
-"""What every kind of buffer can do with a lookup: transform stamped data, and convert it to other types."""
+# ruff: noqa: ARG002 -- the interface's own methods use none of their arguments
+"""The interface of all buffers: lookups, and transforming and converting stamped data."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ __all__ = [
 ]
 
 
-#: Which import makes a type known that can be transformed; of a type without a header nobody knows
-#: the frame.
+#: The import that registers a type.
 _REGISTERED_BY = {
     "tf2_geometry_msgs": {
         "geometry_msgs/PointStamped",
@@ -48,12 +47,12 @@ _REGISTERED_BY = {
     "tf2_sensor_msgs": {"sensor_msgs/PointCloud2"},
 }
 
-#: Answer at once.
+#: Do not wait.
 NO_TIMEOUT = Duration()
 
 
 class TypeException(Exception):
-    """Nobody has registered how to transform or convert this type.
+    """No function is registered that transforms or converts the type.
 
     Attributes:
         errstr: The text.
@@ -91,16 +90,15 @@ def _advice(key: Any) -> str:
         if full_name in types:
             return f"`import {module}` registers this type."
         if f"{full_name}Stamped" in types:
-            return f"A {name} does not tell in which frame it is: transform a {name}Stamped."
+            return f"A {name} does not name its frame: transform a {name}Stamped."
     return ""
 
 
 class BufferInterface:
-    """Base of the buffers: lookups by another name, and :meth:`transform`, which applies them.
+    """Base of the buffers.
 
     Attributes:
-        registration: Where the functions that transform a type are found; one for the whole
-            process.
+        registration: The functions that transform types; one table for the whole process.
     """
 
     def __init__(self) -> None:
@@ -116,8 +114,8 @@ class BufferInterface:
         """Express an object in another frame, at the time of its stamp.
 
         Args:
-            object_stamped: Has a ``header``, and a type that is registered (``import
-                tf2_geometry_msgs`` registers many).
+            object_stamped: An object with a ``header`` whose type is registered; ``import
+                tf2_geometry_msgs`` registers many.
             target_frame: The frame to express it in.
             timeout: How long to wait until the transform is known (``rclpy.duration.Duration``).
             new_type: Convert the result to this type.
@@ -143,13 +141,13 @@ class BufferInterface:
         timeout: Any = NO_TIMEOUT,
         new_type: type | None = None,
     ) -> Any:
-        """Express an object in a frame as it was at another time; ``fixed_frame`` is the frame that does not move in between.
+        """Express an object in another frame at another time.
 
         Args:
             object_stamped: As for :meth:`transform`.
             target_frame: The frame to express it in.
             target_time: The time of that frame (``rclpy.time.Time``).
-            fixed_frame: Does not move between the two times.
+            fixed_frame: A frame that does not move between the two times.
             timeout: How long to wait until the transform is known.
             new_type: Convert the result to this type.
 
@@ -180,7 +178,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = NO_TIMEOUT,
     ) -> TransformStamped:
-        """The transform from ``source_frame`` at ``source_time`` to ``target_frame`` at ``target_time``, by way of ``fixed_frame``."""
+        """The transform from one frame and time to another, by way of ``fixed_frame``."""
         raise NotImplementedException
 
     def can_transform(
@@ -211,23 +209,23 @@ def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802 -- ROS 2'
 
 
 class TransformRegistration:
-    """Which function transforms which type; all instances share one table."""
+    """The functions that transform types; all instances share one table."""
 
-    _transforms: dict[type, Callable[[Any, TransformStamped], Any]] = {}  # noqa: RUF012 -- shared by all instances
+    _transforms: dict[type, Callable[[Any, TransformStamped], Any]] = {}  # noqa: RUF012 -- shared
 
     def print_me(self) -> None:
         """Print the table."""
         print(self._transforms)  # noqa: T201 -- what it is for
 
     def add(self, key: type, callback: Callable[[Any, TransformStamped], Any]) -> None:
-        """Transform objects of type ``key`` by ``callback(object, transform)``."""
+        """Register ``callback(object, transform)`` for objects of type ``key``."""
         self._transforms[key] = callback
 
     def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
         """The function for a type.
 
         Raises:
-            TypeException: There is none.
+            TypeException: None is registered.
         """
         try:
             return self._transforms[key]
@@ -236,34 +234,37 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """How types are converted: to a message, from a message, or directly; all instances share one table."""
+    """The functions that convert types to messages, from messages, and directly.
 
-    _to_msg: dict[type, Callable[[Any], Any]] = {}  # noqa: RUF012 -- shared by all instances
+    All instances share one table.
+    """
+
+    _to_msg: dict[type, Callable[[Any], Any]] = {}  # noqa: RUF012 -- shared
     _from_msg: dict[type, Callable[[Any], Any]] = {}  # noqa: RUF012
     _convert: dict[tuple[type, type], Callable[[Any], Any]] = {}  # noqa: RUF012
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Make a ``key`` of its message by ``callback(message)``."""
+        """Register ``callback(message)``, which makes a ``key``."""
         self._from_msg[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Make a message of a ``key`` by ``callback(object)``."""
+        """Register ``callback(object)``, which makes a message of a ``key``."""
         self._to_msg[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
-        """Convert from ``key[0]`` to ``key[1]`` by ``callback(object)``."""
+        """Register ``callback(object)``, which converts a ``key[0]`` to a ``key[1]``."""
         self._convert[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_from_msg`; raises :class:`TypeException` when there is none."""
+        """The function of :meth:`add_from_msg`; raises :class:`TypeException` if there is none."""
         return self._get(self._from_msg, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function of :meth:`add_to_msg`; raises :class:`TypeException` when there is none."""
+        """The function of :meth:`add_to_msg`; raises :class:`TypeException` if there is none."""
         return self._get(self._to_msg, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """The function of :meth:`add_convert`; raises :class:`TypeException` when there is none."""
+        """The function of :meth:`add_convert`; raises :class:`TypeException` if there is none."""
         return self._get(self._convert, key)
 
     @staticmethod
@@ -275,10 +276,13 @@ class ConvertRegistration:
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """Convert ``a`` to ``b_type``: directly where that is registered, as a copy to its own type, else by way of a message.
+    """Convert ``a`` to ``b_type``.
+
+    A direct conversion is preferred; an object of that type is copied; the last way is through a
+    message.
 
     Raises:
-        TypeException: No way is registered, or it leads to another type.
+        TypeException: No conversion is registered, or the registered one gives another type.
     """
     registration = ConvertRegistration()
     try:
@@ -287,9 +291,8 @@ def convert(a: Any, b_type: type) -> Any:
         if type(a) is b_type:
             return deepcopy(a)
         converted = registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
-        if not isinstance(converted, b_type):  # each message type takes any message for its own
-            raise TypeException(
-                f"Nobody has registered how to convert {type(a)} to {b_type}"
-            ) from None
+        # The conversion from a message takes any message: the type tells if it fitted.
+        if not isinstance(converted, b_type):
+            raise TypeException(f"No conversion from {type(a)} to {b_type} is registered") from None
         return converted
     return direct(a)

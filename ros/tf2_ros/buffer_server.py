@@ -1,4 +1,7 @@
-"""Answers lookups of other processes from a buffer here, so that they need not listen to all transforms themselves."""
+"""Answers lookups of other processes from a buffer of this one.
+
+Those processes then need not receive all transforms themselves.
+"""
 
 from __future__ import annotations
 
@@ -37,12 +40,12 @@ _NUMBERS: dict[type[TransformException], int] = {
 
 
 def error_number(error: TransformException) -> int:
-    """The number that ``tf2_msgs/msg/TF2Error`` has for an exception."""
+    """The number of an exception in ``tf2_msgs/msg/TF2Error``."""
     return next(number for kind, number in _NUMBERS.items() if isinstance(error, kind))
 
 
 def exception_for(error: TF2Error) -> TransformException:
-    """The exception that a ``tf2_msgs/msg/TF2Error`` stands for."""
+    """The exception of a ``tf2_msgs/msg/TF2Error``."""
     kinds = {number: kind for kind, number in _NUMBERS.items()}
     return kinds.get(error.error, TransformException)(error.error_string)
 
@@ -50,12 +53,12 @@ def exception_for(error: TF2Error) -> TransformException:
 class BufferServer:
     """Offers lookups in a buffer as the action ``tf2_msgs/action/LookupTransform``.
 
-    A goal that waits holds up nobody; it can be cancelled. One that cannot be answered in time is
+    A waiting goal blocks no other goal, and can be cancelled. A goal without an answer in time is
     aborted with the error of the lookup, never with an empty transform.
 
     Args:
-        buffer: What is asked.
-        node: Who offers it.
+        buffer: Answers the lookups.
+        node: The node that offers the action.
         ns: Name of the action.
     """
 
@@ -72,7 +75,7 @@ class BufferServer:
         )
 
     def destroy(self) -> None:
-        """Offer it no longer; goals that wait are given up."""
+        """Stop the action; waiting goals are aborted."""
         for future in list(self._waiting.values()):
             future.cancel()
         self._server.destroy()
@@ -90,7 +93,7 @@ class BufferServer:
             del self._waiting[key]
         if future.cancelled():
             result.error = TF2Error(
-                error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was given up."
+                error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was cancelled."
             )
             (goal_handle.canceled if goal_handle.is_cancel_requested else goal_handle.abort)()
         elif result.error.error == TF2Error.NO_ERROR:

@@ -1,4 +1,4 @@
-"""`ros2 run tf2_ros buffer_server`: one process listens to all transforms and answers the lookups of others."""
+"""`ros2 run tf2_ros buffer_server`: receives all transforms, and answers others' lookups."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ _MOST_S = 1e9
 
 
 def main(args: list[str] | None = None) -> int:
-    """Serve until stopped; the exit status. The parameter ``buffer_size`` says how many seconds are kept, 120 unless set."""
+    """Serve until stopped; the exit status.
+
+    The parameter ``buffer_size`` says how many seconds of samples are kept; its default is 120.
+    """
     rclpy.init(args=args)
     try:
         node = Node("tf_buffer")
@@ -30,7 +33,8 @@ def main(args: list[str] | None = None) -> int:
         rclpy.spin(node)
         server.destroy()
     except (InvalidParameterTypeException, _BufferSizeError) as error:
-        print("\n".join([str(error), *filter(None, [getattr(error, "hint", "")])]), file=sys.stderr)  # noqa: T201
+        lines = filter(None, (str(error), getattr(error, "hint", "")))
+        print("\n".join(lines), file=sys.stderr)  # noqa: T201
         return 1
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

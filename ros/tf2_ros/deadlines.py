@@ -1,4 +1,4 @@
-"""Calls functions later, all on one thread that is there only while there is something to wait for."""
+"""Calls functions later, on one thread that runs only while a call is due."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Deadlines"]
 
 
 class Deadlines:
-    """Thread-safe."""
+    """Functions to call later. Thread-safe."""
 
     def __init__(self) -> None:
         self._condition = threading.Condition()
@@ -25,7 +25,7 @@ class Deadlines:
         self._running = False
 
     def call_after(self, seconds: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Call ``call()`` after some time; the function that is returned prevents it."""
+        """Call ``call()`` after some seconds, unless the returned function is called before."""
         with self._condition:
             number = next(self._numbers)
             self._calls[number] = call
@@ -47,7 +47,7 @@ class Deadlines:
             call()
 
     def _next(self) -> Callable[[], None] | None:
-        """Block until a call is due; None when there is none left."""
+        """Block until a call is due; None if no call is left."""
         with self._condition:
             while self._calls:
                 when, number = self._due[0]

@@ -29,9 +29,9 @@ class FilterFailureReason(IntEnum):
     """Why a message was dropped."""
 
     Unknown = 0
-    """The clock has jumped back, and what waited is of another time."""
+    """The clock has jumped back, and the message belongs to another time."""
     OutTheBack = 1
-    """It is older than what the buffer keeps."""
+    """It is older than the buffer's samples."""
     EmptyFrameID = 2
     """Its header names no frame."""
     NoTransformFound = 3
@@ -41,7 +41,7 @@ class FilterFailureReason(IntEnum):
 
 
 class _Waiting:
-    """A message that waits; compared by identity, for two messages may be equal."""
+    """A waiting message; compared by identity, because two messages may be equal."""
 
     __slots__ = ("deadline_ns", "message", "source", "stamp_ns")
 
@@ -53,20 +53,20 @@ class _Waiting:
 
 
 class MessageFilter(SimpleFilter):
-    """Passes a message on when it can be transformed into the target frames, and drops one that never can.
+    """Passes messages on as soon as they can be transformed into the target frames.
 
-    Callbacks run on the node's executor, or inside :meth:`add` when the transform is there already.
-    It waits for data, it does not poll.
+    A message that can no longer be transformed is dropped. Callbacks run on the node's executor, or
+    inside :meth:`add` if the transform is known already. Nothing is polled.
 
     Args:
-        f: The filter to listen to, a ``message_filters.Subscriber`` for example; None to
-            :meth:`add` messages by hand.
-        buffer: Where the transforms come.
+        f: The filter to listen to, a ``message_filters.Subscriber`` for example; None if you
+            :meth:`add` messages yourself.
+        buffer: The buffer that receives the transforms.
         target_frame: The frame, or the frames, that a message will be transformed into.
-        queue_size: How many messages wait; the oldest is dropped beyond. 0 sets no limit.
-        node: Whose executor runs the callbacks, and whose clock measures the timeout.
-        tolerance: The transform must be known at the stamp, and so much later too.
-        timeout: How long a message waits; without limit unless given.
+        queue_size: How many messages may wait; then the oldest is dropped. 0 sets no limit.
+        node: Its executor runs the callbacks, and its clock measures the timeout.
+        tolerance: The transform must be known at the stamp, and this much later, too.
+        timeout: How long a message waits; None sets no limit.
     """
 
     def __init__(
@@ -109,16 +109,18 @@ class MessageFilter(SimpleFilter):
         """Listen to a filter."""
         self.incoming_connection = f.registerCallback(self.add)
 
-    def registerFailureCallback(self, cb: Callable[[Any, FilterFailureReason], Any]) -> None:  # noqa: N802 -- as in C++
+    def registerFailureCallback(  # noqa: N802 -- as in C++
+        self, cb: Callable[[Any, FilterFailureReason], Any]
+    ) -> None:
         """Call ``cb(message, reason)`` for each message that is dropped."""
         self._failure_callbacks.append(cb)
 
     def setTargetFrame(self, target_frame: str) -> None:  # noqa: N802 -- as in C++
-        """Wait for another frame from now on, also with the messages that wait already."""
+        """Wait for another frame, also with the messages that wait already."""
         self.setTargetFrames([target_frame])
 
     def setTargetFrames(self, target_frames: Iterable[str]) -> None:  # noqa: N802 -- as in C++
-        """Wait for other frames from now on, also with the messages that wait already."""
+        """Wait for other frames, also with the messages that wait already."""
         self._targets = tuple(frame.removeprefix("/") for frame in target_frames)
         self._ready.trigger()
 
@@ -127,11 +129,11 @@ class MessageFilter(SimpleFilter):
         return " ".join(self._targets)
 
     def setTolerance(self, tolerance: Duration) -> None:  # noqa: N802 -- as in C++
-        """Ask for the transform at the stamp and so much later."""
+        """Require the transform at the stamp and this much later."""
         self._tolerance_ns = tolerance.nanoseconds
 
     def setQueueSize(self, queue_size: int) -> None:  # noqa: N802 -- as in C++
-        """Let so many messages wait."""
+        """Set how many messages may wait."""
         self._queue_size = queue_size
 
     def getQueueSize(self) -> int:  # noqa: N802 -- as in C++
@@ -139,7 +141,7 @@ class MessageFilter(SimpleFilter):
         return self._queue_size
 
     def clear(self) -> None:
-        """Forget the messages that wait; no callback hears of them."""
+        """Drop the waiting messages without calling failure callbacks."""
         with self._lock:
             self._waiting.clear()
 
@@ -170,7 +172,7 @@ class MessageFilter(SimpleFilter):
         self._deliver()
 
     def destroy(self) -> None:
-        """Stop; what waits is forgotten. The node calls it when it is destroyed itself."""
+        """Stop and drop the waiting messages. The node calls it when it is destroyed."""
         if self._stop_listening is None:
             return
         self._stop_listening()
@@ -184,7 +186,7 @@ class MessageFilter(SimpleFilter):
             self._on_destroy(self)
 
     def _on_jump(self, _jump: TimeJump) -> None:
-        """After the clock of the node has jumped back: nothing will come for the messages that wait."""
+        """Fail the waiting messages: after a jump back no transform will come for them."""
         with self._lock:
             waiting = list(self._waiting)
             self._waiting.clear()
@@ -192,14 +194,14 @@ class MessageFilter(SimpleFilter):
             self._fail(each.message, FilterFailureReason.Unknown)
 
     def _on_data(self) -> None:
-        """On the thread that brought data: have the executor look when there is something for it to do."""
+        """Wake the executor if a message is ready or too old; runs on the receiving thread."""
         with self._lock:
             waiting = list(self._waiting)
         if any(self._is_ready(each) or self._is_too_old(each) for each in waiting):
             self._ready.trigger()
 
     def _deliver(self) -> None:
-        """Pass on what is ready, in the order in which it came, and drop what is too old."""
+        """Pass on the ready messages in order of arrival, and drop those that are too old."""
         with self._lock:
             ready = [each for each in self._waiting if self._is_ready(each)]
             too_old = [
@@ -230,10 +232,10 @@ class MessageFilter(SimpleFilter):
                 for target in self._targets
             )
         except TransformException:
-            return False  # some frame is not known yet
+            return False  # a frame is not known yet
 
     def _expire(self) -> None:
-        """By the timer: drop what has waited for too long, and set the timer for the next one."""
+        """Drop the messages whose time is over, and set the timer for the next one."""
         now = self._node.get_clock().now().nanoseconds
         with self._lock:
             expired = []

@@ -1,4 +1,4 @@
-"""A ``TransformStamped`` at the end of a notebook's cell shows its numbers and a small picture."""
+"""Shows a ``TransformStamped`` in a notebook as numbers and a small picture."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ class _Pose(NamedTuple):
 
 
 def transform_html(message: TransformStamped) -> str | None:
-    """The numbers of a transform and the axes of its two frames; None, and a notebook shows the plain text, when it has no rotation."""
+    """The numbers of a transform and the axes of its two frames.
+
+    None, which makes a notebook show plain text, if the rotation is not set.
+    """
     from turtlewire.tf import notebook
 
     t, q, stamp = message.transform.translation, message.transform.rotation, message.header.stamp

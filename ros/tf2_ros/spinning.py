@@ -15,7 +15,7 @@ __all__ = ["spin_in_thread"]
 
 
 def spin_in_thread(node: Node, name: str) -> tuple[SingleThreadedExecutor, Thread]:
-    """Spin a node in a daemon thread, which ends when the executor or the node's context is shut down."""
+    """Spin a node in a daemon thread, until its executor or its context is shut down."""
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     thread = Thread(target=_spin, args=(executor,), name=name, daemon=True)
@@ -24,7 +24,5 @@ def spin_in_thread(node: Node, name: str) -> tuple[SingleThreadedExecutor, Threa
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(
-        ExternalShutdownException
-    ):  # the context was shut down, and the thread ends with it
+    with suppress(ExternalShutdownException):
         executor.spin()

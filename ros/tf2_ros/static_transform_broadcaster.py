@@ -1,4 +1,4 @@
-"""Publishes transforms that stay, for those who come later as well."""
+"""Publishes static transforms, also for subscriptions that are created later."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["StaticTransformBroadcaster"]
 
 
 class _Kept:
-    """What one publisher keeps for late joiners."""
+    """The transforms that one publisher keeps for late joiners."""
 
     def __init__(self, publisher: Publisher) -> None:
         # Its node owns it: a broadcaster that replaces a transform later must not keep it alive.
@@ -53,16 +53,16 @@ _keepers: WeakKeyDictionary[Context, dict[str, dict[str, _Kept]]] = WeakKeyDicti
 
 
 class StaticTransformBroadcaster:
-    """Tells everybody who listens, now or later, where frames stand that do not move.
+    """Publishes where frames stand that do not move. Thread-safe.
 
-    All transforms that were sent are published together, so that the one message that is kept for
-    late joiners holds them all. A transform that is sent again replaces the former one, also when
-    another broadcaster of this process sent that. Thread-safe.
+    All transforms are published in one message, because the publisher keeps one message for late
+    joiners. A transform that is sent again replaces the earlier one, even if another broadcaster of
+    this process sent that.
 
     Args:
-        node: Who publishes.
-        qos: Quality of service of ``/tf_static``, or a depth; one message is kept for late joiners
-            unless given.
+        node: The publishing node.
+        qos: Quality of service of ``/tf_static``, or a depth; by default depth 1 and transient
+            local.
 
     Attributes:
         pub_tf: The publisher.
@@ -84,11 +84,12 @@ class StaticTransformBroadcaster:
             for child in [child for child, kept in self._keepers.items() if kept.gone]:
                 del self._keepers[child]
 
-    def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
-        """Publish one or several transforms, each the pose of ``child_frame_id`` in ``header.frame_id``.
+    def sendTransform(  # noqa: N802 -- ROS 2's name
+        self, transform: TransformStamped | Iterable[TransformStamped]
+    ) -> None:
+        """Publish one or several transforms: poses of ``child_frame_id`` in ``header.frame_id``.
 
-        They are copied: what the caller does to the messages later does not count until they are
-        sent again.
+        They are copied; later changes of the messages have no effect until they are sent again.
         """
         with _lock:
             replaced = []

@@ -1,4 +1,4 @@
-"""`ros2 run tf2_ros static_transform_publisher`: tells where a frame stands that does not move."""
+"""`ros2 run tf2_ros static_transform_publisher`: publishes one static transform."""
 
 from __future__ import annotations
 
@@ -24,10 +24,12 @@ if TYPE_CHECKING:
 __all__ = ["ArgumentsError", "Placement", "StaticTransformPublisher", "main", "parse"]
 
 _USAGE = """usage: static_transform_publisher --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
-           [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW] [--roll ROLL] [--pitch PITCH] [--yaw YAW]
+           [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]
+           [--roll ROLL] [--pitch PITCH] [--yaw YAW]
 
-Tells where the child frame stands in the frame: a translation in metres, and a rotation either as a quaternion or as
-roll, pitch and yaw in radians about the fixed axes x, y and z. What is not given is zero.
+Publishes the pose of the child frame in the frame: a translation in metres, and a rotation either
+as a quaternion or as roll, pitch and yaw in radians about the fixed axes x, y and z. Numbers that
+are not given are zero.
 
 old style, deprecated (mind the order of the angles):
        static_transform_publisher X Y Z QX QY QZ QW FRAME_ID CHILD_FRAME_ID
@@ -51,7 +53,7 @@ class Placement(NamedTuple):
         rotation: Quaternion x, y, z, w.
         frame_id: The parent.
         child_frame_id: The frame.
-        old_style: Whether it was given in the old style.
+        old_style: Whether the command line used the old style.
     """
 
     translation: tuple[float, float, float]
@@ -65,7 +67,7 @@ def parse(arguments: Sequence[str]) -> Placement:
     """Read the command line, without the program's name and without ``--ros-args``.
 
     Raises:
-        ArgumentsError: It is wrong.
+        ArgumentsError: The command line is wrong.
     """
     flags: dict[str, str] = {}
     rest = []
@@ -144,17 +146,18 @@ def _checked(placement: Placement) -> Placement:
 
 
 class StaticTransformPublisher(Node):
-    """Publishes one static transform; its parameters tell which.
+    """Publishes the static transform that its parameters describe.
 
     Args:
         placement: Where the frame stands.
 
     Raises:
-        RuntimeError: A frame cannot stand in itself.
+        RuntimeError: The two frame ids are equal.
     """
 
     def __init__(self, placement: Placement) -> None:
-        suffix = "".join(random.choices(string.ascii_letters + string.digits, k=16))  # noqa: S311 -- a name, no secret
+        letters = string.ascii_letters + string.digits
+        suffix = "".join(random.choices(letters, k=16))  # noqa: S311 -- no secret
         super().__init__(f"static_transform_publisher_{suffix}")
         transform = TransformStamped()
         read_only = ParameterDescriptor(read_only=True)
@@ -176,7 +179,7 @@ class StaticTransformPublisher(Node):
         self.transform = transform
 
     def describe(self) -> str:
-        """What is published, as ROS 2 says it."""
+        """The transform in ROS 2's words."""
         t, q = self.transform.transform.translation, self.transform.transform.rotation
         return (
             "Spinning until stopped - publishing transform\n"
@@ -191,12 +194,13 @@ def main(args: list[str] | None = None) -> int:
     argv = sys.argv if args is None else args
     words = remove_ros_args(argv)[1:]
     if {"-h", "--help"} & {*words}:
-        print(_USAGE)  # noqa: T201 -- what was asked for
+        print(_USAGE)  # noqa: T201
         return 0
     try:
         placement = parse(words)
     except ArgumentsError as error:
-        print(f"error parsing command line arguments: {error}\n{_USAGE}", file=sys.stderr)  # noqa: T201
+        text = f"error parsing command line arguments: {error}\n{_USAGE}"
+        print(text, file=sys.stderr)  # noqa: T201
         return 1
     rclpy.init(args=argv)
     try:

@@ -1,4 +1,4 @@
-"""`ros2 run tf2_ros tf2_echo SOURCE TARGET [RATE]`: prints where a frame is, seen from another, again and again."""
+"""`ros2 run tf2_ros tf2_echo SOURCE TARGET [RATE]`: prints the pose of a frame repeatedly."""
 
 from __future__ import annotations
 
@@ -33,7 +33,12 @@ _BAD_RATE = "Failed to convert rate argument '%s' to a floating-point number"
 
 
 def main(args: list[str] | None = None) -> int:
-    """Print until stopped; the exit status: 1 for a wrong command line, 2 for a rate that is no number, 3 for one that is not positive."""
+    """Print until stopped.
+
+    Returns:
+        The exit status: 1 for a wrong command line, 2 for a rate that is not a number, 3 for a
+        rate that is not positive.
+    """
     argv = sys.argv if args is None else args
     options = _parser().parse_args(remove_ros_args(argv)[1:])
     try:
@@ -60,10 +65,12 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="tf2_echo",
-        description="Print the pose of TARGET as SOURCE sees it: what takes data of TARGET into SOURCE.",
+        description="Print the pose of TARGET in SOURCE, which takes data from TARGET into SOURCE.",
     )
-    parser.add_argument("source_frame", type=frame_id, help="the frame that looks")
-    parser.add_argument("target_frame", type=frame_id, help="the frame that is looked at")
+    parser.add_argument(
+        "source_frame", type=frame_id, help="the frame that the pose is expressed in"
+    )
+    parser.add_argument("target_frame", type=frame_id, help="the frame whose pose is printed")
     parser.add_argument(
         "rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)"
     )
@@ -76,7 +83,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("-n", "--limit", type=count, default=0, help="end after so many transforms")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees only")
-    parser.add_argument("--distance", action="store_true", help="the distance too")
+    parser.add_argument("--distance", action="store_true", help="also print the distance")
     parser.add_argument(
         "--json", action="store_true", help="one JSON object in a line for each transform"
     )
@@ -86,7 +93,7 @@ def _parser() -> argparse.ArgumentParser:
 def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
     buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
-    TransformListener(buffer, node, spin_thread=True)  # spun for the sake of a simulated clock
+    TransformListener(buffer, node, spin_thread=True)  # a simulated clock needs the spinning
     source, target = options.source_frame, options.target_frame
     printed = 0
     while not stopped.is_set():
@@ -105,23 +112,24 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
             text = _failure(node.get_clock().now().nanoseconds, error, buffer)
             print(printable_lines(text), flush=True)  # noqa: T201
         else:
-            print(as_json(transform) if options.json else describe(transform, options), flush=True)  # noqa: T201
+            text = as_json(transform) if options.json else describe(transform, options)
+            print(text, flush=True)  # noqa: T201
             printed += 1
         if printed == options.limit > 0 or stopped.wait(period_s):
             return
 
 
 def _hint(buffer: Buffer, source: str, target: str) -> str:
-    """A line with what helps, of a lookup that fails."""
+    """The hint of a lookup that fails, on a line of its own."""
     try:
         buffer.lookup_transform(source, target, Time())
     except TransformException as error:
         return f"\n{error.hint}" if error.hint else ""
-    return ""  # it has come just now
+    return ""  # the transform has arrived in between
 
 
 def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:
-    """What ROS 2 prints when a transform that was known is not known any more."""
+    """ROS 2's text for a transform that was known before, and is not any more."""
     return (
         f"Failure at {now_ns / 1e9:f}\nException thrown:{error}\n"
         f"The current list of frames is:\n{buffer.all_frames_as_string()}"
@@ -129,7 +137,7 @@ def _failure(now_ns: int, error: TransformException, buffer: Buffer) -> str:
 
 
 def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
-    """One transform in lines, as ROS 2 prints it, with the stamp's nanoseconds padded and a last line in words."""
+    """One transform as ROS 2 prints it, with padded nanoseconds and a last line in words."""
     t, q = transform.transform.translation, transform.transform.rotation
     stamp, digits = transform.header.stamp, options.precision
 
@@ -165,7 +173,7 @@ def _matrix(t: Any, q: Any) -> list[list[float]]:
 
 
 def in_words(transform: TransformStamped, digits: int = 2) -> str:
-    """Where the child frame is, seen from the frame of the header; x is ahead, y to the left, z up."""
+    """Where the child frame is in the header's frame; x is ahead, y to the left, z up."""
     t = transform.transform.translation
     parts = [
         f"{abs(number):.{digits}f} m {positive if number >= 0 else negative}"

@@ -1,4 +1,4 @@
-"""`ros2 run tf2_ros tf2_monitor [SOURCE TARGET]`: how late and how often transforms come, and from whom."""
+"""`ros2 run tf2_ros tf2_monitor [SOURCE TARGET]`: delays, rates and publishers of transforms."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = ["NOBODY", "Delays", "Statistics", "chain", "main"]
 
-#: ROS 2's name for a publisher that nobody claims.
+#: ROS 2's name for a publisher whose node is unknown.
 NOBODY = "<no authority available>"
 
 
@@ -45,13 +45,13 @@ class Delays:
         self.total = self.maximum = 0.0
 
     def add(self, seconds: float) -> None:
-        """Take one more."""
+        """Add one delay."""
         self.count += 1
         self.total += seconds
         self.maximum = seconds if self.count == 1 else max(self.maximum, seconds)
 
     def merge(self, other: Delays) -> None:
-        """Take all of another."""
+        """Add all delays of another instance."""
         self.maximum = max(
             (delays.maximum for delays in (self, other) if delays.count), default=0.0
         )
@@ -60,16 +60,16 @@ class Delays:
 
     @property
     def mean(self) -> float:
-        """The mean; 0 without any."""
+        """The mean; 0 if there are none."""
         return self.total / self.count if self.count else 0.0
 
 
 class Statistics:
-    """What came, by frame and by publisher. Fed on the wire's thread, read on another.
+    """Delays by frame and by publisher. Thread-safe.
 
     Args:
-        name_of: Names a publisher by its gid.
-        now: The time that delays are counted to, seconds.
+        name_of: Returns the name of a publisher's node for a gid.
+        now: Returns the present time [s], from which delays are measured.
     """
 
     def __init__(self, name_of: Callable[[bytes], str], now: Callable[[], float]) -> None:
@@ -84,7 +84,7 @@ class Statistics:
         """Count a ``TFMessage``."""
         gid, now = info.publisher_gid, self._now()
         with self._lock:
-            self._name(gid)  # while the publisher is there
+            self._name(gid)  # later the publisher may have left the graph
             delays, span = self._publishers.setdefault(gid, (Delays(), [now, now]))
             span[1] = now
             of_message = Delays()
@@ -97,14 +97,14 @@ class Statistics:
             delays.add(of_message.mean)  # as ROS 2: a broadcaster's figures count messages
 
     def _name(self, gid: bytes) -> str:
-        """Of a publisher; the first message of one may come before the graph knows whose it is."""
+        """The node of a publisher; its first message may arrive before the graph knows it."""
         name = self._names.get(gid) or self._name_of(gid)
         if name != NOBODY:
             self._names[gid] = name
         return name
 
     def as_dict(self) -> dict[str, Any]:
-        """All of it as plain data, seconds and hertz."""
+        """The statistics as plain data, in seconds and hertz."""
         with self._lock:
             of_node: dict[str, tuple[Delays, list[float]]] = {}
             for gid, (delays, span) in self._publishers.items():
@@ -147,9 +147,8 @@ def main(args: list[str] | None = None) -> int:
     rclpy.init(args=argv)
     try:
         with Node("tf2_monitor") as node:
-            executor, thread = spin_in_thread(
-                node, "tf2-monitor"
-            )  # for the sake of a simulated clock
+            # A simulated clock needs the spinning.
+            executor, thread = spin_in_thread(node, "tf2-monitor")
             try:
                 _monitor(node, options)
             finally:
@@ -167,7 +166,7 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="tf2_monitor",
-        description="Tell how late and how often transforms come, and from whom.",
+        description="Report the delays, the rates and the publishers of transforms.",
     )
     parser.add_argument(
         "frames",
@@ -199,13 +198,12 @@ def _monitor(node: Node, options: argparse.Namespace) -> None:
     net = Delays()
     _subscribe(node, buffer, statistics, lambda: _note_chain(options.frames, buffer, net, clock))
     if not options.json:
-        print(  # noqa: T201
-            f"Gathering data on {'all frames' if not options.frames else 'the chain'} for {options.period:g} seconds...",
-            flush=True,
-        )
+        what = "the chain" if options.frames else "all frames"
+        text = f"Gathering data on {what} for {options.period:g} seconds..."
+        print(text, flush=True)  # noqa: T201
     reports = 0
     while not stopped.wait(options.period):
-        print(_report(options, buffer, statistics, net), flush=True)  # noqa: T201 -- the report
+        print(_report(options, buffer, statistics, net), flush=True)  # noqa: T201
         reports += 1
         if reports == options.limit:
             return
@@ -239,12 +237,12 @@ def _note_chain(frames: list[str], buffer: Buffer, net: Delays, clock: Any) -> N
             stamp_ns = buffer.engine.latest_common_time(frames[1], frames[0])
         except TransformException:
             return  # not connected yet
-        if stamp_ns:  # what does not move has no delay
+        if stamp_ns:  # a static chain has no delay
             net.add((clock.now().nanoseconds - stamp_ns) / 1e9)
 
 
 def chain(buffer: Buffer, source: str, target: str) -> list[str]:
-    """The frames on the way from one frame to another, both included.
+    """The frames from one frame to another, both included.
 
     Raises:
         TransformException: They are not connected.
@@ -281,9 +279,10 @@ def _report(
 
 
 def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
-    """A report as ROS 2 prints it."""
+    """A report in ROS 2's words."""
     lines = ["", ""]
     if frames:
+        net = data["net_delay"]
         lines += [f"RESULTS: for {frames[0]} to {frames[1]}"]
         lines += (
             [*filter(None, (data["error"], data["hint"]))]
@@ -291,7 +290,7 @@ def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
             else [f"Chain is: {' -> '.join(data['chain'])}"]
         )
         lines += [
-            f"Net delay     avg = {data['net_delay']['average']:g}: max = {data['net_delay']['max']:g}"
+            f"Net delay     avg = {net['average']:g}: max = {net['max']:g}",
         ]
     else:
         lines += ["RESULTS: for all Frames"]
@@ -303,7 +302,8 @@ def _in_lines(frames: list[str], data: dict[str, Any]) -> str:
     ]
     lines += ["", "All Broadcasters:"]
     lines += [
-        f"Node: {entry['node']} {entry['rate']:g} Hz, Average Delay: {entry['average_delay']:g} Max Delay: {entry['max_delay']:g}"
+        f"Node: {entry['node']} {entry['rate']:g} Hz, "
+        f"Average Delay: {entry['average_delay']:g} Max Delay: {entry['max_delay']:g}"
         for entry in data["broadcasters"]
     ]
     return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""Publishes transforms that change."""
+"""Publishes transforms that change over time."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ __all__ = ["TransformBroadcaster", "as_list"]
 
 
 class TransformBroadcaster:
-    """Tells everybody who listens where frames are at the moment.
+    """Publishes where frames are at the moment.
 
     Args:
-        node: Who publishes.
-        qos: Quality of service of ``/tf``, or a depth; 100 messages are kept unless given.
+        node: The publishing node.
+        qos: Quality of service of ``/tf``, or a depth; by default depth 100.
 
     Attributes:
         pub_tf: The publisher.
@@ -32,8 +32,13 @@ class TransformBroadcaster:
             TFMessage, "/tf", QoSProfile(depth=100) if qos is None else qos
         )
 
-    def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:  # noqa: N802 -- ROS 2's name
-        """Publish one transform, or several in one message. Each is the pose of ``child_frame_id`` in ``header.frame_id``."""
+    def sendTransform(  # noqa: N802 -- ROS 2's name
+        self, transform: TransformStamped | Iterable[TransformStamped]
+    ) -> None:
+        """Publish one transform, or several in one message.
+
+        Each is the pose of ``child_frame_id`` in ``header.frame_id``.
+        """
         self.pub_tf.publish(TFMessage(transforms=as_list(transform)))
 
 

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped
 
     class Question(Protocol):
-        """What is asked of the buffer."""
+        """A lookup in a buffer."""
 
         def never(self, error: TransformException) -> bool:
-            """Whether there will be none, by the error that there is instead of an answer now."""
+            """Whether no later data can bring the answer, judged by the present error."""
             ...
 
         def answer(self) -> TransformStamped:
-            """The answer; raises :class:`TransformException` while there is none."""
+            """The transform; raises :class:`TransformException` while there is none."""
             ...
 
 
@@ -44,10 +44,12 @@ class _Waiting:
 
 
 class TransformFutures:
-    """Finishes futures when the data that they wait for has come. Thread-safe; costs nothing while nobody waits.
+    """Completes futures when the buffer has the data. Thread-safe.
+
+    It listens to the buffer only while a future is pending.
 
     Args:
-        buffer: Where the data comes.
+        buffer: The buffer that receives the data.
     """
 
     def __init__(self, buffer: turtlewire.Buffer) -> None:
@@ -59,12 +61,12 @@ class TransformFutures:
     def add(self, question: Question, timeout_ns: int | None = None) -> Future:
         """A future for the answer.
 
-        It ends with the exception of the lookup when the time is over, and at once when there can
-        be no answer: a frame id is not valid, or the time asked for has fallen out of the cache.
+        It gets the exception of the lookup when the time is over, and at once if there can be no
+        answer: a frame id is invalid, or the requested time has left the cache.
 
         Args:
-            question: What is asked.
-            timeout_ns: How long to wait; None without limit.
+            question: The lookup.
+            timeout_ns: How long to wait; None sets no limit.
         """
         waiting = _Waiting(question)
         with self._lock:
@@ -86,7 +88,7 @@ class TransformFutures:
         return waiting.future
 
     def _look_again(self) -> None:
-        """After data came in, on the thread that brought it."""
+        """Try all pending lookups again; runs on the thread that received data."""
         with self._lock:
             candidates = list(self._waiting)
         for waiting in candidates:
@@ -114,7 +116,7 @@ class TransformFutures:
             waiting.future.set_result(outcome)
 
     def _claim(self, waiting: _Waiting) -> bool:
-        """Take it off the list: of several threads, and of a cancellation, one finishes it."""
+        """Take it off the list, so that only one thread, or a cancellation, completes it."""
         with self._lock:
             if waiting not in self._waiting:
                 return False

@@ -33,27 +33,27 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
-    """Keeps a buffer filled, from a thread of the middleware: nothing has to spin for it.
+    """Fills a buffer on a thread of the middleware: no executor has to spin for it.
 
-    So a lookup may wait for a transform wherever it is called, in a callback of a single-threaded
-    executor too. It listens until it is unregistered or its node is destroyed, also when nobody
-    refers to it any more.
+    So a lookup may wait for a transform anywhere, also in a callback of a single-threaded executor.
+    The listener works until it is unregistered or its node is destroyed, even if no reference to it
+    is left.
 
     Args:
-        buffer: What to fill.
-        node: Whose subscriptions they are in the graph; None makes a node of its own in the default
-            context.
-        spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
-        qos: Quality of service of the first subscription, or a depth; depth 100 unless given.
-        static_qos: Quality of service of the second one; depth 100 and transient local unless
-            given.
-        tf_topic: Where transforms that change come from.
-        tf_static_topic: Where transforms that stay come from.
-        static_only: Listen to the second topic only.
+        buffer: The buffer to fill.
+        node: The node that owns the subscriptions; None makes one in the default context.
+        spin_thread: Spin the node in a thread of its own, for its other callbacks.
+        qos: Quality of service of the subscription to ``tf_topic``, or a depth; by default depth
+            100.
+        static_qos: Quality of service of the subscription to ``tf_static_topic``; by default depth
+            100 and transient local.
+        tf_topic: The topic of transforms that change.
+        tf_static_topic: The topic of static transforms.
+        static_only: Subscribe to the static topic only.
 
     Attributes:
-        buffer: What it fills.
-        node: Its node.
+        buffer: The buffer.
+        node: The node.
     """
 
     def __init__(
@@ -105,11 +105,11 @@ class TransformListener:
             )
 
     def unregister(self) -> None:
-        """Stop listening; what is in the buffer stays. Idempotent."""
+        """Stop listening; the buffer keeps its data. Idempotent."""
         self.destroy()
 
     def destroy(self) -> None:
-        """What :meth:`unregister` does; the node calls it when it is destroyed itself."""
+        """:meth:`unregister`; the node calls it when it is destroyed."""
         self._events.destroy()
         self._engine.close()
         self._stop_closing()
@@ -128,12 +128,12 @@ class TransformListener:
             node.destroy_node()
 
     def callback(self, data: TFMessage) -> None:
-        """Store the transforms of a message that came some other way, a bag for example."""
+        """Store the transforms of a message from another source, a bag for example."""
         for transform in data.transforms:
             self.buffer.set_transform(transform, "default_authority")
 
     def static_callback(self, data: TFMessage) -> None:
-        """:meth:`callback` for transforms that stay."""
+        """:meth:`callback` for static transforms."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
 
@@ -142,12 +142,11 @@ class StaticTransformListener(TransformListener):
     """A :class:`TransformListener` that listens to ``/tf_static`` only.
 
     Args:
-        buffer: What to fill.
-        node: Whose subscription it is in the graph; None makes a node of its own in the default
-            context.
-        spin_thread: Spin the node in a thread of its own, for the sake of its other callbacks.
-        static_qos: Quality of service, or a depth; depth 100 and transient local unless given.
-        tf_static_topic: Where the transforms come from.
+        buffer: The buffer to fill.
+        node: The node that owns the subscription; None makes one in the default context.
+        spin_thread: Spin the node in a thread of its own, for its other callbacks.
+        static_qos: Quality of service, or a depth; by default depth 100 and transient local.
+        tf_static_topic: The topic of static transforms.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Moves the coordinates of a cloud where they are: any layout of a point, any byte order, organised or not."""
+"""Transforms point clouds in place: any layout of a point, any byte order, organised or not."""
 
 from __future__ import annotations
 
@@ -24,28 +24,28 @@ _FLOATS = {PointField.FLOAT32: "f4", PointField.FLOAT64: "f8"}
 _POINT = ("x", "y", "z")
 _NORMAL = ("normal_x", "normal_y", "normal_z")
 
-#: Points that are worked on together: few enough that they stay in the processor's cache.
+#: Points that are computed together: few enough to stay in the processor's cache.
 _BLOCK = 8192
 
 
 def do_transform_cloud(
     cloud: PointCloud2, transform: TransformStamped | Transform | Any
 ) -> PointCloud2:
-    """A cloud in the frame of a transform; nothing changes the arguments.
+    """A cloud in the frame of a transform; the arguments stay unchanged.
 
-    The fields x, y, z are transformed, normal_x, normal_y, normal_z are turned, all other bytes
-    stay as they are. Everything is computed in double precision.
+    The fields x, y, z are transformed and normal_x, normal_y, normal_z are rotated, in double
+    precision. All other bytes are copied.
 
     Args:
-        cloud: Its coordinates are float32 or float64 fields, at any offset of any ``point_step``.
-        transform: ``TransformStamped``, or a ``Transform`` to keep the frame's name.
+        cloud: A cloud whose coordinates are float32 or float64 fields, at any offset.
+        transform: A ``TransformStamped``, or a ``Transform``, which leaves the frame id as it is.
 
     Returns:
         A new cloud with the cloud's stamp, and the frame of the transform if that is stamped.
 
     Raises:
         AssertionError: The cloud has no x, y and z.
-        ValueError: Its coordinates are of another type, or its sizes contradict each other.
+        ValueError: The coordinates are of another type, or the sizes contradict each other.
     """
     fields = {field.name: field for field in reversed(cloud.fields)}
     if not all(name in fields for name in _POINT):
@@ -87,7 +87,7 @@ def transform_points(
         A new array of shape ``(N, 3)``.
 
     Raises:
-        ValueError: The shape is another one.
+        ValueError: The points have another shape.
     """
     points = np.asarray(point_cloud)
     if points.ndim != 2 or points.shape[1] != 3:
@@ -105,12 +105,11 @@ def _matrix(transform: Any) -> NDArray[np.float64]:
 def _apply(
     matrix: NDArray[np.float64], source: Sequence[NDArray[Any]], target: Sequence[NDArray[Any]]
 ) -> None:
-    """Multiply the three columns of points by a matrix of shape (3, 4), or of vectors by one of shape (3, 3)."""
+    """Multiply three columns of points by a (3, 4) matrix, or of vectors by a (3, 3) matrix."""
     count = len(source[0])
     block = np.ones((matrix.shape[1], min(count, _BLOCK)))
-    with np.errstate(
-        invalid="ignore", over="ignore"
-    ):  # sensors mark what they did not see by NaN and infinity
+    # Sensors mark points that they did not measure by NaN and infinity.
+    with np.errstate(invalid="ignore", over="ignore"):
         for start in range(0, count, _BLOCK):
             part = slice(start, min(start + _BLOCK, count))
             values = block[:, : part.stop - start]
@@ -123,9 +122,9 @@ def _apply(
 def _rows(
     cloud: PointCloud2, data: array[int], fields: Sequence[PointField]
 ) -> Iterator[list[NDArray[Any]]]:
-    """For each stretch of evenly spaced points: one view into the data for each field."""
+    """For each run of evenly spaced points, a view into the data for each field."""
     width = cloud.width * cloud.point_step
-    row_step = cloud.row_step or width  # many writers leave it unset
+    row_step = cloud.row_step or width  # many writers do not set it
     rows, count = (
         (1, cloud.width * cloud.height)
         if cloud.height <= 1 or row_step == width
@@ -136,8 +135,9 @@ def _rows(
     needed = (rows - 1) * row_step + count * cloud.point_step
     if row_step < width or len(data) < needed:
         raise ValueError(
-            f"a cloud of {cloud.width} x {cloud.height} points with point_step {cloud.point_step} and row_step {cloud.row_step} "
-            f"needs {needed} bytes of data in rows of at least {width}, has {len(data)}"
+            f"a cloud of {cloud.width} x {cloud.height} points with point_step {cloud.point_step} "
+            f"and row_step {cloud.row_step} needs {needed} bytes of data in rows of at least "
+            f"{width}, has {len(data)}"
         )
     dtypes = [_dtype(cloud, field) for field in fields]
     for row in range(rows):
@@ -150,12 +150,14 @@ def _rows(
 def _dtype(cloud: PointCloud2, field: PointField) -> np.dtype[Any]:
     if field.datatype not in _FLOATS:
         raise ValueError(
-            f"field {field.name!r} has datatype {field.datatype}; only FLOAT32 (7) and FLOAT64 (8) can be transformed"
+            f"field {field.name!r} has datatype {field.datatype}; "
+            "only FLOAT32 (7) and FLOAT64 (8) can be transformed"
         )
     dtype = np.dtype((">" if cloud.is_bigendian else "<") + _FLOATS[field.datatype])
     if field.offset + dtype.itemsize > cloud.point_step:
         raise ValueError(
-            f"field {field.name!r} ends at byte {field.offset + dtype.itemsize} of a point of {cloud.point_step} bytes"
+            f"field {field.name!r} ends at byte {field.offset + dtype.itemsize} "
+            f"of a point of {cloud.point_step} bytes"
         )
     return dtype
 

@@ -1,4 +1,4 @@
-"""A drawing as a PDF file of one page, in the two Helveticas that every reader has."""
+"""Writes a drawing as a PDF file of one page, with fonts that every reader has."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _LONGEST_SIDE = 14_400.0
 
 
 def pdf_from_drawing(drawing: Drawing) -> bytes:
-    r"""The drawing on a page of its own size; larger ones than PDF allows are scaled down.
+    r"""A page of the size of the drawing; one that is too large for PDF is scaled down.
 
     Letters that the fonts lack are written as escapes, ``\u732b`` for example.
     """
@@ -61,18 +61,22 @@ def _operators(shape: Shape, height: float) -> str:
     """PDF counts y upwards from the bottom of the page."""
     if isinstance(shape, Box):
         corner = f"{shape.x:.2f} {height - shape.y - shape.height:.2f}"
-        return f"1 1 1 rg {_colour(shape.colour)} RG 1 w {corner} {shape.width:.2f} {shape.height:.2f} re B"
+        size = f"{shape.width:.2f} {shape.height:.2f}"
+        return f"1 1 1 rg {_colour(shape.colour)} RG 1 w {corner} {size} re B"
     if isinstance(shape, Line):
         points = [f"{x:.2f} {height - y:.2f}" for x, y in shape.points]
         dashes = "[5 3] 0 d" if shape.dashed else "[] 0 d"
-        return f"{_colour(shape.colour)} RG {shape.width:g} w {dashes} {points[0]} m {' l '.join(points[1:])} l S [] 0 d"
+        path = f"{points[0]} m {' l '.join(points[1:])} l"
+        return f"{_colour(shape.colour)} RG {shape.width:g} w {dashes} {path} S [] 0 d"
     return _text(shape, height)
 
 
 def _text(shape: Text, height: float) -> str:
     letters = shape.text.encode("cp1252", "backslashreplace").hex()
     font = "/F2" if shape.bold else "/F1"
-    return f"BT {_colour(shape.colour)} rg {font} {shape.size:g} Tf {shape.x:.2f} {height - shape.y:.2f} Td <{letters}> Tj ET"
+    place = f"{shape.x:.2f} {height - shape.y:.2f}"
+    colour = f"{_colour(shape.colour)} rg"
+    return f"BT {colour} {font} {shape.size:g} Tf {place} Td <{letters}> Tj ET"
 
 
 def _colour(colour: str) -> str:

@@ -1,4 +1,4 @@
-"""Listens to tf for a while, and draws the tree of frames: ``frames_<date>.gv``, ``.pdf`` and ``.svg``."""
+"""Listens to tf and draws the tree of frames: ``frames_<date>.gv``, ``.pdf`` and ``.svg``."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ INTERRUPTED = 130
 
 
 class ViewFrames(Node):
-    """Collects transforms from its construction on.
+    """Collects transforms.
 
     Args:
-        tf_topic: Where transforms that change come from.
-        tf_static_topic: Where transforms that stay come from.
+        tf_topic: The topic of transforms that change.
+        tf_static_topic: The topic of static transforms.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class ViewFrames(Node):
         self._topics = self.resolve_topic_name(tf_topic), self.resolve_topic_name(tf_static_topic)
 
     def listen(self, wait_time_s: float) -> FrameTree:
-        """Collect for some seconds; what has been heard until then.
+        """Collect for some seconds; the tree of all transforms since construction.
 
         Raises:
             ExternalShutdownException: The context was shut down meanwhile.
@@ -68,7 +68,8 @@ class ViewFrames(Node):
             )
         else:
             self.get_logger().warning(
-                f"No tf data received on {self._topics[0]} and {self._topics[1]}. Is a broadcaster running, in this ROS_DOMAIN_ID?"
+                f"No tf data received on {self._topics[0]} and {self._topics[1]}. "
+                "Is a broadcaster running, in this ROS_DOMAIN_ID?"
             )
         for loop in tree.loops:
             names = printable(" -> ".join([*loop, loop[0]]))
@@ -98,7 +99,7 @@ def _seconds(text: str) -> float:
     except ValueError:
         seconds = -1.0
     if not 0.0 <= seconds < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
     return seconds
 
 
@@ -135,18 +136,20 @@ def _parse(args: Sequence[str]) -> Any:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Listen, then write the files. The exit status: 1 if they cannot be written or a topic has no valid name, 130 after Ctrl-C."""
+    """Listen, then write the files.
+
+    Returns:
+        The exit status: 1 if a file cannot be written or the name of a topic is invalid, 130 after
+        Ctrl-C.
+    """
     wanted = _parse(remove_ros_args(args)[1:])
     rclpy.init(args=args)
     try:
         with ViewFrames(wanted.tf_topic, wanted.tf_static_topic) as node:
             tree = node.listen(wanted.wait_time)
             if wanted.json:
-                # What was asked for.
-                print(  # noqa: T201
-                    json.dumps([link._asdict() for link in tree.links.values()], indent=2),
-                    flush=True,
-                )
+                links = [link._asdict() for link in tree.links.values()]
+                print(json.dumps(links, indent=2), flush=True)  # noqa: T201
                 return 0
             try:
                 node.write(tree, wanted.output or time.strftime("frames_%Y-%m-%d_%H.%M.%S"))

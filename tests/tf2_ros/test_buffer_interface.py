@@ -121,9 +121,7 @@ def test_a_type_without_a_frame_names_the_one_to_take():
     with pytest.raises(TypeException) as error:
         TransformRegistration().get(Pose)
     assert str(error.value) == f"Type {Pose} is not loaded or supported"
-    assert error.value.__notes__ == [
-        "A Pose does not tell in which frame it is: transform a PoseStamped."
-    ]
+    assert error.value.__notes__ == ["A Pose does not name its frame: transform a PoseStamped."]
 
 
 @pytest.mark.usefixtures("_registered")

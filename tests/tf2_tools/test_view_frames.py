@@ -165,7 +165,7 @@ def test_files_that_cannot_be_written(tmp_path):
 def test_no_time_to_wait(wrong, tmp_path):
     run = view_frames(f"--wait-time={wrong}", cwd=tmp_path)
     assert run.returncode == 2
-    assert f"argument -t/--wait-time: '{wrong}' is no number of seconds" in run.stderr
+    assert f"argument -t/--wait-time: '{wrong}' is not a number of seconds" in run.stderr
 
 
 def test_a_topic_that_is_none(tmp_path):

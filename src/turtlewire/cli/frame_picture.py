@@ -153,9 +153,8 @@ def _walk(tree: FrameTree, top: str | None) -> Iterator[tuple[str, str]]:
         children = _by_name(tree.children[frame])
         for child in reversed(children):
             last = child == children[-1]
-            waiting.append(
-                (child, below + ("└─ " if last else "├─ "), below + ("   " if last else "│  "))
-            )
+            corner, line = ("└─ ", "   ") if last else ("├─ ", "│  ")
+            waiting.append((child, below + corner, below + line))
 
 
 def _by_name(frames: Iterable[str]) -> list[str]:

@@ -26,7 +26,7 @@ class Parser(argparse.ArgumentParser):
     def parse_args(  # type: ignore[override]  # a namespace class of the caller's own is not needed
         self, args: Sequence[str] | None = None, namespace: None = None
     ) -> argparse.Namespace:
-        """As argparse, but errors about unknown options name the command that they were given to."""
+        """As argparse, but an error about an unknown option names the command."""
         parsed, unknown = self.parse_known_args(args, namespace)
         if unknown:
             getattr(parsed, "parser", self).error(f"unrecognized arguments: {' '.join(unknown)}")

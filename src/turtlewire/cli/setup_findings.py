@@ -19,8 +19,8 @@ _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
 )
 _OTHER_DISTRO = (
-    "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces of "
-    "turtlesim_msgs."
+    "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces "
+    "of turtlesim_msgs."
 )
 _MIXED = "Leave out one of them: do not source a real ROS in a shell that uses turtlewire-ros."
 _NO_MULTICAST = "A multicast datagram does not come back: nodes on other hosts will not be found."
