@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from launch.actions import ExecuteProcess
 from launch.actions.execute_process import split_command_line
 from launch.frontend import expose_action
+from launch_ros._node.arguments import NodeArguments
+from launch_ros._node.elements import parse_parameters, parse_remappings
 from launch_ros.substitutions import ExecutableInPackage
-from launch_ros.utilities.elements import parse_parameters, parse_remappings
-from launch_ros.utilities.node_arguments import NodeArguments
 from launch_ros.utilities.node_names import add_node_name
 from turtlewire_ros.executables import argv_for
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend import expose_action
+from launch_ros._node.elements import parse_value
 from launch_ros.parameter_descriptions import Parameter
-from launch_ros.utilities.elements import parse_value
 from launch_ros.utilities.scope import add_global_parameter
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend import Entity
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.utilities.elements import parse_parameters, parse_remappings, parse_value
-from launch_ros.utilities.node_arguments import NodeArguments
+from launch_ros._node.arguments import NodeArguments
+from launch_ros._node.elements import parse_parameters, parse_remappings, parse_value
 from launch_ros.utilities.parameter_values import evaluate_parameter_dict
 
 if TYPE_CHECKING:
