@@ -2,8 +2,8 @@
 
 Each formula exists once, so that :class:`turtlesim.model.Turtle` and
 :class:`turtlesim.crowd.Crowd` agree to the last bit. Functions that Python and NumPy call
-differently (``floor``, ``sqrt``) are arguments. Sine and cosine are computed by the caller with :mod:`math`, because NumPy's differ from
-the C library's in the last bit.
+differently (``floor``, ``sqrt``) are arguments. The caller computes sine and cosine with
+:mod:`math`, because NumPy's differ from the C library's in the last bit.
 
 Positions are metres, headings radians; the vertical axis points down.
 """

@@ -3,7 +3,10 @@
 const FOLLOW_ZOOM = 2.5;
 const SETTLE_PER_MS = 0.006;
 
-/** Works in pixels of the canvas; the field's picture has the side `size * zoom`, its corner is at `-left`, `-top`. */
+/**
+ * Works in canvas pixels: the field's picture has the side `size * zoom`, its corner is at `-left`,
+ * `-top`.
+ */
 export class Camera {
   zoom = 1;
   left = 0;
@@ -21,11 +24,12 @@ export class Camera {
     this.#lastTime = null;
   }
 
-  /** Move towards a turtle at `x`, `y`, given in pixels of the whole field on a canvas of side `size`. */
+  /** Move towards a turtle at `x`, `y`, in pixels of the whole field on a canvas of side `size`. */
   look(x, y, size, now) {
     const range = size * (this.zoom - 1);
     const aim = (at) => Math.min(range, Math.max(0, at * this.zoom - size / 2));
-    const step = this.#lastTime === null || this.#still.matches ? 1 : 1 - Math.exp(-SETTLE_PER_MS * (now - this.#lastTime));
+    const jump = this.#lastTime === null || this.#still.matches;
+    const step = jump ? 1 : 1 - Math.exp(-SETTLE_PER_MS * (now - this.#lastTime));
     this.left += step * (aim(x) - this.left);
     this.top += step * (aim(y) - this.top);
     this.#lastTime = now;

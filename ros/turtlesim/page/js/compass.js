@@ -1,4 +1,5 @@
-// Turning to a heading: the keys around F, each for the direction in which it lies from there, as in turtle_teleop_key.
+// Turning to a heading with the keys around F: each turns to the direction in which it lies from F,
+// as in turtle_teleop_key.
 
 import { isForTurtles } from "./controls.js";
 
@@ -8,9 +9,12 @@ const KEYS = [
   ["c", -2.3562], ["v", -1.5708], ["b", -0.7854],
 ];
 
-/** Fill `compass` with buttons; call `rotate(theta)` [rad], and `cancel()` for the one in the middle. */
+/** Fill `compass` with buttons that call `rotate(theta)` [rad]; the middle one calls `cancel()`. */
 export function listenForRotating(compass, { rotate, cancel }) {
-  const buttons = new Map(KEYS.map(([key, theta]) => [key, makeButton(key, theta, () => (theta === null ? cancel() : rotate(theta)))]));
+  const press = (theta) => (theta === null ? cancel() : rotate(theta));
+  const buttons = new Map(
+    KEYS.map(([key, theta]) => [key, makeButton(key, theta, () => press(theta))]),
+  );
   compass.append(...buttons.values());
   addEventListener("keydown", (event) => {
     const button = buttons.get(event.key.toLowerCase());
@@ -31,7 +35,8 @@ function makeButton(key, theta, act) {
   button.setAttribute("aria-keyshortcuts", key);
   button.title = `${button.getAttribute("aria-label")} (key ${key})`;
   const shape = theta === null ? "M7 7l10 10M17 7L7 17" : "M4 12h15M13 6l6 6-6 6";
-  button.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${shape}" transform="rotate(${-degrees} 12 12)"/></svg><kbd>${key}</kbd>`;
+  const path = `<path d="${shape}" transform="rotate(${-degrees} 12 12)"/>`;
+  button.innerHTML = `<svg viewBox="0 0 24 24" aria-hidden="true">${path}</svg><kbd>${key}</kbd>`;
   button.onclick = act;
   return button;
 }

@@ -8,7 +8,10 @@ export class Connection {
   #retryMs = FIRST_RETRY_MS;
   #handlers;
 
-  /** `handlers`: onState("live" or "lost"), onScene(scene), onTransforms(message), onFrame(ArrayBuffer), onError(text). */
+  /**
+   * `handlers`: onState("live" or "lost"), onScene(scene), onTransforms(message),
+   * onFrame(ArrayBuffer), onError(text).
+   */
   constructor(handlers) {
     this.#handlers = handlers;
     this.#open();
@@ -28,7 +31,10 @@ export class Connection {
       this.#retryMs = FIRST_RETRY_MS;
       this.#handlers.onState("live");
     };
-    socket.onmessage = ({ data }) => (typeof data === "string" ? this.#takeText(JSON.parse(data)) : this.#handlers.onFrame(data));
+    socket.onmessage = ({ data }) => {
+      if (typeof data === "string") this.#takeText(JSON.parse(data));
+      else this.#handlers.onFrame(data);
+    };
     socket.onclose = () => {
       this.#handlers.onState("lost");
       setTimeout(() => this.#open(), this.#retryMs);

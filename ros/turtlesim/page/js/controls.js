@@ -11,14 +11,16 @@ const DRIVES = {
 };
 const KEYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right" };
 
-/** Whether a key press is for the turtles: not for the browser, and not for a list in which keys choose. */
+/** Whether a key press is for the turtles, not for the browser or for a list. */
 export function isForTurtles(event) {
-  return !(event.ctrlKey || event.altKey || event.metaKey || event.target instanceof HTMLSelectElement);
+  const forBrowser = event.ctrlKey || event.altKey || event.metaKey;
+  return !(forBrowser || event.target instanceof HTMLSelectElement);
 }
 
 /** Call `drive({linear, angular})` for each press of an arrow key or of the pad. */
 export function listenForDriving(pad, drive) {
-  const buttons = new Map([...pad.querySelectorAll("button")].map((button) => [button.dataset.drive, button]));
+  const all = [...pad.querySelectorAll("button")];
+  const buttons = new Map(all.map((button) => [button.dataset.drive, button]));
   addEventListener("keydown", (event) => {
     const direction = KEYS[event.key];
     if (!direction || !isForTurtles(event)) return;
@@ -28,7 +30,9 @@ export function listenForDriving(pad, drive) {
   });
   addEventListener("keyup", (event) => buttons.get(KEYS[event.key])?.classList.remove("pressed"));
   addEventListener("blur", () => buttons.forEach((button) => button.classList.remove("pressed")));
-  for (const [direction, button] of buttons) repeatWhilePressed(button, () => drive(DRIVES[direction]));
+  for (const [direction, button] of buttons) {
+    repeatWhilePressed(button, () => drive(DRIVES[direction]));
+  }
 }
 
 function repeatWhilePressed(button, act) {
@@ -40,7 +44,9 @@ function repeatWhilePressed(button, act) {
     clearInterval(timer);
     timer = setInterval(act, REPEAT_MS);
   });
-  for (const type of ["pointerup", "pointercancel", "pointerleave"]) button.addEventListener(type, release);
+  for (const type of ["pointerup", "pointercancel", "pointerleave"]) {
+    button.addEventListener(type, release);
+  }
   button.addEventListener("click", (event) => {
     if (event.detail === 0) act(); // the keyboard or a screen reader pressed it
   });

@@ -1,4 +1,5 @@
-// The field: two canvases on top of each other. The ground changes when something is drawn, the turtles with every display frame.
+// The field: two canvases on top of each other. The ground changes when a pen draws, the turtles
+// with every display frame.
 
 import { Camera } from "./camera.js";
 import { FIELD_METRES, IMAGE_PIXELS, PIXELS_PER_METRE } from "./frames.js";
@@ -52,8 +53,8 @@ export class Field {
   }
 
   /**
-   * Draw a display frame: `names` and `poses` in the same order, `driven` is the name that gets the ring, and `ghost` a turtle
-   * that is being placed, as { name, x, y, theta }, or null.
+   * Draw a display frame: `names` and `poses` in the same order, `driven` is the name that gets the
+   * ring, and `ghost` a turtle that is being placed, as { name, x, y, theta }, or null.
    */
   drawTurtles(names, poses, driven, ghost, now) {
     this.#lookAt(poses[names.indexOf(driven)], now);
@@ -77,9 +78,11 @@ export class Field {
   /** The place in the field [m] below a pointer event. */
   placeOf({ clientX, clientY }) {
     const box = this.canvas.getBoundingClientRect();
-    const [x, y] = [clientX - box.left, clientY - box.top].map((pixels) => (pixels * this.#size) / box.width);
+    const scale = this.#size / box.width;
+    const [x, y] = [(clientX - box.left) * scale, (clientY - box.top) * scale];
     const half = PIXEL_CENTRE * (this.#scale / PIXELS_PER_METRE);
-    return { x: (x + this.#camera.left - half) / this.#scale, y: FIELD_METRES - (y + this.#camera.top - half) / this.#scale };
+    const metres = (pixels) => (pixels - half) / this.#scale;
+    return { x: metres(x + this.#camera.left), y: FIELD_METRES - metres(y + this.#camera.top) };
   }
 
   /** What is seen, as a PNG. */
@@ -99,14 +102,19 @@ export class Field {
 
   #toCanvas({ x, y }) {
     const half = PIXEL_CENTRE * (this.#scale / PIXELS_PER_METRE);
-    return [x * this.#scale + half - this.#camera.left, (FIELD_METRES - y) * this.#scale + half - this.#camera.top];
+    const pixels = (metres) => metres * this.#scale + half;
+    return [pixels(x) - this.#camera.left, pixels(FIELD_METRES - y) - this.#camera.top];
   }
 
   #lookAt(pose, now) {
     if (!pose || !this.follows) this.#camera.rest();
-    else this.#camera.look((pose.x / FIELD_METRES) * this.#size, (1 - pose.y / FIELD_METRES) * this.#size, this.#size, now);
+    else {
+      const [x, y] = [pose.x / FIELD_METRES, 1 - pose.y / FIELD_METRES];
+      this.#camera.look(x * this.#size, y * this.#size, this.#size, now);
+    }
     const { left, top } = this.#camera;
-    this.#ground.canvas.style.transform = `translate(${-left * this.#pixelsToCss}px, ${-top * this.#pixelsToCss}px)`;
+    const [x, y] = [-left * this.#pixelsToCss, -top * this.#pixelsToCss];
+    this.#ground.canvas.style.transform = `translate(${x}px, ${y}px)`;
   }
 
   #fitToScreen() {

@@ -8,9 +8,13 @@ const POSE_FLOATS = 5;
 const STROKE_WORDS = 5;
 const HEADER_WORDS = 5;
 
-/** Take a frame apart. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and width, x0, y0, x1, y1]. */
+/**
+ * Take a frame apart. Poses are [x, y, theta, v, w] for each turtle; strokes are [colour and width,
+ * x0, y0, x1, y1].
+ */
 export function decodeFrame(buffer) {
-  const [tick, version, turtleCount, strokeCount, restart] = new Uint32Array(buffer, 0, HEADER_WORDS);
+  const header = new Uint32Array(buffer, 0, HEADER_WORDS);
+  const [tick, version, turtleCount, strokeCount, restart] = header;
   const strokesAt = 4 * (HEADER_WORDS + POSE_FLOATS * turtleCount);
   return {
     tick,
@@ -33,9 +37,10 @@ export function poseOf(frame, index) {
   return { x, y, theta, v, w };
 }
 
-/** Plays frames a little behind their arrival, so that the turtles move smoothly whatever the display's rate and the network's mood. */
+/** Plays frames a little late, so that turtles move smoothly at any display rate. */
 export class Playback {
-  static #DELAY = 1.5; // in frames; they are one tick apart, with a crowd two, and more when the machine is busy
+  // In frames, which are one tick apart, with a crowd two, and more when the machine is busy.
+  static #DELAY = 1.5;
   static #LONGEST_GAP = 4; // [ticks]
   static #KEPT = 16;
   #frames = [];
@@ -61,8 +66,10 @@ export class Playback {
     while (i > 0 && this.#frames[i].tick > this.#head) i -= 1;
     const a = this.#frames[i];
     const b = this.#frames[i + 1] ?? a;
-    const part = b.tick > a.tick ? Math.min(1, Math.max(0, (this.#head - a.tick) / (b.tick - a.tick))) : 1;
-    return Array.from({ length: a.turtleCount }, (_, k) => between(poseOf(a, k), poseOf(b, k), part));
+    const share = (this.#head - a.tick) / (b.tick - a.tick);
+    const part = b.tick > a.tick ? Math.min(1, Math.max(0, share)) : 1;
+    const pose = (k) => between(poseOf(a, k), poseOf(b, k), part);
+    return Array.from({ length: a.turtleCount }, (_, k) => pose(k));
   }
 
   #advance(now) {
@@ -79,5 +86,6 @@ export class Playback {
 function between(a, b, part) {
   if (Math.hypot(b.x - a.x, b.y - a.y) > 1.5) return b; // a teleport, not a movement
   const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
-  return { ...b, x: a.x + part * (b.x - a.x), y: a.y + part * (b.y - a.y), theta: a.theta + part * turn };
+  const [x, y] = [a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)];
+  return { ...b, x, y, theta: a.theta + part * turn };
 }

@@ -20,12 +20,15 @@ export class FramesPanel {
 
   /** Say (again) what is wanted; a new connection knows nothing of it. */
   watch() {
-    this.#onWatch(byId("frames").open ? { target: byId("target").value, source: byId("source").value } : null);
+    const chosen = { target: byId("target").value, source: byId("source").value };
+    this.#onWatch(byId("frames").open ? chosen : null);
   }
 
-  /** `message`: frames as [name, parent, rate or null, age or null], and the relation that was asked for. */
+  /** `message`: frames as [name, parent, rate or null, age or null], and the chosen relation. */
   show(message) {
-    const frames = message.frames.slice(0, MOST_FRAMES).map(([name, parent, rate, age]) => ({ name, parent, rate, age }));
+    const frames = message.frames
+      .slice(0, MOST_FRAMES)
+      .map(([name, parent, rate, age]) => ({ name, parent, rate, age }));
     const shape = frames.map(({ name, parent }) => `${parent}/${name}`).join("\n");
     if (shape !== this.#shape) this.#rebuild(frames, message.frames.length);
     this.#shape = shape;
@@ -73,8 +76,9 @@ export class FramesPanel {
   #offer(names) {
     for (const [id, wish] of [["target", "turtle2"], ["source", "turtle1"]]) {
       const select = byId(id);
-      const chosen = names.includes(select.value) ? select.value : names.includes(wish) ? wish : names[0];
-      select.replaceChildren(...names.map((name) => new Option(name, name, false, name === chosen)));
+      const chosen = [select.value, wish].find((name) => names.includes(name)) ?? names[0];
+      const options = names.map((name) => new Option(name, name, false, name === chosen));
+      select.replaceChildren(...options);
     }
     this.watch();
   }
@@ -82,24 +86,29 @@ export class FramesPanel {
   #showRelation({ target, source, relation }) {
     const words = byId("relation-words");
     const detail = byId("relation-detail");
-    words.textContent = !relation ? "" : relation.error ? relation.error : transformInWords(source, target, relation);
+    if (!relation) words.textContent = "";
+    else words.textContent = relation.error || transformInWords(source, target, relation);
     words.toggleAttribute("data-error", Boolean(relation?.error));
     detail.textContent = !relation ? "" : relation.error ? relation.hint : numbers(relation);
   }
 }
 
 function numbers({ translation, rotation }) {
-  const list = (values) => values.map((value) => (value === null ? "not finite" : value.toFixed(3))).join(", ");
+  const number = (value) => (value === null ? "not finite" : value.toFixed(3));
+  const list = (values) => values.map(number).join(", ");
   return `translation ${list(translation)} · rotation xyzw ${list(rotation)}`;
 }
 
 function ageInWords(seconds) {
   if (seconds < -STALE_SECONDS) return `${(-seconds).toFixed(1)} s in the future`;
-  return seconds < STALE_SECONDS ? `${Math.max(0, 1000 * seconds).toFixed(0)} ms old` : `${seconds.toFixed(1)} s old`;
+  if (seconds >= STALE_SECONDS) return `${seconds.toFixed(1)} s old`;
+  return `${Math.max(0, 1000 * seconds).toFixed(0)} ms old`;
 }
 
 function groupByParent(frames) {
   const groups = new Map();
-  for (const frame of frames) groups.set(frame.parent, [...(groups.get(frame.parent) ?? []), frame]);
+  for (const frame of frames) {
+    groups.set(frame.parent, [...(groups.get(frame.parent) ?? []), frame]);
+  }
   return groups;
 }

@@ -7,7 +7,8 @@ export function paintGround(ctx, background) {
   const size = ctx.canvas.width;
   ctx.fillStyle = `rgb(${background.join(" ")})`;
   ctx.fillRect(0, 0, size, size);
-  const light = ctx.createRadialGradient(0.35 * size, 0.25 * size, 0, 0.5 * size, 0.5 * size, 0.8 * size);
+  const [x, y, middle, radius] = [0.35, 0.25, 0.5, 0.8].map((share) => share * size);
+  const light = ctx.createRadialGradient(x, y, 0, middle, middle, radius);
   light.addColorStop(0, "rgb(255 255 255 / 9%)");
   light.addColorStop(1, "rgb(0 0 20 / 14%)");
   ctx.fillStyle = light;

@@ -16,7 +16,9 @@ const byId = (id) => document.getElementById(id);
 const field = new Field(byId("ground"), byId("turtles"));
 const playback = new Playback();
 const panel = new Panel(choose);
-const framesPanel = new FramesPanel((watch) => connection.send(watch ? { type: "watch", ...watch } : { type: "unwatch" }));
+const framesPanel = new FramesPanel((watch) => {
+  connection.send(watch ? { type: "watch", ...watch } : { type: "unwatch" });
+});
 const pointer = new Pointer(field, {
   turtles: () => (newestPoses() ?? []).map((pose, k) => ({ name: scene.turtles[k], ...pose })),
   choose,
@@ -53,7 +55,8 @@ function takeScene(message) {
 function takeFrame(buffer) {
   const frame = decodeFrame(buffer);
   field.addStrokes(frame.strokes, frame.restart);
-  if (frame.version === scene.version && frame.turtleCount === scene.turtles.length) playback.push(frame);
+  const isCurrent = frame.version === scene.version;
+  if (isCurrent && frame.turtleCount === scene.turtles.length) playback.push(frame);
 }
 
 function choose(name) {
@@ -97,10 +100,11 @@ listenForRotating(byId("compass"), {
   cancel: () => driven !== null && connection.send({ type: "cancel", turtle: driven }),
 });
 
-/** By mouse or finger, the next press on the field places the turtle; by keyboard it appears somewhere. */
+/** By pointer, the next press on the field places the turtle; by keyboard its place is random. */
 byId("spawn").onclick = ({ detail }) => {
   const somewhere = () => 1 + Math.random() * (FIELD_METRES - 2);
-  if (detail === 0) spawn({ x: somewhere(), y: somewhere(), theta: (2 * Math.random() - 1) * Math.PI });
+  const theta = (2 * Math.random() - 1) * Math.PI;
+  if (detail === 0) spawn({ x: somewhere(), y: somewhere(), theta });
   else pointer.setPlacing(!pointer.placing);
 };
 

@@ -23,7 +23,8 @@ export class Panel {
     this.#announceChanges(scene.turtles);
     this.#names = scene.turtles;
     this.#rows.clear();
-    byId("roster").replaceChildren(...scene.turtles.slice(0, MOST_ROWS).map((name) => this.#row(name)));
+    const rows = scene.turtles.slice(0, MOST_ROWS).map((name) => this.#row(name));
+    byId("roster").replaceChildren(...rows);
     const hidden = scene.turtles.length - MOST_ROWS;
     byId("more").hidden = hidden <= 0;
     byId("more").textContent = `and ${hidden} more`;
@@ -32,14 +33,17 @@ export class Panel {
 
   showDriven(driven) {
     byId("driven").textContent = driven ?? "(no turtle)";
-    for (const [name, { button }] of this.#rows) button.setAttribute("aria-pressed", String(name === driven));
+    for (const [name, { button }] of this.#rows) {
+      button.setAttribute("aria-pressed", String(name === driven));
+    }
   }
 
   /** Numbers and sentences; `poses` in the scene's order. */
   showPoses(poses, driven) {
     this.#names.slice(0, MOST_ROWS).forEach((name, k) => {
       const { x, y, theta, v, w } = poses[k];
-      const texts = [x.toFixed(2), y.toFixed(2), `${Math.round((theta * 180) / Math.PI)}°`, v.toFixed(2), w.toFixed(2)];
+      const degrees = `${Math.round((theta * 180) / Math.PI)}°`;
+      const texts = [x.toFixed(2), y.toFixed(2), degrees, v.toFixed(2), w.toFixed(2)];
       this.#rows.get(name).cells.forEach((cell, column) => setText(cell, texts[column]));
     });
     setText(byId("words"), this.#sentences(poses, driven).join(" · "));
@@ -106,7 +110,10 @@ export class Panel {
   #announceChanges(names) {
     const came = names.filter((name) => !this.#names.includes(name));
     const went = this.#names.filter((name) => !names.includes(name));
-    const parts = [came.length && `${came.slice(0, 5).join(", ")} appeared`, went.length && `${went.slice(0, 5).join(", ")} left`];
+    const parts = [
+      came.length && `${came.slice(0, 5).join(", ")} appeared`,
+      went.length && `${went.slice(0, 5).join(", ")} left`,
+    ];
     const text = parts.filter(Boolean).join("; ");
     if (text) this.announce(text);
   }

@@ -12,7 +12,10 @@ export class Pointer {
   /** The turtle in the user's hand, for Field.drawTurtles, or null. */
   ghost = null;
 
-  /** `actions`: turtles() gives [{ name, x, y, theta }]; choose(name), move(name, place), spawn(place), placingChanged(on). */
+  /**
+   * `actions`: turtles() returns [{ name, x, y, theta }]; choose(name), move(name, place),
+   * spawn(place), placingChanged(on).
+   */
   constructor(field, actions) {
     this.#field = field;
     this.#actions = actions;
@@ -56,7 +59,10 @@ export class Pointer {
     const [dx, dy] = [place.x - this.#start.x, place.y - this.#start.y];
     if (Math.hypot(dx, dy) < DRAG_METRES) return;
     if (this.#placing) this.ghost = { ...this.ghost, theta: Math.atan2(dy, dx) };
-    else if (this.#grabbed) this.ghost = { name: this.#grabbed.name, ...place, theta: this.#grabbed.theta };
+    else if (this.#grabbed) {
+      const { name, theta } = this.#grabbed;
+      this.ghost = { name, ...place, theta };
+    }
   }
 
   #up() {

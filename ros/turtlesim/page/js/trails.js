@@ -3,7 +3,8 @@
 import { IMAGE_PIXELS } from "./frames.js";
 
 const MOST_LINES = 400_000;
-const LINES_IN_A_PATH = 50; // a path of a thousand lines takes half as long again as the same lines in short paths
+// The same lines in one path of a thousand take half as long again as in short paths.
+const LINES_IN_A_PATH = 50;
 
 export class Trails {
   #points = new Float32Array(4 * 1024);
@@ -14,7 +15,7 @@ export class Trails {
     this.count = 0;
   }
 
-  /** Add lines; the oldest are forgotten when there are too many. Returns the number of the first new line. */
+  /** Add lines, and drop the oldest if there are too many; the number of the first new line. */
   append(strokes) {
     if (this.count + strokes.count > MOST_LINES) this.#forgetHalf();
     const first = this.count;
@@ -27,7 +28,7 @@ export class Trails {
     return first;
   }
 
-  /** Draw the lines from number `first` on into a square of `size` device pixels; neighbours of one pen become one path. */
+  /** Draw the lines from `first` on into a square of `size` device pixels, a path for each pen. */
   draw(ctx, size, first = 0) {
     const scale = size / IMAGE_PIXELS;
     ctx.lineCap = "round";
@@ -38,7 +39,8 @@ export class Trails {
       ctx.strokeStyle = `rgb(${pen >>> 24} ${(pen >>> 16) & 255} ${(pen >>> 8) & 255})`;
       ctx.lineWidth = (pen & 255) * scale;
       ctx.beginPath();
-      for (end = start; end < this.count && end < start + LINES_IN_A_PATH && this.#pens[end] === pen; end += 1) {
+      const limit = Math.min(this.count, start + LINES_IN_A_PATH);
+      for (end = start; end < limit && this.#pens[end] === pen; end += 1) {
         ctx.moveTo(points[4 * end] * scale, points[4 * end + 1] * scale);
         ctx.lineTo(points[4 * end + 2] * scale, points[4 * end + 3] * scale);
       }

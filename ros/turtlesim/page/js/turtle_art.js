@@ -1,4 +1,4 @@
-// A turtle from above, drawn with curves. Unit: metres, looking along +x; a turtle is about one metre long.
+// A turtle from above, drawn with curves, looking along +x, about one metre long. Unit: metres.
 
 /** Draw a turtle at the origin of `ctx`. `stride` in [-1, 1] is how far the flippers have swung. */
 export function drawTurtle(ctx, look, stride) {
@@ -83,18 +83,26 @@ const SHELLS = {
       ctx.quadraticCurveTo(-0.3, 0.09, -0.16, 0.2);
       ctx.bezierCurveTo(0.02, 0.34, 0.27, 0.24, 0.27, 0);
     });
-    for (const x of [0.13, -0.02, -0.165]) scute(ctx, look, [[x + 0.065, 0], [x + 0.02, -0.062], [x - 0.055, -0.055], [x - 0.08, 0], [x - 0.055, 0.055], [x + 0.02, 0.062]]);
+    for (const x of [0.13, -0.02, -0.165]) {
+      const left = [[x - 0.055, 0.055], [x + 0.02, 0.062]];
+      const right = [[x + 0.02, -0.062], [x - 0.055, -0.055]];
+      scute(ctx, look, [[x + 0.065, 0], ...right, [x - 0.08, 0], ...left]);
+    }
     for (const side of [-1, 1]) {
-      scute(ctx, look, [[0.2, side * 0.08], [0.13, side * 0.09], [0.09, side * 0.2], [0.17, side * 0.17]]);
-      scute(ctx, look, [[0.1, side * 0.1], [-0.03, side * 0.1], [-0.06, side * 0.22], [0.05, side * 0.225]]);
-      scute(ctx, look, [[-0.07, side * 0.095], [-0.19, side * 0.075], [-0.18, side * 0.15], [-0.1, side * 0.205]]);
+      const put = (points) => scute(ctx, look, points.map(([x, y]) => [x, side * y]));
+      put([[0.2, 0.08], [0.13, 0.09], [0.09, 0.2], [0.17, 0.17]]);
+      put([[0.1, 0.1], [-0.03, 0.1], [-0.06, 0.22], [0.05, 0.225]]);
+      put([[-0.07, 0.095], [-0.19, 0.075], [-0.18, 0.15], [-0.1, 0.205]]);
     }
   },
   box(ctx, look) {
     shell(ctx, look, () => ctx.roundRect(-0.31, -0.25, 0.59, 0.5, 0.19));
     for (const x of [-0.21, -0.07, 0.07]) {
       scute(ctx, look, [[x, -0.07], [x + 0.115, -0.07], [x + 0.115, 0.07], [x, 0.07]]);
-      for (const side of [-1, 1]) scute(ctx, look, [[x, side * 0.098], [x + 0.115, side * 0.098], [x + 0.105, side * 0.19], [x + 0.01, side * 0.19]]);
+      for (const side of [-1, 1]) {
+        const [inner, outer] = [side * 0.098, side * 0.19];
+        scute(ctx, look, [[x, inner], [x + 0.115, inner], [x + 0.105, outer], [x + 0.01, outer]]);
+      }
     }
   },
 };
@@ -126,7 +134,10 @@ function scute(ctx, look, points) {
 }
 
 function hexagon(x, y, radius) {
-  return Array.from({ length: 6 }, (_, k) => [x + radius * Math.cos((k * Math.PI) / 3), y + radius * Math.sin((k * Math.PI) / 3)]);
+  return Array.from({ length: 6 }, (_, k) => {
+    const angle = (k * Math.PI) / 3;
+    return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+  });
 }
 
 function disc(ctx, x, y, radius, colour) {

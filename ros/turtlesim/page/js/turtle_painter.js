@@ -1,4 +1,5 @@
-// Puts turtles, their names and rings onto a canvas; each look and each swing of the flippers is drawn once and kept.
+// Draws turtles, their names and rings onto a canvas; each look and each swing of the flippers is
+// drawn once and kept.
 
 import { lookOf } from "./looks.js";
 import { drawTurtle } from "./turtle_art.js";
@@ -17,7 +18,10 @@ export class TurtlePainter {
   #swings = new Map();
   #still = matchMedia("(prefers-reduced-motion: reduce)");
 
-  /** `turtles`: [{ name, pose, at: [x, y] }] with canvas pixels; `scale`: canvas pixels to the metre; the rest as in Field. */
+  /**
+   * `turtles`: [{ name, pose, at: [x, y] }] in canvas pixels; `scale`: canvas pixels per metre; the
+   * rest as in Field.
+   */
   paint(ctx, { turtles, ghost, driven, scale, now }) {
     if (scale !== this.#spriteScale) this.#sprites.clear();
     this.#spriteScale = scale;
@@ -32,7 +36,8 @@ export class TurtlePainter {
       this.#put(ctx, ghost.name, ghost.at, ghost.theta, 0);
       ctx.globalAlpha = 1;
     }
-    if (turtles.length <= MOST_NAMES) for (const { name, at } of turtles) label(ctx, name, at, scale);
+    if (turtles.length > MOST_NAMES) return;
+    for (const { name, at } of turtles) label(ctx, name, at, scale);
   }
 
   keepOnly(names) {
@@ -47,7 +52,7 @@ export class TurtlePainter {
     ctx.setTransform(1, 0, 0, 1, 0, 0);
   }
 
-  /** Put a turtle that was turned beforehand: without a graphics card a browser copies it ten times faster than it turns one. */
+  /** Copy a turned turtle: without a graphics card this is ten times faster than turning one. */
   #stamp(ctx, name, [x, y], theta) {
     const heading = ((Math.round((theta / FULL_TURN) * HEADINGS) % HEADINGS) + HEADINGS) % HEADINGS;
     const sprite = this.#sprite(name, 0, heading);
@@ -95,7 +100,9 @@ function ring(ctx, [x, y], scale) {
 
 /** The name below the turtle, above it at the lower edge, and always inside of the canvas. */
 function label(ctx, fullName, [x, y], scale) {
-  const name = fullName.length > LONGEST_LABEL ? `${fullName.slice(0, LONGEST_LABEL / 2)}…${fullName.slice(1 - LONGEST_LABEL / 2)}` : fullName;
+  const half = LONGEST_LABEL / 2;
+  const isLong = fullName.length > LONGEST_LABEL;
+  const name = isLong ? `${fullName.slice(0, half)}…${fullName.slice(1 - half)}` : fullName;
   const size = ctx.canvas.width;
   const font = Math.max(11 * devicePixelRatio, size / 45);
   ctx.font = `600 ${font}px system-ui, sans-serif`;
