@@ -171,7 +171,8 @@ class StaticTransformListener(TransformListener):
 def _make_node() -> Any:
     from rclpy.node import Node
 
-    return Node("transform_listener_impl", enable_rosout=False, start_parameter_services=False)
+    name = engine.new_node_name()
+    return Node(name, enable_rosout=False, start_parameter_services=False)
 
 
 def _profile(qos: QoSProfile | int | None, default: QoSProfile) -> QoSProfile:

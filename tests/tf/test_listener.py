@@ -293,6 +293,11 @@ def test_alone_it_joins_the_domain_of_the_environment(monkeypatch):
     with TransformListener(buffer):
         publisher.publish(tf_bytes("world", "robot"))
         buffer.lookup_transform("world", "robot", 0, LONG_NS)
-        assert [node.name for node in sender.graph.nodes()] == ["talker", "transform_listener"]
+        with TransformListener(Buffer()):
+            talker, *listeners = [node.name for node in sender.graph.nodes()]
+            assert talker == "talker"
+            # Nodes of one name in two processes would be a conflict that users are warned of.
+            assert len(set(listeners)) == 2
+            assert all(name.startswith("transform_listener_impl_") for name in listeners)
     assert [node.name for node in sender.graph.nodes()] == ["talker"]
     sender.close()

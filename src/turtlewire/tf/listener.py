@@ -8,6 +8,7 @@ whose name it finds out, and for malformed ones: the others go the short way, th
 
 from __future__ import annotations
 
+import os
 import threading
 from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
@@ -45,7 +46,15 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["QOS", "STATIC_QOS", "STATIC_TOPIC", "TOPIC", "TYPE_NAME", "TransformListener"]
+__all__ = [
+    "QOS",
+    "STATIC_QOS",
+    "STATIC_TOPIC",
+    "TOPIC",
+    "TYPE_NAME",
+    "TransformListener",
+    "new_node_name",
+]
 
 #: Where transforms that change are published.
 TOPIC = "/tf"
@@ -270,6 +279,11 @@ class _Channels:
 _channels = _Channels()
 
 
+def new_node_name() -> str:
+    """A node name for a listener that no other process has, as in ROS 2."""
+    return f"transform_listener_impl_{os.urandom(6).hex()}"
+
+
 class TransformListener:
     """Keeps a buffer filled until it is closed; also a context manager.
 
@@ -303,7 +317,7 @@ class TransformListener:
         self._own_context = wire.open_context() if context is None else None
         context = context or self._own_context
         assert context is not None
-        self._own_node = context.create_node("transform_listener") if node is None else None
+        self._own_node = context.create_node(new_node_name()) if node is None else None
         node = node or self._own_node
         assert node is not None
         self._member = _Member(node, context.graph, buffer)
