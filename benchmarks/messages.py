@@ -23,11 +23,19 @@ import time
 from turtlewire import msg
 import turtlewire.msg.encoder, hashlib
 start = time.perf_counter()
-services = "DescribeParameters GetParameterTypes GetParameters ListParameters SetParameters SetParametersAtomically".split()
+services = (
+    "DescribeParameters GetParameterTypes GetParameters ListParameters SetParameters "
+    "SetParametersAtomically"
+).split()
 for service in services:
     for part in ("Request", "Response"):
         msg.type_hash(f"rcl_interfaces/srv/{service}_{part}")
-for name in ("rcl_interfaces/msg/ParameterEvent", "rcl_interfaces/msg/Log", "geometry_msgs/msg/Twist", "turtlesim/msg/Pose"):
+for name in (
+    "rcl_interfaces/msg/ParameterEvent",
+    "rcl_interfaces/msg/Log",
+    "geometry_msgs/msg/Twist",
+    "turtlesim/msg/Pose",
+):
     msg.type_hash(name)
     msg.serialize(msg.get_message(name)())
 print((time.perf_counter() - start) * 1e9)

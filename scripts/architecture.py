@@ -78,7 +78,7 @@ class House:
         return name if name in self.paths else None
 
     def circles(self, *kinds: str) -> list[list[str]]:
-        """Groups of modules that import each other by these kinds of imports, the greatest first."""
+        """Groups of modules that import each other by these kinds of imports, largest first."""
         arrows = defaultdict(set)
         for found in self.imports:
             if found.kind in kinds:

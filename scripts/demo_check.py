@@ -222,7 +222,8 @@ class Observer:
     def figures(self) -> str:
         """What was measured, in one line."""
         return (
-            f"largest distance {self.largest_distance:.2f} m, final distance {self.distance:.3f} m, "
+            f"largest distance {self.largest_distance:.2f} m, final distance {self.distance:.3f} "
+            "m, "
             f"{self.lookups} lookups, "
             f"{self.first_movement_s:.2f} s from the command to {FOLLOWER}'s first movement"
         )

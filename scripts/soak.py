@@ -1,4 +1,7 @@
-"""What scripts/soak does once .venv is there: lets a robot's processes run while others come and go, and measures them."""
+"""What scripts/soak does once .venv is there.
+
+Lets a robot's processes run while others come and go, and measures them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages as text and text as messages, and interface classes by name, as ROS 2's package of this name."""
+"""Messages as text, text as messages, and interface classes by name."""
 
 from __future__ import annotations
 

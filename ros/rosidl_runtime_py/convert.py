@@ -70,7 +70,10 @@ def message_to_yaml(
 def message_to_ordereddict(
     msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
-    """A message as an ordered dictionary of plain Python values; the arguments are those of `message_to_yaml`."""
+    """A message as an ordered dictionary of plain Python values.
+
+    The arguments are those of `message_to_yaml`.
+    """
 
     def convert(value: Any, type_: AbstractType | None) -> Any:
         if hasattr(value, "SLOT_TYPES"):
@@ -99,7 +102,10 @@ def message_to_ordereddict(
 def message_to_csv(
     msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> str:
-    """A message as comma-separated values, nested ones flattened; the arguments are those of `message_to_yaml`."""
+    """A message as comma-separated values, nested ones flattened.
+
+    The arguments are those of `message_to_yaml`.
+    """
 
     def convert(value: Any, type_: AbstractType | None) -> str:
         if hasattr(value, "SLOT_TYPES"):

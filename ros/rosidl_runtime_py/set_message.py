@@ -1,4 +1,4 @@
-"""Fills messages from dictionaries, as `ros2 topic pub` and `ros2 service call` get them from YAML."""
+"""Fills messages from dictionaries, which `ros2 topic pub` and its like read from YAML."""
 
 from __future__ import annotations
 

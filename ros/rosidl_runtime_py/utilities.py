@@ -46,17 +46,26 @@ def get_interface(identifier: str) -> Any:
 
 
 def get_message(identifier: str) -> Any:
-    """Class of a message, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``; raises as `get_interface` does."""
+    """Class of a message, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
+
+    Raises as `get_interface` does.
+    """
     return _get(identifier, "msg", Message, "message")
 
 
 def get_service(identifier: str) -> Any:
-    """Class of a service, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``; raises as `get_interface` does."""
+    """Class of a service, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
+
+    Raises as `get_interface` does.
+    """
     return _get(identifier, "srv", Service, "service")
 
 
 def get_action(identifier: str) -> Any:
-    """Class of an action, ``turtlesim/action/RotateAbsolute`` or without the middle; raises as `get_interface` does."""
+    """Class of an action, ``turtlesim/action/RotateAbsolute`` or without the middle.
+
+    Raises as `get_interface` does.
+    """
     return _get(identifier, "action", Action, "action")
 
 

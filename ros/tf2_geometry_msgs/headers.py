@@ -11,12 +11,16 @@ __all__ = ["copy_of", "header_of"]
 
 
 def header_of(transform: Any) -> Header:
-    """A header of its own with frame and stamp of a ``TransformStamped``: the data is now in that frame, and of that time."""
+    """A header of its own with frame and stamp of a ``TransformStamped``.
+
+    The data is now in that frame, and of that time.
+    """
     try:
         header = transform.header
     except AttributeError:
         raise TypeError(
-            f"stamped data needs a geometry_msgs.msg.TransformStamped, whose header says in which frame the result is; "
+            "stamped data needs a geometry_msgs.msg.TransformStamped, whose header says in which "
+            "frame the result is; "
             f"got {type(transform).__name__}"
         ) from None
     return copy_of(header.stamp, header.frame_id)

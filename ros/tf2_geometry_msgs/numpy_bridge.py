@@ -94,12 +94,18 @@ def quaternion_from_array(array: ArrayLike) -> Quaternion:
 
 
 def euler_from_quaternion(quaternion: Quaternion, axes: str = "sxyz") -> Array:
-    """Three angles in the order that ``axes`` names; unless it is given roll, pitch, yaw about static axes."""
+    """Three angles in the order that ``axes`` names.
+
+    Unless it is given roll, pitch, yaw about static axes.
+    """
     return conversions.euler_from_quaternion(array_from_quaternion(quaternion), axes)
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quaternion:
-    """A Quaternion of three angles in the order that ``axes`` names; unless it is given roll, pitch, yaw about static axes."""
+    """A Quaternion of three angles in the order that ``axes`` names.
+
+    Unless it is given roll, pitch, yaw about static axes.
+    """
     return quaternion_from_array(conversions.quaternion_from_euler((ai, aj, ak), axes))
 
 
@@ -124,7 +130,10 @@ def poses_from_array(array: ArrayLike) -> list[Pose]:
 
 
 def matrix_from_pose(pose: Pose) -> Array:
-    """Shape ``(4, 4)``: takes what is given in the frame of the pose into the frame in which the pose is given."""
+    """Shape ``(4, 4)``.
+
+    Takes what is given in the frame of the pose into the frame in which the pose is given.
+    """
     return conversions.matrix_from_pose(array_from_pose(pose))
 
 

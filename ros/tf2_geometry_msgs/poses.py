@@ -77,7 +77,8 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     for index, pose in enumerate(path.poses):
         if pose.header.frame_id not in {"", frame}:
             raise ValueError(
-                f"poses[{index}] is in frame {pose.header.frame_id!r}, the path in {frame!r}: one transform cannot take both; "
+                f"poses[{index}] is in frame {pose.header.frame_id!r}, the path in {frame!r}: one "
+                "transform cannot take both; "
                 f"transform the poses one by one"
             )
     header = header_of(transform)
@@ -103,7 +104,7 @@ def do_transform_pose_with_covariance(
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """An uncertain pose in the frame of a transform that is certain, with stamp and frame of the transform."""
+    """An uncertain pose in the frame of an exact transform, with its stamp and frame."""
     return PoseWithCovarianceStamped(
         header=header_of(transform), pose=do_transform_pose_with_covariance(pose.pose, transform)
     )

@@ -64,7 +64,10 @@ def do_transform_twist_stamped(twist: TwistStamped, transform: TransformStamped)
 def do_transform_velocity_stamped(
     velocity: VelocityStamped, transform: TransformStamped
 ) -> VelocityStamped:
-    """:func:`do_transform_twist` with stamp and frame of the transform; whose velocity it is, and relative to what, stays."""
+    """:func:`do_transform_twist` with stamp and frame of the transform.
+
+    Whose velocity it is, and relative to what, stays.
+    """
     return VelocityStamped(
         header=header_of(transform),
         body_frame_id=velocity.body_frame_id,
@@ -76,7 +79,7 @@ def do_transform_velocity_stamped(
 def do_transform_twist_with_covariance(
     twist: TwistWithCovariance, transform: TransformStamped | Any
 ) -> TwistWithCovariance:
-    """An uncertain motion, stated for the origin of the target frame and in its axes, by a transform that is certain."""
+    """An uncertain motion at the origin of the target frame, in its axes; exact transform."""
     moved = do_transform_twist(twist.twist, transform)
     return TwistWithCovariance(
         twist=moved, covariance=transform_twist_covariance(twist.covariance, transform)

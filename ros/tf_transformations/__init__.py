@@ -1,4 +1,6 @@
-"""Quaternions, Euler angles and 4x4 matrices: the functions of ROS 2's ``tf_transformations`` 1.1.1.
+"""Quaternions, Euler angles and 4x4 matrices.
+
+The functions of ROS 2's ``tf_transformations`` 1.1.1.
 
 Quaternions are ``(x, y, z, w)``, angles radians, matrices ``(4, 4)`` arrays that act on column
 vectors from the left. Euler angles name their axes: ``"sxyz"`` is roll, pitch, yaw about the static

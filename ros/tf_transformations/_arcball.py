@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 
 def arcball_map_to_sphere(point: Sequence[float], center: Sequence[float], radius: float) -> Vector:
-    """The unit vector on the ball under a window position (y down); positions beside the ball go to its rim."""
+    """The unit vector on the ball under a window position (y down).
+
+    Positions beside the ball go to its rim.
+    """
     x, y = (point[0] - center[0]) / radius, (center[1] - point[1]) / radius
     square = x * x + y * y
     if square > 1.0:

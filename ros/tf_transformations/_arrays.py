@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 def vector_norm(
     data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
 ) -> Any:
-    """Euclidean length along ``axis``, of all numbers together when that is None; written into ``out`` (and None returned) if given."""
+    """Euclidean length along ``axis``, of all numbers together when that is None.
+
+    Written into ``out`` (and None returned) if given.
+    """
     squares = np.square(np.asarray(data, dtype=np.float64)).sum(axis=axis)
     if out is None:
         return np.sqrt(squares)
@@ -30,7 +33,10 @@ def vector_norm(
 def unit_vector(
     data: ArrayLike, axis: int | None = None, out: NDArray[np.float64] | None = None
 ) -> Any:
-    """The array divided by its length along ``axis``; written into ``out`` (and None returned) if given."""
+    """The array divided by its length along ``axis``.
+
+    Written into ``out`` (and None returned) if given.
+    """
     array = np.asarray(data, dtype=np.float64)
     unit = array / np.sqrt(np.square(array).sum(axis=axis, keepdims=axis is not None))
     if out is None:
@@ -45,7 +51,10 @@ def random_vector(size: int | tuple[int, ...]) -> Any:
 
 
 def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
-    """A unit quaternion ``(x, y, z, w)``, uniform over all rotations; ``rand`` may give the three numbers in [0, 1) to make it of."""
+    """A unit quaternion ``(x, y, z, w)``, uniform over all rotations.
+
+    ``rand`` may give the three numbers in [0, 1) to make it of.
+    """
     share, first, second = random_vector(3) if rand is None else rand
     inner, outer = math.sqrt(1.0 - share), math.sqrt(share)
     turn, twist = 2.0 * math.pi * first, 2.0 * math.pi * second

@@ -104,7 +104,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
 def rotation_matrix(
     angle: float, direction: Sequence[float], point: Sequence[float] | None = None
 ) -> Matrix:
-    """Matrix that rotates by ``angle`` [rad] about the axis ``direction``, through ``point`` (the origin, by default)."""
+    """Rotation by ``angle`` [rad] about ``direction`` through ``point`` or the origin."""
     x, y, z = axis = _unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     rotation = (
@@ -147,7 +147,10 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
 def scale_matrix(
     factor: float, origin: Sequence[float] | None = None, direction: Sequence[float] | None = None
 ) -> Matrix:
-    """Matrix that scales by ``factor``, away from ``origin``, in all directions or in one; a factor of -1 is a point symmetry."""
+    """Matrix that scales by ``factor``, away from ``origin``, in all directions or in one.
+
+    A factor of -1 is a point symmetry.
+    """
     centre = np.zeros(3) if origin is None else np.asarray(origin, dtype=np.float64)[:3]
     if direction is None:
         return _affine(factor * np.identity(3), (1.0 - factor) * centre)
@@ -207,7 +210,7 @@ def projection_matrix(
 def projection_from_matrix(
     matrix: ArrayLike, pseudo: bool = False
 ) -> tuple[Matrix, Matrix, Matrix | None, Matrix | None, bool]:
-    """Point, normal, direction, perspective and ``pseudo``, as :func:`projection_matrix` takes them.
+    """Point, normal, direction, perspective, ``pseudo``: arguments of :func:`projection_matrix`.
 
     Raises:
         ValueError: The matrix is not a projection.
@@ -246,7 +249,9 @@ def clip_matrix(
     far: float,
     perspective: bool = False,
 ) -> Matrix:
-    """Matrix that takes a viewing volume to the cube from -1 to 1: a box, or with ``perspective`` a frustum.
+    """Matrix that takes a viewing volume to the cube from -1 to 1.
+
+    A box, or with ``perspective`` a frustum.
 
     Raises:
         ValueError: The bounds are not in order.
@@ -270,7 +275,9 @@ def clip_matrix(
 def shear_matrix(
     angle: float, direction: Sequence[float], point: Sequence[float], normal: Sequence[float]
 ) -> Matrix:
-    """Matrix that shears by ``angle`` [rad] along ``direction``; the plane through ``point`` with ``normal`` stays where it is.
+    """Matrix that shears by ``angle`` [rad] along ``direction``.
+
+    The plane through ``point`` with ``normal`` stays where it is.
 
     Raises:
         ValueError: The direction does not lie in the plane.
@@ -298,7 +305,7 @@ def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]
 
 
 def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
-    """Split a 3x3 matrix into a matrix with orthonormal columns and an upper triangle with a positive diagonal."""
+    """QR decomposition of a 3x3 matrix, with a positive diagonal of R."""
     rotation, triangle = np.linalg.qr(np.asarray(linear, dtype=np.float64))
     signs = np.where(np.diag(triangle) < 0.0, -1.0, 1.0)
     return rotation * signs, triangle * signs[:, np.newaxis]
@@ -307,7 +314,9 @@ def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
 def decompose_matrix(
     matrix: ArrayLike,
 ) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
-    """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective, as :func:`compose_matrix` takes them.
+    """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective.
+
+    These are the arguments of :func:`compose_matrix`.
 
     Raises:
         ValueError: The matrix is singular.
@@ -336,7 +345,7 @@ def compose_matrix(
     translate: Sequence[float] | None = None,
     perspective: Sequence[float] | None = None,
 ) -> Matrix:
-    """Matrix that scales, shears, rotates (Euler angles ``sxyz``), moves, and then applies the perspective, in this order."""
+    """Scale, then shear, rotate (Euler angles ``sxyz``), move and apply a perspective."""
     linear = np.diag(ZOOM_IDENTITY if scale is None else [float(factor) for factor in scale])
     if shear is not None:
         xy, xz, yz = shear
@@ -354,7 +363,10 @@ def compose_matrix(
 
 
 def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
-    """Matrix from crystallographic to Cartesian coordinates, of a cell with three ``lengths`` and three ``angles`` in degrees."""
+    """Matrix from crystallographic to Cartesian coordinates.
+
+    The cell has three ``lengths``, and three ``angles`` in degrees.
+    """
     a, b, c = lengths
     alpha, beta, gamma = (math.radians(angle) for angle in angles)
     along = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (
@@ -370,7 +382,10 @@ def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) 
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
-    """Rotation matrix of three angles [rad]; :func:`quaternion_from_euler` says what ``axes`` means."""
+    """Rotation matrix of three angles [rad].
+
+    :func:`quaternion_from_euler` says what ``axes`` means.
+    """
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
@@ -385,7 +400,9 @@ def quaternion_matrix(quaternion: Sequence[float]) -> Matrix:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
-    """Quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix; its scales, shears and its translation are left aside.
+    """Quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix.
+
+    Its scales, shears and its translation are left aside.
 
     Raises:
         ValueError: The matrix is singular.

@@ -46,14 +46,18 @@ def axis_order(axes: Axes) -> tuple[int, int, int, bool]:
         third = first if repetition else 3 - first - second
         return (third, second, first, True) if rotating else (first, second, third, False)
     raise KeyError(
-        f"unknown axes {axes!r}: expected 's' or 'r' and three of x, y, z without equal neighbours, as in 'sxyz'"
+        f"unknown axes {axes!r}: expected 's' or 'r' and three of x, y, z without equal "
+        "neighbours, as in 'sxyz'"
     )
 
 
 def euler_from_rotation(
     rotation: Sequence[Sequence[float]], axes: Axes = "sxyz"
 ) -> tuple[float, float, float]:
-    """Angles of a 3x3 rotation given as three rows; the last angle is 0 where only the sum of two is determined."""
+    """Angles of a 3x3 rotation given as three rows.
+
+    The last angle is 0 where only the sum of two is determined.
+    """
     i, j, k, rotating = axis_order(axes)
     if rotating:
         i, k = k, i
@@ -81,7 +85,10 @@ def euler_from_rotation(
 
 
 def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, float, float], ...]:
-    """Three rows of the rotation matrix; the quaternion need not be normalised, and one that is zero means no rotation."""
+    """Three rows of the rotation matrix.
+
+    The quaternion need not be normalised, and one that is zero means no rotation.
+    """
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w
     if norm < EPSILON / 4.0:
@@ -113,7 +120,7 @@ def quaternion_conjugate(quaternion: Sequence[float]) -> Quaternion:
 
 
 def quaternion_inverse(quaternion: Sequence[float]) -> Quaternion:
-    """The quaternion whose product with this one is ``(0, 0, 0, 1)``, also when this one is not normalised."""
+    """The quaternion whose product with this one is ``(0, 0, 0, 1)``, normalised or not."""
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w
     return -x / norm, -y / norm, -z / norm, w / norm
@@ -161,5 +168,8 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
 def euler_from_quaternion(
     quaternion: Sequence[float], axes: Axes = "sxyz"
 ) -> tuple[float, float, float]:
-    """Angles [rad] about the three axes of ``axes``; roll, pitch and yaw by default. The quaternion need not be normalised."""
+    """Angles [rad] about the three axes of ``axes``.
+
+    Roll, pitch and yaw by default. The quaternion need not be normalised.
+    """
     return euler_from_rotation(rotation_from_quaternion(quaternion), axes)

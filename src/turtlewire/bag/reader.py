@@ -95,7 +95,10 @@ class Bag:
 
     def __repr__(self) -> str:
         seconds = self.metadata.duration_ns / 1e9
-        return f"<Bag {self.path!r}: {len(self)} messages of {len(self.topics)} topics, {seconds:.3f} s>"
+        return (
+            f"<Bag {self.path!r}: {len(self)} messages of {len(self.topics)} topics, "
+            f"{seconds:.3f} s>"
+        )
 
     def close(self) -> None:
         """Release the files; decompressed copies are deleted."""

@@ -44,7 +44,8 @@ class SqliteFile:
         self.problems: list[str] = []
         if not os.path.exists(path):
             raise FileNotFoundError(f"{path} does not exist")
-        # A file with a write-ahead log beside it was not closed: sqlite must be allowed to replay it.
+        # A file with a write-ahead log beside it was not closed: sqlite must be allowed to replay
+        # it.
         mode = "ro" if not os.path.exists(path + "-wal") else "rw"
         self._database = sqlite3.connect(
             f"file:{quote(os.path.abspath(path))}?mode={mode}", uri=True, check_same_thread=False

@@ -1,4 +1,6 @@
-"""ROS 2 interfaces without a ROS installation: definitions, message classes, the CDR codec and type hashes.
+"""ROS 2 interfaces without a ROS installation.
+
+Definitions, message classes, the CDR codec and type hashes.
 
 ::
 

@@ -1,4 +1,7 @@
-"""``python -m turtlewire.msg DIR``: makes a Python package of a folder with interface definitions."""
+"""``python -m turtlewire.msg DIR``.
+
+Makes a Python package of a folder with interface definitions.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,9 @@ def main(argv: list[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
     parser = argparse.ArgumentParser(
         prog="python -m turtlewire.msg",
-        description="Turn the msg, srv and action folders of an interface package into a Python package: no compiler needed.",
+        description="Turn the msg, srv and action folders of an interface package into a Python "
+        "package: "
+        "no compiler needed.",
     )
     parser.add_argument(
         "directory", type=Path, help="the interface package, with msg, srv or action folders in it"
@@ -40,7 +45,8 @@ def main(argv: list[str] | None = None) -> int:
         print(error, file=sys.stderr)  # noqa: T201 - as above
         return 1
     print(  # noqa: T201
-        f"{folder} is ready: put {folder.parent.resolve()} on PYTHONPATH, then `from {folder.name}.msg import ...`"
+        f"{folder} is ready: put {folder.parent.resolve()} on PYTHONPATH, then `from "
+        f"{folder.name}.msg import ...`"
     )
     return 0
 

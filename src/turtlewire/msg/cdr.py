@@ -69,5 +69,6 @@ def deserialize(cls: type[_MessageT], data: bytes | bytearray | memoryview) -> _
         check_bytes(cls._DEFINITION, data, "<" if encapsulation == _LITTLE_ENDIAN else ">")
         raise CdrError(f"{name}: {fault}") from fault
     raise CdrError(
-        f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at offset 0"
+        f"{type_name(cls)}: unknown encapsulation {encapsulation.hex(' ') or '(no bytes)'} at "
+        "offset 0"
     ).with_hint("Plain CDR is read: 00 01 (little endian) and 00 00 (big endian).")

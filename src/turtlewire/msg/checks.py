@@ -1,4 +1,6 @@
-"""The checks at every assignment that ROS 2 offers: ``check_fields=True``, or ``ROS_PYTHON_CHECK_FIELDS=1`` for all messages.
+"""The checks at every assignment that ROS 2 offers.
+
+``check_fields=True``, or ``ROS_PYTHON_CHECK_FIELDS=1`` for all messages.
 
 Without them a wrong value shows when the message is encoded, and fields are plain slots. A message
 with checks has a class of its own, derived from the plain one, whose fields are properties. The
@@ -120,7 +122,10 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
 
 
 def _is_native_storage(name: str, type_: AbstractNestedType, value: Any) -> bool:
-    """Whether the value is the array.array or NumPy array of the field; such a one must have the right element type and size."""
+    """Whether the value is the array.array or NumPy array of the field.
+
+    Such a one must have the right element type and size.
+    """
     if isinstance(type_, AbstractSequence) and isinstance(value, array):
         code = element_code(type_)
         if value.typecode != code:

@@ -58,7 +58,10 @@ class Message:
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Names and types of the fields in order, the types spelled as ROS 2 does (``sequence<double>``, ``geometry_msgs/Vector3``)."""
+        """Names and types of the fields, in order.
+
+        ROS 2 spells the types ``sequence<double>``, ``geometry_msgs/Vector3``.
+        """
         return {field.name: str(field.type) for field in cls._DEFINITION.fields}
 
     def __repr__(self) -> str:
@@ -87,7 +90,7 @@ class Message:
         )
 
     def _to_cdr(self) -> bytes:
-        """Encode; the first call of a class generates the code and puts it in the place of this method."""
+        """Encode. The first call for a class generates the code, which replaces this method."""
         from turtlewire.msg.encoder import make_encoder
 
         encode = make_encoder(type(self))
@@ -128,7 +131,10 @@ class _PartsOnDemand(type):
 
 
 class Service(metaclass=_PartsOnDemand):
-    """Base of all service classes; their ``Request``, ``Response`` and ``Event`` are message classes."""
+    """Base of all service classes.
+
+    Their ``Request``, ``Response`` and ``Event`` are message classes.
+    """
 
     _TYPE_NAME: str
 
@@ -137,7 +143,10 @@ class Service(metaclass=_PartsOnDemand):
 
 
 class Action(metaclass=_PartsOnDemand):
-    """Base of all action classes; their ``Goal``, ``Result`` and ``Feedback`` are message classes, ``Impl`` holds the rest."""
+    """Base of all action classes.
+
+    Their ``Goal``, ``Result`` and ``Feedback`` are message classes, ``Impl`` holds the rest.
+    """
 
     _TYPE_NAME: str
 
@@ -169,7 +178,10 @@ def get_message(name: str) -> type[Message]:
 
 
 def get_service(name: str) -> type[Service]:
-    """Class of a service, by ``"turtlesim/srv/Spawn"`` or ``"turtlesim/Spawn"``; raises as `get_message` does."""
+    """Class of a service, by ``"turtlesim/srv/Spawn"`` or ``"turtlesim/Spawn"``.
+
+    Raises as `get_message` does.
+    """
     full_name = name if name.count("/") != 1 else name.replace("/", "/srv/")
     with _lock:
         if full_name not in _services:
@@ -179,7 +191,10 @@ def get_service(name: str) -> type[Service]:
 
 
 def get_action(name: str) -> type[Action]:
-    """Class of an action, by ``"turtlesim/action/RotateAbsolute"`` or without the middle; raises as `get_message` does."""
+    """Class of an action, by ``"turtlesim/action/RotateAbsolute"`` or without the middle.
+
+    Raises as `get_message` does.
+    """
     full_name = name if name.count("/") != 1 else name.replace("/", "/action/")
     with _lock:
         if full_name not in _actions:
@@ -189,7 +204,10 @@ def get_action(name: str) -> type[Action]:
 
 
 def get_interface_class(full_name: str) -> type:
-    """Class of any interface or part of one: ``"pkg/msg/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X_SendGoal"`` and so on."""
+    """Class of any interface or part of one.
+
+    ``"pkg/msg/X"``, ``"pkg/srv/X_Request"``, ``"pkg/action/X_SendGoal"`` and so on.
+    """
     kind, _, name = full_name.partition("/")[2].partition("/")
     if kind == "action" and "_" not in name:
         return get_action(full_name)
@@ -211,7 +229,10 @@ def type_name(cls: type) -> str:
 
 
 def module_name(full_name: str) -> str:
-    """Module that ROS 2's generator would put the class in: ``"geometry_msgs.msg._pose_stamped"``."""
+    """Module that ROS 2's generator would put the class in.
+
+    ``"geometry_msgs.msg._pose_stamped"``.
+    """
     package, kind, name = split_name(full_name)
     name = name.partition("_")[0]
     snake = ""
@@ -289,7 +310,10 @@ def _make_constructor(definition: MessageDefinition) -> Any:
 
 
 def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str:
-    """Expression for a default that every message needs its own of; the empty string where a shared constant does."""
+    """Expression for a default that every message needs its own of.
+
+    The empty string where a shared constant does.
+    """
     type_ = field.type
     if isinstance(type_, NamespacedType):
         environment[f"_class{index}"] = get_message(type_.full_name)
@@ -331,7 +355,7 @@ def _finish(message: Message, unknown: dict[str, Any]) -> None:
 
 
 def checks_are_on() -> bool:
-    """Whether the environment asks for ROS 2's checks at every assignment (``ROS_PYTHON_CHECK_FIELDS=1``)."""
+    """Whether ``ROS_PYTHON_CHECK_FIELDS=1`` asks for ROS 2's checks at every assignment."""
     return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
 
 
@@ -370,7 +394,10 @@ def _make_action(full_name: str) -> type[Action]:
 
 
 def _restore(full_name: str, values: dict[str, Any]) -> Message:
-    """Unpickle or copy; finds the class by its name, so that no ROS-named package needs to be importable."""
+    """Unpickle or copy.
+
+    Finds the class by its name, so that no ROS-named package needs to be importable.
+    """
     return get_message(full_name)(**values)
 
 

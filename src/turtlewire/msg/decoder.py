@@ -57,7 +57,10 @@ def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
 
 
 class _Decoder:
-    """Writes the source of one decoding function. ``self.base + self.offset`` is the position in ``data``."""
+    """Writes the source of one decoding function.
+
+    ``self.base + self.offset`` is the position in ``data``.
+    """
 
     def __init__(self, order: str) -> None:
         self.order = order
@@ -86,7 +89,7 @@ class _Decoder:
         decode: Callable[[bytes], Message] = self.environment["decode"]
         return decode
 
-    # -- fields ---------------------------------------------------------------------------------------------------------------
+    # -- fields
 
     def message(self, cls: type[Message], target: str) -> None:
         class_name = self.name()
@@ -194,7 +197,10 @@ class _Decoder:
         self.remainder = (self.remainder + size) % self.modulus
 
     def loop(self, value_type: AbstractType, count: str, target: str) -> None:
-        """Read the elements one by one; what is known about the position must hold before the first and after each of them."""
+        """Read the elements one by one.
+
+        What is known about the position must hold before the first and after each of them.
+        """
         values, item = self.name(), self.name()
         self.line(f"{values} = {target} = []")
         self.line(f"p = {self.position()}")
@@ -219,7 +225,7 @@ class _Decoder:
                 break
         self.indent = outer_indent
 
-    # -- bytes ----------------------------------------------------------------------------------------------------------------
+    # -- bytes
 
     def number(self, code: str, target: str) -> None:
         """Add one number to the pending format."""
@@ -284,7 +290,7 @@ class _Decoder:
         self.modulus = min(self.modulus, modulus)
         self.remainder %= self.modulus
 
-    # -- source ---------------------------------------------------------------------------------------------------------------
+    # -- source
 
     def line(self, text: str) -> None:
         self.lines.append(self.indent + text)

@@ -1,4 +1,7 @@
-"""What an interface file says, after parsing: fields, constants, and the messages that services and actions imply."""
+"""What an interface file says, after parsing.
+
+Fields, constants, and the messages that services and actions imply.
+"""
 
 from __future__ import annotations
 
@@ -112,7 +115,7 @@ class ServiceDefinition:
 
 
 class ActionDefinition:
-    """An action: goal, result and feedback as given, and the two services and the message that carry them.
+    """An action: goal, result and feedback, and the two services and the message that carry them.
 
     Attributes:
         full_name: ``"turtlesim/action/RotateAbsolute"``.

@@ -1,4 +1,4 @@
-"""Generates the function that encodes one message type as little endian CDR (XCDR1, as every ROS 2 middleware writes it).
+"""Generates the function that encodes one message type as little endian CDR (XCDR1).
 
 Numbers that follow one another become one ``struct.pack``; nested messages are written inline,
 repeated ones in a loop. While the code is generated, `_Encoder` knows what is known about the
@@ -47,7 +47,7 @@ __all__ = [
 ]
 
 LARGE = 1024
-"""Sequences of more numbers than this are copied once, into the result; ``done`` collects what is to be joined there."""
+"""Longer sequences of numbers are copied once, into the result; ``done`` collects its parts."""
 
 HEADER = b"\x00\x01\x00\x00"
 """Encapsulation: plain CDR, little endian, no options."""
@@ -92,7 +92,10 @@ def as_bool(value: Any) -> bool:
 
 
 def byte_string(values: Any) -> bytes:
-    """The content of a sequence of ``byte``: a list of one-byte ``bytes``, or ``bytes`` as they are."""
+    """The content of a sequence of ``byte``.
+
+    A list of one-byte ``bytes``, or ``bytes`` as they are.
+    """
     if isinstance(values, (bytes, bytearray)):
         return bytes(values)
     joined = b"".join(values)
@@ -175,7 +178,7 @@ class _Encoder:
         encode: Callable[[Any], bytes] = self.environment["encode"]
         return encode
 
-    # -- fields ---------------------------------------------------------------------------------------------------------------
+    # -- fields
 
     def message(self, definition: MessageDefinition, value: str) -> None:
         if not definition.fields:
@@ -241,7 +244,8 @@ class _Encoder:
         content = values if sys.byteorder == "little" or size == 1 else f"swapped({values})"
         self.line(f"if len({values}) <= {LARGE}: out += {content}")
         self.line(
-            f"else: done += (out, {content}); shift += len(out) + len({values}) * {size}; out = bytearray()"
+            f"else: done += (out, {content}); shift += len(out) + len({values}) * {size}; out = "
+            "bytearray()"
         )
         self.forget_down_to(min(size, 4))
 
@@ -277,7 +281,10 @@ class _Encoder:
             self.loop(type_.value_type, values)
 
     def loop(self, value_type: AbstractType, values: str) -> None:
-        """Write the elements one by one; what is known about the position must hold before the first and after each of them."""
+        """Write the elements one by one.
+
+        What is known about the position must hold before the first and after each of them.
+        """
         self.finish_string()
         self.flush()
         item = self.name()
@@ -298,7 +305,7 @@ class _Encoder:
                 break
         self.indent = outer_indent
 
-    # -- bytes ----------------------------------------------------------------------------------------------------------------
+    # -- bytes
 
     def number(self, code: str, value: str) -> None:
         """Add one number to the pending format."""
@@ -364,7 +371,7 @@ class _Encoder:
     def append(self, value: str) -> None:
         self.line(f"out += {value}")
 
-    # -- source ---------------------------------------------------------------------------------------------------------------
+    # -- source
 
     def line(self, text: str) -> None:
         self.lines.append(self.indent + text)

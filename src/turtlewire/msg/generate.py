@@ -1,4 +1,6 @@
-"""Turns a folder of interface definitions into a Python package: real modules with type stubs, no compiler, no import hook.
+"""Turns a folder of interface definitions into a Python package.
+
+Real modules with type stubs, no compiler, no import hook.
 
 The package consists of ``__init__.py``, one module for each of ``msg``, ``srv`` and ``action``,
 their stubs, and a copy of the definitions, which the classes are made of at first access.
@@ -79,7 +81,7 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
 
 
 def write_modules(package: str, source: Path, folder: Path) -> None:
-    """Write ``msg``, ``srv`` and ``action`` modules with their stubs into ``folder``, for the definitions in ``source``."""
+    """Write modules and stubs for the definitions in ``source`` into ``folder``."""
     for kind in KINDS:
         names = sorted(interfaces_in(str(source))[kind], key=_natural_order)
         if not names:

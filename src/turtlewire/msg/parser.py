@@ -156,13 +156,15 @@ def _parse_statement(
     if value_text.startswith("="):
         if not name.isupper() or not _is_identifier(name.lower()):
             raise ValueError(
-                f"'{name}' is not a valid constant name (capital letters, digits, single underscores)"
+                f"'{name}' is not a valid constant name (capital letters, digits, single "
+                "underscores)"
             )
         constants.append(Constant(name, type_, _parse_value(type_, value_text[1:].strip())))
         return
     if not _is_identifier(name):
         raise ValueError(
-            f"'{name}' is not a valid field name (lower case, digits, single underscores, a letter first)"
+            f"'{name}' is not a valid field name (lower case, digits, single underscores, a "
+            "letter first)"
         )
     if iskeyword(name):
         raise ValueError(f"'{name}' is a keyword of Python, and so cannot be a field name")

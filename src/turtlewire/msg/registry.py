@@ -57,7 +57,7 @@ def register_package(package: str, directory: str) -> None:
 
 
 def load_message(full_name: str) -> MessageDefinition:
-    """Definition of a message, ``"pkg/msg/X"``, or of a part of a service or action, ``"pkg/srv/X_Request"``.
+    """Definition of a message (``"pkg/msg/X"``) or part of a service (``"pkg/srv/X_Request"``).
 
     Raises:
         InterfaceError: There is no such message, or its file cannot be read.
@@ -97,7 +97,8 @@ def interface_path(full_name: str) -> str:
         or not all(part.isascii() and part.isidentifier() for part in parts)
     ):
         raise InterfaceError(f"'{full_name}' is not the name of an interface").with_hint(
-            "Names look like geometry_msgs/msg/Twist, turtlesim/srv/Spawn or turtlesim/action/RotateAbsolute."
+            "Names look like geometry_msgs/msg/Twist, turtlesim/srv/Spawn or "
+            "turtlesim/action/RotateAbsolute."
         )
     package, kind, name = parts
     for directory in _directories(package):
@@ -108,7 +109,10 @@ def interface_path(full_name: str) -> str:
 
 
 def interface_names() -> dict[str, dict[str, list[str]]]:
-    """All interfaces that can be found without importing anything: ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted."""
+    """All interfaces that can be found without importing anything.
+
+    ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted.
+    """
     directories: dict[str, str] = {}
     for parent in reversed(_parents()):
         if os.path.isdir(parent):

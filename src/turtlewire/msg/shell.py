@@ -1,4 +1,7 @@
-"""What the modules of interface packages (``geometry_msgs.msg``, ``turtlesim.srv``) consist of: classes made at first access."""
+"""What the modules of interface packages (``geometry_msgs.msg``, ``turtlesim.srv``) consist of.
+
+Classes made at first access.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writes type stubs (.pyi) for the modules of an interface package, for editors and type checkers."""
+"""Writes type stubs (.pyi) for the modules of an interface package."""
 
 from __future__ import annotations
 
@@ -75,7 +75,8 @@ class _StubWriter:
             f"{field.name}: {self.accepted(field.type)} = ..." for field in definition.fields
         ]
         self.lines.append(
-            f"    def __init__(self, *, {', '.join([*parameters, 'check_fields: bool = ...'])}) -> None: ..."
+            f"    def __init__(self, *, {', '.join([*parameters, 'check_fields: bool = ...'])}) "
+            "-> None: ..."
         )
 
     def field(self, field: Field) -> None:

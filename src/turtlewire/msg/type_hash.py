@@ -1,4 +1,7 @@
-"""Type hashes as ROS 2 computes them (RIHS01): SHA-256 of a canonical JSON text of the type and all types in it."""
+"""Type hashes as ROS 2 computes them (RIHS01).
+
+SHA-256 of a canonical JSON text of the type and all types in it.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +64,8 @@ def type_hash(full_name: str) -> str:
         import hashlib
 
         others = ", ".join(_description(name) for name in referenced_types(full_name))
-        text = f'{{"type_description": {_description(full_name)}, "referenced_type_descriptions": [{others}]}}'
+        described = _description(full_name)
+        text = f'{{"type_description": {described}, "referenced_type_descriptions": [{others}]}}'
         found = _hashes[full_name] = f"RIHS01_{hashlib.sha256(text.encode()).hexdigest()}"
     return found
 
@@ -80,7 +84,10 @@ def referenced_types(full_name: str) -> list[str]:
 
 
 def members(definition: Definition) -> list[tuple[str, AbstractType]]:
-    """Names and types of what an interface consists of; for services and actions, the messages and services they imply."""
+    """Names and types of what an interface consists of.
+
+    For services and actions, the messages and services they imply.
+    """
     if isinstance(definition, ServiceDefinition):
         parts = {
             "request_message": definition.request,
@@ -103,7 +110,10 @@ def members(definition: Definition) -> list[tuple[str, AbstractType]]:
 
 
 def field_type_parts(type_: AbstractType) -> tuple[int, int, int, str]:
-    """A type as ``type_description_interfaces/msg/FieldType`` has it: type_id, capacity, string_capacity, nested_type_name."""
+    """A type as ``type_description_interfaces/msg/FieldType`` has it.
+
+    Type_id, capacity, string_capacity, nested_type_name.
+    """
     offset, capacity = 0, 0
     if isinstance(type_, AbstractNestedType):
         if isinstance(type_, Array):

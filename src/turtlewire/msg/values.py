@@ -1,4 +1,6 @@
-"""How a field holds its value in Python: defaults, conversion at assignment, and the letter or dtype of its storage.
+"""How a field holds its value in Python.
+
+Defaults, conversion at assignment, and the letter or dtype of its storage.
 
 As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers are NumPy arrays,
 everything else repeated is a list. NumPy is imported when the first message with a fixed array of
@@ -37,7 +39,7 @@ _NUMPY_NAMES = {"float": "float32", "double": "float64"}
 
 
 def element_code(type_: AbstractType) -> str:
-    """Letter of the numbers in a sequence or array of numbers, the empty string for every other type."""
+    """``array.array`` letter of a sequence or array of numbers; empty for every other type."""
     if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
         return TYPE_CODES.get(type_.value_type.typename, "")
     return ""
@@ -49,7 +51,10 @@ def numpy_name(typename: str) -> str:
 
 
 def scalar_default(type_: AbstractType) -> Any:
-    """Default of a number, bool, byte or string that gives none itself; None for nested messages."""
+    """Default of a number, bool, byte or string that gives none itself.
+
+    None for nested messages.
+    """
     if isinstance(type_, BasicType):
         if type_.typename == "boolean":
             return False
@@ -60,7 +65,10 @@ def scalar_default(type_: AbstractType) -> Any:
 
 
 def converter(type_: AbstractType) -> Callable[[Any], Any] | None:
-    """What turns an assigned value into the storage of a numeric sequence or array; None where values are stored as given."""
+    """What turns an assigned value into the storage of a numeric sequence or array.
+
+    None where values are stored as given.
+    """
     code = element_code(type_)
     if not code:
         return None
@@ -73,7 +81,10 @@ def converter(type_: AbstractType) -> Callable[[Any], Any] | None:
 
 
 def to_array(code: str, value: Iterable[Any]) -> array[Any]:
-    """Make an ``array.array`` of numbers; one of the right letter is kept, buffers (any shape, row by row) are copied whole."""
+    """Make an ``array.array`` of numbers.
+
+    One of the right letter is kept, buffers (any shape, row by row) are copied whole.
+    """
     if type(value) is array and value.typecode == code:
         return value
     if isinstance(value, (list, tuple)):

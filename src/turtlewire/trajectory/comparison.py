@@ -90,7 +90,8 @@ def compare(
         ValueError: No stamps match, or the alignment is not possible.
     """
     rows = associate(reference, estimate, max_diff_ns, offset_ns)
-    # The stamps of a pair may repeat (one pose may be the nearest of two): the shorter one's do not.
+    # The stamps of a pair may repeat (one pose may be the nearest of two): the shorter one's do
+    # not.
     short = reference if len(reference) <= len(estimate) else estimate
     stamps = short.stamps_ns[rows[0] if short is reference else rows[1]]
     first = _at(reference, rows[0], stamps)

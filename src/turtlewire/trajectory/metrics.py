@@ -192,7 +192,8 @@ def _check(
         raise ValueError(f"unknown relation '{relation}'; known are {', '.join(known)}")
     if len(reference) != len(estimate):
         raise ValueError(
-            f"the trajectories have {len(reference)} and {len(estimate)} poses; associate them first"
+            f"the trajectories have {len(reference)} and {len(estimate)} poses; associate them "
+            "first"
         )
 
 
