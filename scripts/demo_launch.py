@@ -28,7 +28,7 @@ class Launch:
     """The launched processes, in a session of their own: Ctrl-C reaches only this process.
 
     What they print is shown until :meth:`stop` is called. Interpreters that are stopped while they
-    start print tracebacks, which help nobody; the log files keep them.
+    start print tracebacks, which explain nothing; the log files keep them.
 
     Args:
         output: File descriptor for what they print; None shows it here.
@@ -44,7 +44,7 @@ class Launch:
     def start(self) -> None:
         """Start them; call :meth:`stop` afterwards, whatever happens."""
         source, output = _output_pair() if self._output is None else (None, self._output)
-        with _held_back():  # an interrupt in here would leave processes that nobody stops
+        with _held_back():  # an interrupt in here would leave the processes running
             # Without a terminal as its input, the launch sends its processes SIGINT itself.
             self._process = subprocess.Popen(
                 [str(VENV / "bin" / COMMAND[0]), *COMMAND[1:]],

@@ -66,7 +66,7 @@ class TransformView:
         self._listener: TransformListener | None = None
 
     def join(self) -> None:
-        """Somebody looks; the first one starts the listener."""
+        """A page watches; the first one starts the listener."""
         with self._lock:
             self._lookers += 1
             if self._listener is None:
@@ -75,14 +75,14 @@ class TransformView:
                 self._listener = TransformListener(self._buffer, self._node, context=self._context)
 
     def leave(self) -> None:
-        """Somebody looks no longer; the last one ends the listener."""
+        """A page watches no longer; the last one ends the listener."""
         with self._lock:
             self._lookers -= 1
             if self._lookers == 0:
                 self._stop()
 
     def close(self) -> None:
-        """End the listener, whoever looks."""
+        """End the listener, even while pages watch."""
         with self._lock:
             self._stop()
 

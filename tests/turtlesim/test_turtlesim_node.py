@@ -344,7 +344,7 @@ class TestMissingTurtles:
         hints = []
 
         def three_hints():
-            hints.extend(line for line in lines(capfd) if "Somebody waits for turtle2" in line)
+            hints.extend(line for line in lines(capfd) if "A node waits for turtle2" in line)
             return len(hints) >= 3
 
         world.spin_until(three_hints)
@@ -363,7 +363,7 @@ class TestMissingTurtles:
         assert world.sim._missing.names == ("turtle2",)
         (hint,) = lines(capfd)
         assert hint == (
-            "[INFO] Somebody waits for turtle2, and there is no turtle of that name. To add it, "
+            "[INFO] A node waits for turtle2, and there is no turtle of that name. To add it, "
             "type: "
             'ros2 service call /spawn turtlesim/srv/Spawn "{x: 4.0, y: 2.0, theta: 0.0, name: '
             "'turtle2'}\""

@@ -98,14 +98,14 @@ class Simulation:
                 name.
         """
         context = self._driver.context
-        everybody, context._arguments = (
+        outer, context._arguments = (
             context.arguments,
             Arguments.parse_global(["--ros-args", *_as_arguments(parameters)]),
         )
         try:
             return self.add(make_node())
         finally:
-            context._arguments = everybody
+            context._arguments = outer
 
     # Turtles
 
