@@ -221,6 +221,43 @@ def test_the_modules_of_packages_list_their_interfaces():
         from std_srvs.srv import Nope  # noqa: F401
 
 
+def test_the_parts_of_services_and_actions_are_imported_by_name():
+    from tf2_msgs.action import LookupTransform, LookupTransform_SendGoal_Request
+    from turtlesim.srv import Spawn_Event, Spawn_Request
+
+    assert Spawn_Request is Spawn.Request
+    assert Spawn_Event is Spawn.Event
+    assert LookupTransform_SendGoal_Request is LookupTransform.Impl.SendGoalService.Request
+    with pytest.raises(ImportError, match="cannot import name 'Spawn_Goal'"):
+        from turtlesim.srv import Spawn_Goal  # noqa: F401
+
+
+def test_the_private_modules_of_interfaces_are_imported():
+    """As ROS 2's generator names them; in a process of its own, where nothing is imported yet."""
+    code = (
+        "from geometry_msgs.msg._pose_stamped import PoseStamped\n"
+        "from tf2_msgs.action._lookup_transform import LookupTransform_GetResult_Response\n"
+        "import std_msgs.msg._u_int8_multi_array, turtlesim.srv._spawn as spawn\n"
+        "from geometry_msgs import msg\n"
+        "assert msg.PoseStamped is PoseStamped\n"
+        "assert spawn.Spawn.Request is spawn.Spawn_Request\n"
+        "assert spawn.__name__ == spawn.Spawn.__module__ == 'turtlesim.srv._spawn'\n"
+        "try:\n"
+        "    from turtlesim.srv._spawn import Kill\n"
+        "except ImportError:\n"
+        "    print('fine')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("fine\n", "")
+
+
+def test_fields_and_field_types_is_there():
+    expected = {"linear": "geometry_msgs/Vector3", "angular": "geometry_msgs/Vector3"}
+    twist = msg.get_message("geometry_msgs/msg/Twist")
+    assert twist._fields_and_field_types == expected
+    assert twist()._fields_and_field_types == expected
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals are POSIX's")
 def test_a_ctrl_c_that_was_caught_while_a_class_is_made_does_not_decide_how_the_process_ends():
     """After a KeyboardInterrupt in ``exec(string)``, CPython ends with -2, whatever the program did

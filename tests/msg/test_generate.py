@@ -84,10 +84,12 @@ def test_the_modules_are_imported_like_any(generated, source):
 import sys
 from my_interfaces.msg import Sphere, Everything
 from my_interfaces.srv import AddSphere
-from my_interfaces.action import Roll
+from my_interfaces.action import Roll, Roll_SendGoal_Request
+from my_interfaces.msg._sphere import Sphere as PrivateSphere
 from rosidl_runtime_py.utilities import get_message
 from turtlewire import msg
 
+assert PrivateSphere is Sphere and Roll_SendGoal_Request is Roll.Impl.SendGoalService.Request
 assert get_message("my_interfaces/msg/Sphere") is Sphere is type(Roll.Result().where)
 print(Sphere(), AddSphere.Request(), Roll.Goal(distance=2.0), Everything.LIMIT, Everything.NAME)
 message = Everything(wide="äö", few=[Sphere()], blob=b"ab", short="abcde")

@@ -40,6 +40,13 @@ _actions: dict[str, type[Action]] = {}
 _lock = RLock()
 
 
+class _FieldTypes:
+    """``_fields_and_field_types``, which programs read although it is private in ROS 2."""
+
+    def __get__(self, message: Message | None, cls: type[Message]) -> dict[str, str]:
+        return cls.get_fields_and_field_types()
+
+
 class Message:
     """Base of all message classes.
 
@@ -51,6 +58,7 @@ class Message:
     SLOT_TYPES: tuple[AbstractType, ...] = ()
     _TYPE_NAME: str
     _DEFINITION: MessageDefinition
+    _fields_and_field_types = _FieldTypes()
 
     if TYPE_CHECKING:  # each class gets a constructor of its own when it is made
 

@@ -1,14 +1,13 @@
-"""What the modules of interface packages (``geometry_msgs.msg``, ``turtlesim.srv``) consist of.
-
-Classes made at first access.
-"""
+"""What the modules of interface packages (``geometry_msgs.msg``) consist of: lazy classes."""
 
 from __future__ import annotations
 
 import sys
+from types import ModuleType
 from typing import TYPE_CHECKING
 
-from turtlewire.msg.classes import get_interface_class
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.classes import get_interface_class, module_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,24 +15,49 @@ if TYPE_CHECKING:
 __all__ = ["lazy_classes"]
 
 
-def lazy_classes(module_name: str) -> Callable[[str], type]:
+def lazy_classes(home: str) -> Callable[[str], type]:
     """The ``__getattr__`` of a module of interfaces.
 
+    ROS 2's generator has a private module for each interface, ``geometry_msgs.msg._twist``, and some
+    programs import from there; they are put into ``sys.modules``.
+
     Args:
-        module_name: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the
-            interfaces.
+        home: The module's ``__name__``: ``"geometry_msgs.msg"``. Its ``__all__`` lists the
+            interfaces; their parts (``Spawn_Request``) are found, too.
 
     Returns:
-        A function that makes a class, and puts it into the module, so that it is called once for
+        A function that makes a class and puts it into the module, so that it is called once for
         each.
     """
-    module = sys.modules[module_name]
+    module = sys.modules[home]
+    folder = home.replace(".", "/")
 
     def find(name: str) -> type:
-        if name not in module.__all__:
-            raise AttributeError(f"module '{module_name}' has no attribute '{name}'")
-        found = get_interface_class(f"{module_name.replace('.', '/')}/{name}")
-        setattr(module, name, found)
-        return found
+        if name.partition("_")[0] in module.__all__:
+            try:
+                found = get_interface_class(f"{folder}/{name}")
+            except InterfaceError:
+                if name in module.__all__:
+                    raise
+            else:
+                setattr(module, name, found)
+                return found
+        raise AttributeError(f"module '{home}' has no attribute '{name}'")
 
+    for interface in module.__all__:
+        private = _PrivateModule(module_name(f"{folder}/{interface}"))
+        private._find, private._interface = find, interface
+        sys.modules[private.__name__] = private
     return find
+
+
+class _PrivateModule(ModuleType):
+    """Holds one interface and its parts."""
+
+    _find: Callable[[str], type]
+    _interface: str
+
+    def __getattr__(self, name: str) -> type:
+        if name.partition("_")[0] == self._interface:
+            return self._find(name)
+        raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'")
