@@ -1,5 +1,5 @@
-#include "../cyclone/abort.hpp"
 #include "buffer.hpp"
+#include "cyclone.hpp"
 #include "errors.hpp"
 #include "intake.hpp"
 #include "message.hpp"
@@ -16,6 +16,5 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
-  module.def("print_on_abort", &turtlewire::cyclone::print_on_abort, nanobind::arg("pipe"),
-             "When this process aborts, write on stderr what can be read from a pipe.");
+  add_cyclone_types(module);
 }

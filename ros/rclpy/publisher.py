@@ -69,7 +69,7 @@ class Publisher:
         if self._destroyed:
             self._check_usable()
         if isinstance(msg, self.msg_type):
-            if not self._sends_always and self._wire.subscription_count() == 0:
+            if not (self._sends_always or self._wire.is_heard()):
                 self._check_context()
                 return
             cdr = serialize(msg)

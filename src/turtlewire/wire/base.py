@@ -15,12 +15,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from enum import Enum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from turtlewire._native import Intake
 
     from .qos import QoS
 
@@ -39,6 +37,7 @@ __all__ = [
     "Publisher",
     "RequestId",
     "Service",
+    "Sink",
     "Subscription",
     "TypeId",
     "WaitSet",
@@ -160,6 +159,29 @@ class Event(Entity):
         """The counters, or None when nothing happened since the last call (or since the endpoint was created)."""
 
 
+class Sink(Protocol):
+    """Native code that takes the messages of a subscription on the middleware's own threads.
+
+    It is a ``turtlewire::Sink`` (``native/core/sink.hpp``). When its ``receive`` returns true, the
+    middleware's reader thread calls :meth:`serve` and :meth:`take` until nothing is left.
+    """
+
+    def serve(self) -> None:
+        """Do what needs Python after messages were received."""
+        ...
+
+    def take(self) -> list[tuple[bytes, int, int]]:
+        """The next messages left: bytes, number of the publisher, time of sending in ns.
+
+        To be called until there are none: only then does the sink take new messages again.
+        """
+        ...
+
+    def introduce(self, publisher: int, gid: bytes) -> None:
+        """Tell which publisher the middleware means by a number."""
+        ...
+
+
 class Publisher(Entity):
     """Writes messages of one type to one topic."""
 
@@ -177,6 +199,14 @@ class Publisher(Entity):
     @abstractmethod
     def subscription_count(self) -> int:
         """How many matching subscriptions are known at the moment."""
+
+    def is_heard(self) -> bool:
+        """Whether a message may have a receiver; cheaper than :meth:`subscription_count`.
+
+        Never False while a matching subscription is known; may be True for a moment after the last
+        one has left.
+        """
+        return self.subscription_count() > 0
 
     @abstractmethod
     def create_event(self, kind: EventKind) -> Event:
@@ -305,7 +335,7 @@ class Node(Entity):
         type_id: TypeId,
         qos: QoS,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        intake: Intake | None = None,
+        sink: Sink | None = None,
     ) -> Subscription:
         """Announce and return a subscription.
 
@@ -316,8 +346,8 @@ class Node(Entity):
             on_message: When given, the context's reader thread calls it for every message, and the
                 subscription cannot be attached to a wait set. It must be short and must not raise
                 (an exception is reported once and the message is lost).
-            intake: Given together with ``on_message``, it may get the messages first, without
-                Python and on any thread of the middleware; those that it keeps back go to
+            sink: Given together with ``on_message``, it may get the messages first, without
+                Python and on any thread of the middleware; those that it leaves go to
                 ``on_message``. A middleware is free to do without it.
         """
 

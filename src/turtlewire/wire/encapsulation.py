@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from turtlewire.errors import WireError
 
-__all__ = ["HEADER_SIZE", "LITTLE_ENDIAN", "require_message"]
+__all__ = ["HEADER_SIZE", "LITTLE_ENDIAN", "is_message", "no_message", "require_message"]
 
 HEADER_SIZE = 4
 
@@ -13,14 +13,24 @@ HEADER_SIZE = 4
 LITTLE_ENDIAN = b"\x00\x01"
 
 
+def is_message(cdr: bytes) -> bool:
+    """Whether these bytes are little endian CDR with fields after the header."""
+    return len(cdr) > HEADER_SIZE and cdr.startswith(LITTLE_ENDIAN)
+
+
+def no_message(cdr: bytes, topic: str) -> WireError:
+    """The error for bytes that are not (see :func:`is_message`), before they get onto the wire."""
+    return WireError(
+        f"publish on {topic}: {len(cdr)} bytes with header '{cdr[:4].hex(' ')}' "
+        "are no message (expected 00 01 00 00)"
+    )
+
+
 def require_message(cdr: bytes, topic: str) -> None:
-    """Refuse bytes that cannot be a message, before they get onto the wire.
+    """Refuse bytes that are no message.
 
     Raises:
-        WireError: There are no fields after the header, or the header is not that of little endian
-            CDR.
+        WireError: They are not.
     """
-    if len(cdr) <= HEADER_SIZE or not cdr.startswith(LITTLE_ENDIAN):
-        raise WireError(
-            f"publish on {topic}: {len(cdr)} bytes with header '{cdr[:4].hex(' ')}' are no message (expected 00 01 00 00)"
-        )
+    if not is_message(cdr):
+        raise no_message(cdr, topic)

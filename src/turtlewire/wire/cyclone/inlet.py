@@ -1,46 +1,44 @@
-"""Messages that Cyclone's own thread hands to a compiled intake, without Python."""
+"""Messages that Cyclone's own thread hands to a sink, without Python."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from . import library as dds
-from .taking import NATIVE_FUNCTIONS
 
 if TYPE_CHECKING:
-    from turtlewire._native import Intake
+    from turtlewire._native import Cyclone
+    from turtlewire.wire.base import Sink
 
 __all__ = ["Inlet"]
 
 
 class Inlet:
-    """Connects one reader with an intake: native code is the reader's listener, and triggers the guard condition for the rest.
+    """Connects one reader with a sink: native code is the reader's listener.
 
     Attributes:
-        intake: It is kept alive until the inlet is closed.
-        guard: The condition that is true while the intake has kept back messages, or listeners of
-            its buffers are to be called.
+        sink: It is kept until the inlet is closed, because native code uses it.
+        guard: The condition that is true while the sink is to be served.
         listener: What to create the reader with.
     """
 
-    def __init__(self, participant: int, intake: Intake) -> None:
-        self.intake = intake
+    def __init__(self, native: Cyclone, participant: int, sink: Sink) -> None:
+        from turtlewire._native import CycloneInlet
+
+        self.sink = sink
         self.guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
-        callback, argument = intake.connect(NATIVE_FUNCTIONS, self.guard)
+        self._native = CycloneInlet(native, self.guard, sink)
+        callback, argument = self._native.listener()
         self.listener = dds.create_listener(argument)
         dds.lset_data_available(self.listener, callback)
 
     def rest(self) -> list[tuple[bytes, int, int]]:
-        """Reset the guard condition, take what was kept back, and call listeners.
-
-        To be repeated until it returns nothing.
-        """
+        """Serve the sink and return the messages that it left; call it until there are none."""
         dds.set_guard_condition(self.guard, False)
-        kept = self.intake.take()  # first: it may store messages, which the listeners are told of
-        self.intake.call_listeners()
-        return kept
+        self.sink.serve()
+        return self.sink.take()
 
     def close(self) -> None:
-        """To be called when the reader has been deleted: then no thread is in the native code any more."""
+        """End; to be called when the reader has been deleted and no thread is in native code."""
         dds.delete_listener(self.listener)
         dds.delete(self.guard)

@@ -18,8 +18,7 @@ from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire._native import Intake
-    from turtlewire.wire.base import TypeId
+    from turtlewire.wire.base import Sink, TypeId
     from turtlewire.wire.qos import QoS
 
     from .context import CycloneContext
@@ -51,12 +50,12 @@ class CycloneNode(Node):
         type_id: TypeId,
         qos: QoS,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        intake: Intake | None = None,
+        sink: Sink | None = None,
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)
         dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
-        subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos), intake)
+        subscription = self._subscription(EndpointSpec(topic, dds_topic, type_id, qos), sink)
         if on_message is not None:
             self._serve(subscription, on_message)
         return subscription
@@ -105,10 +104,8 @@ class CycloneNode(Node):
         self._adopt(publisher, self._record.writers)
         return publisher
 
-    def _subscription(
-        self, spec: EndpointSpec, intake: Intake | None = None
-    ) -> CycloneSubscription:
-        subscription = CycloneSubscription(self.context.participant, spec, intake=intake)
+    def _subscription(self, spec: EndpointSpec, sink: Sink | None = None) -> CycloneSubscription:
+        subscription = CycloneSubscription(self.context.participant, spec, sink=sink)
         self._adopt(subscription, self._record.readers)
         return subscription
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, Publisher
-from turtlewire.wire.encapsulation import require_message
+from turtlewire.wire.encapsulation import no_message
 
 from . import library as dds
 from .endpoint import (
@@ -19,6 +18,7 @@ from .endpoint import (
     read_matched,
 )
 from .qos import MAX_BLOCKING_NS, dds_qos
+from .writing import CLOSED, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,41 +52,43 @@ class CyclonePublisher(Endpoint, Publisher):
         topic = participant.topic(spec.dds_topic, spec.type_id.name)
         with dds_qos(spec.qos, spec.user_data, writer=True) as qos:
             self._created(dds.create_writer(participant.handle, topic, qos, None))
-        sertype = ctypes.c_void_p()
-        dds.check(dds.get_sertype(self.handle, sertype), f"create a publisher of {self.topic}")
-        self._sertype = sertype.value
+        self._writer = make_writer(self.handle)
+        self._write = self._writer.write
+        self._heard = False
+        self.on_matched.append(self._subscriptions_changed)
+        self.on_closing.append(self._writer.close)
 
     def publish(self, cdr: bytes) -> None:
         """See :meth:`Publisher.publish`."""
-        require_message(cdr, self.topic)
-        size = len(cdr)
-        if size & 3:  # Cyclone sends multiples of four bytes
-            cdr += b"\x00" * (-size & 3)
-            size = len(cdr)
-        with self._lock:  # the sertype must not go away between the test and its use
-            if self._closed:
-                raise WireError(f"publish on {self.topic}: the publisher is closed")
-            serdata = dds.serdata_from_bytes(
-                self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size
-            )
-        if not serdata:
-            raise WireError(f"publish on {self.topic}: Cyclone DDS refuses the message")
-        code = dds.write_serdata(self.handle, serdata)
+        code = self._write(cdr)
         if code < 0:
-            self._refused(code)
+            self._refused(code, cdr)
 
-    def _refused(self, code: int) -> None:
+    def _refused(self, code: int, cdr: bytes) -> None:
+        if code == NO_MESSAGE:
+            raise no_message(cdr, self.topic)
+        if code == REFUSED:
+            raise WireError(f"publish on {self.topic}: Cyclone DDS refuses the message")
         if code == dds.RETCODE_TIMEOUT:
             seconds = MAX_BLOCKING_NS / 1e9
             error = WireError(
-                f"publish on {self.topic}: not sent, a reliable subscription did not keep up for {seconds:g} s"
+                f"publish on {self.topic}: not sent, "
+                f"a reliable subscription did not keep up for {seconds:g} s"
             )
             raise error.with_hint(
-                "Publish less often, use a smaller depth with KEEP_LAST, or best effort reliability."
+                "Publish less often, use a smaller depth with KEEP_LAST, "
+                "or best effort reliability."
             )
-        if self._closed:
+        if code == CLOSED or self._closed:
             raise WireError(f"publish on {self.topic}: the publisher is closed")
         dds.check(code, f"publish on {self.topic}")
+
+    def is_heard(self) -> bool:
+        """See :meth:`Publisher.is_heard`."""
+        return self._heard or self.subscription_count() > 0
+
+    def _subscriptions_changed(self) -> None:
+        self._heard = self.subscription_count() > 0
 
     def subscription_count(self) -> int:
         """See :meth:`Publisher.subscription_count`."""

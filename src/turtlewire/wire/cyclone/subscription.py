@@ -22,13 +22,14 @@ from .endpoint import (
     read_matched,
 )
 from .inlet import Inlet
+from .native import NATIVE
 from .qos import dds_qos, read_user_data
 from .taking import take_messages
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from turtlewire._native import Intake
+    from turtlewire.wire.base import Sink
 
     from .participant import Participant
     from .waiting import CycloneWaitSet
@@ -44,7 +45,7 @@ class CycloneSubscription(Endpoint, Subscription):
 
     Attributes:
         wait_sets: Those that it is attached to.
-        inlet: How messages reach the intake that it was made with.
+        inlet: how messages reach the sink that it was made with.
     """
 
     _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
@@ -74,7 +75,7 @@ class CycloneSubscription(Endpoint, Subscription):
         spec: EndpointSpec,
         *,
         ignore_local: bool = False,
-        intake: Intake | None = None,
+        sink: Sink | None = None,
     ) -> None:
         super().__init__(spec)
         self.topic = spec.name
@@ -85,7 +86,9 @@ class CycloneSubscription(Endpoint, Subscription):
         self._forget = False
         self.on_matched.append(self._publishers_changed)
         topic = participant.topic(spec.dds_topic, spec.type_id.name)
-        self.inlet = None if intake is None else Inlet(participant.handle, intake)
+        self.inlet = None
+        if sink is not None and NATIVE is not None:
+            self.inlet = Inlet(NATIVE, participant.handle, sink)
         listener = None if self.inlet is None else self.inlet.listener
         with dds_qos(spec.qos, spec.user_data, writer=False, ignore_local=ignore_local) as qos:
             handle = dds.create_reader(participant.handle, topic, qos, listener)
@@ -113,12 +116,12 @@ class CycloneSubscription(Endpoint, Subscription):
             return messages
 
     def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
-        """What an intake kept back, readable or not; None when that was nothing. Their publishers are introduced to the intake."""
+        """What a sink left, readable or not; None when that was nothing. Their publishers are introduced to the sink."""
         kept = inlet.rest()
         messages = self._messages_of(kept)
         for _, publisher, _ in kept:
             if publisher in self._gids:
-                inlet.intake.introduce(publisher, self._gids[publisher])
+                inlet.sink.introduce(publisher, self._gids[publisher])
         if self._forget and not kept:
             self._forget_publishers(set())
         return messages if kept else None
@@ -219,7 +222,7 @@ def deliver_rest_to(
     inlet: Inlet,
     on_message: Callable[[bytes, MessageInfo], None],
 ) -> Callable[[], None]:
-    """:func:`deliver_to` of a subscription with an intake: what the reader thread calls when the inlet's guard is triggered."""
+    """:func:`deliver_to` of a subscription with a sink: what the reader thread calls when the inlet's guard is triggered."""
 
     def deliver() -> None:
         while not subscription.closed and (rest := subscription.take_rest(inlet)) is not None:

@@ -1,38 +1,15 @@
-"""Messages out of a reader: by native code, or through ctypes where the compiled core is missing or not wanted."""
+"""Messages out of a reader: by native code, or through ctypes where there is none."""
 
 from __future__ import annotations
 
 import ctypes
-import os
-from typing import TYPE_CHECKING
 
 from . import library as dds
+from .native import NATIVE
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-__all__ = ["NATIVE_FUNCTIONS", "take_messages", "take_with_ctypes"]
+__all__ = ["take_messages", "take_with_ctypes"]
 
 _BATCH = 32
-
-
-def _address(function: Callable[..., object]) -> int:
-    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type] # a function of ctypes
-    assert address is not None
-    return address
-
-
-#: Addresses of what native code calls of Cyclone.
-NATIVE_FUNCTIONS = tuple(
-    _address(function)
-    for function in (
-        dds.take_serdata,
-        dds.serdata_size,
-        dds.serdata_to_bytes,
-        dds.serdata_unref,
-        dds.set_guard_condition,
-    )
-)
 
 
 def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
@@ -62,15 +39,5 @@ def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
     return taken
 
 
-def _choose() -> Callable[[int, int], list[tuple[bytes, int, int]]]:
-    if os.environ.get("TURTLEWIRE_CORE") == "python":
-        return take_with_ctypes
-    try:
-        from turtlewire._native import Taker
-    except ModuleNotFoundError:
-        return take_with_ctypes
-    return Taker(NATIVE_FUNCTIONS).take
-
-
 #: What does :func:`take_with_ctypes`, as fast as can be.
-take_messages = _choose()
+take_messages = take_with_ctypes if NATIVE is None else NATIVE.take

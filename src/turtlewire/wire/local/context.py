@@ -27,8 +27,7 @@ from .waiting import LocalWaitSet, ReaderThread
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire._native import Intake
-    from turtlewire.wire.base import TypeId, WaitSet
+    from turtlewire.wire.base import Sink, TypeId, WaitSet
     from turtlewire.wire.qos import QoS
 
     from .endpoints import LocalEndpoint
@@ -58,7 +57,7 @@ class LocalNode(Node):
         type_id: TypeId,
         qos: QoS,
         on_message: Callable[[bytes, MessageInfo], None] | None = None,
-        intake: Intake | None = None,  # noqa: ARG002 - it would gain nothing here
+        sink: Sink | None = None,  # noqa: ARG002 - it would gain nothing here
     ) -> Subscription:
         """See :meth:`Node.create_subscription`."""
         qos = with_best_available(qos, topic, "subscription", self.context)

@@ -1,0 +1,109 @@
+#include "cyclone.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/pair.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+#include "../cyclone/abort.hpp"
+#include "../cyclone/inlet.hpp"
+#include "../cyclone/library.hpp"
+#include "../cyclone/writer.hpp"
+
+namespace turtlewire::python {
+namespace {
+
+using namespace nb::literals;
+using cyclone::Entity;
+using cyclone::Inlet;
+using cyclone::Library;
+using cyclone::Samples;
+using cyclone::Writer;
+
+void make_library(Library* self, const cyclone::Addresses& functions,
+                  const cyclone::InfoLayout& info) {
+  if (info[0] > Samples::kLargestInfo)
+    throw std::invalid_argument("dds_sample_info_t is too large");
+  new (self) Library(functions, info);
+}
+
+nb::list take(const Library& library, Entity reader, std::int64_t most) {
+  nb::list list;
+  for (bool more = true; more && most > 0;) {
+    const std::uint32_t wanted =
+        static_cast<std::uint32_t>(std::min<std::int64_t>(most, Samples::kMost));
+    const Samples samples(library, reader, wanted);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!samples.valid(i)) continue;
+      const std::size_t size = samples.bytes(i);
+      const auto bytes =
+          nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
+      if (!bytes.is_valid()) throw nb::python_error();
+      samples.copy(i, size, PyBytes_AS_STRING(bytes.ptr()));
+      list.append(nb::make_tuple(bytes, samples.publisher(i), samples.sent(i)));
+    }
+    more = samples.size() == wanted;
+    most -= wanted;
+  }
+  return list;
+}
+
+std::int32_t write(Writer& self, const nb::bytes& cdr) {
+  const std::span bytes(reinterpret_cast<const unsigned char*>(cdr.c_str()), cdr.size());
+  const Unlocked unlocked;
+  return self.write(bytes);
+}
+
+}  // namespace
+
+void add_cyclone_types(nb::module_& module) {
+  nb::class_<Library>(
+      module, "Cyclone",
+      "Cyclone DDS for native code.\n\n"
+      "Args:\n"
+      "    functions: Addresses of dds_takecdr, ddsi_serdata_size, ddsi_serdata_to_ser,\n"
+      "        ddsi_serdata_unref, dds_set_guardcondition, ddsi_serdata_from_ser_iov and\n"
+      "        dds_writecdr.\n"
+      "    info: Size of dds_sample_info_t, and the offsets of its valid_data, source_timestamp "
+      "and\n"
+      "        publication_handle.")
+      .def("__init__", &make_library, "functions"_a, "info"_a)
+      .def("take", &take, "reader"_a, "limit"_a,
+           "At most `limit` messages of a reader, with the GIL held, as (bytes, number of the "
+           "publisher,\ntime of sending in ns); none when the reader has gone.");
+  nb::class_<Writer>(module, "CycloneWriter",
+                     "Sends messages.\n\n"
+                     "Args:\n"
+                     "    library: What it calls.\n"
+                     "    writer: The DDS writer.\n"
+                     "    sertype: Address of its ddsi_sertype.")
+      .def(nb::init<const Library&, Entity, std::uintptr_t>(), "library"_a, "writer"_a, "sertype"_a)
+      .def("write", &write, "cdr"_a,
+           "Send a message without the GIL; a negative code if that failed: one of Cyclone's, "
+           "-1001 for\nbytes that are no message, -1002 after close(), -1003 if Cyclone makes no "
+           "sample of them.")
+      .def("close", &Writer::close, "To be called before the writer is deleted.");
+  nb::class_<Inlet>(
+      module, "CycloneInlet",
+      "Hands the messages of a reader to a sink, on the thread that receives them.\n\n"
+      "It must outlive the reader, and the sink must outlive it.\n\n"
+      "Args:\n"
+      "    library: What it calls.\n"
+      "    guard: The guard condition that is triggered when the sink is to be served.\n"
+      "    sink: Takes the messages.")
+      .def(nb::init<const Library&, Entity, Sink&>(), "library"_a, "guard"_a, "sink"_a)
+      .def(
+          "listener",
+          [](Inlet& self) {
+            return std::pair(reinterpret_cast<std::uintptr_t>(&Inlet::on_data),
+                             reinterpret_cast<std::uintptr_t>(&self));
+          },
+          "What the reader calls when data is available, and its argument.");
+  module.def("print_on_abort", &cyclone::print_on_abort, "pipe"_a,
+             "When this process aborts, write on stderr what can be read from a pipe.");
+}
+
+}  // namespace turtlewire::python

@@ -1,0 +1,48 @@
+"""The compiled half of this package; None where it is missing or not wanted."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import TYPE_CHECKING
+
+from . import library as dds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire._native import Cyclone
+
+__all__ = ["NATIVE"]
+
+
+def _address(function: Callable[..., object]) -> int:
+    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type] # a function of ctypes
+    assert address is not None
+    return address
+
+
+def _load() -> Cyclone | None:
+    if os.environ.get("TURTLEWIRE_CORE") == "python":
+        return None
+    try:
+        from turtlewire._native import Cyclone
+    except ModuleNotFoundError:
+        return None
+    functions = (
+        dds.take_serdata,
+        dds.serdata_size,
+        dds.serdata_to_bytes,
+        dds.serdata_unref,
+        dds.set_guard_condition,
+        dds.serdata_from_bytes,
+        dds.write_serdata,
+    )
+    info = dds.SampleInfo
+    members = (info.valid_data, info.source_timestamp, info.publication_handle)
+    layout = (ctypes.sizeof(info), *(member.offset for member in members))
+    return Cyclone([_address(function) for function in functions], layout)
+
+
+#: Calls Cyclone from native code.
+NATIVE = _load()

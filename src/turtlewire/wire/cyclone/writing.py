@@ -1,0 +1,78 @@
+"""Messages into a writer: by native code, or through ctypes where there is none."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.encapsulation import is_message
+
+from . import library as dds
+from .native import NATIVE
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    class Writer(Protocol):
+        """Sends messages with one DDS writer. Thread-safe."""
+
+        def write(self, cdr: bytes) -> int:
+            """Send a message; a negative code if that failed: one of Cyclone's or of this module."""
+            ...
+
+        def close(self) -> None:
+            """To be called before the DDS writer is deleted: the type goes with it."""
+            ...
+
+
+__all__ = ["CLOSED", "NO_MESSAGE", "REFUSED", "CtypesWriter", "make_writer"]
+
+# The codes that native/cyclone/writer.hpp adds to Cyclone's.
+NO_MESSAGE, CLOSED, REFUSED = -1001, -1002, -1003
+
+
+class CtypesWriter:
+    """A ``Writer`` without native code."""
+
+    def __init__(self, handle: int, sertype: int) -> None:
+        self._handle = handle
+        self._sertype = sertype
+        self._lock = threading.Lock()
+        self._closed = False
+
+    def write(self, cdr: bytes) -> int:
+        """See ``Writer.write``."""
+        if not is_message(cdr):
+            return NO_MESSAGE
+        if len(cdr) & 3:  # Cyclone sends multiples of four bytes
+            cdr += b"\x00" * (-len(cdr) & 3)
+        size = len(cdr)
+        with self._lock:
+            if self._closed:
+                return CLOSED
+            serdata = dds.serdata_from_bytes(
+                self._sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=cdr, size=size), size
+            )
+        return int(dds.write_serdata(self._handle, serdata)) if serdata else REFUSED
+
+    def close(self) -> None:
+        """See ``Writer.close``."""
+        with self._lock:
+            self._closed = True
+
+
+def make_writer(handle: int) -> Writer:
+    """What sends messages with a DDS writer.
+
+    Raises:
+        WireError: The writer has no type.
+    """
+    sertype = ctypes.c_void_p()
+    dds.check(dds.get_sertype(handle, sertype), "read the type of a writer")
+    address = sertype.value or 0
+    if NATIVE is None:
+        return CtypesWriter(handle, address)
+    from turtlewire._native import CycloneWriter
+
+    return CycloneWriter(NATIVE, handle, address)
