@@ -107,6 +107,17 @@ def test_a_message_arrives_with_its_origin(node: Node, other: Node):
     assert wait_set.wait(0) == []
 
 
+def test_a_publisher_is_heard_as_long_as_somebody_listens(node: Node, other: Node):
+    publisher = other.create_publisher("/chatter", STRING, QoS())
+    assert not publisher.is_heard()
+    for _ in range(2):
+        subscription = node.create_subscription("/chatter", STRING, QoS())
+        wait_until(other.context, lambda: publisher.subscription_count() == 1)
+        assert publisher.is_heard()
+        subscription.close()
+        wait_until(other.context, lambda: not publisher.is_heard())
+
+
 def test_messages_keep_their_order_and_readiness_is_level_triggered(node: Node, other: Node):
     subscription = node.create_subscription("/numbers", STRING, QoS(history=History.KEEP_ALL))
     publisher = other.create_publisher("/numbers", STRING, QoS(history=History.KEEP_ALL))
