@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
+from ros2cli.listing import HIDDEN_NODES
 
 if TYPE_CHECKING:
     import argparse
@@ -34,7 +35,7 @@ def managed_nodes(graph: Graph, *, hidden: bool = False) -> list[str]:
 HIDDEN_ARGUMENT = argument(
     "--include-hidden-nodes",
     action="store_true",
-    help="Also nodes whose name begins with an underscore",
+    help=HIDDEN_NODES,
 )
 
 

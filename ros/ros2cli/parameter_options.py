@@ -5,6 +5,7 @@ from __future__ import annotations
 from ros2cli.arguments import Argument, argument
 from ros2cli.completion import node_names, parameter_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS
+from ros2cli.listing import HIDDEN_NODES
 
 __all__ = ["NAME_ARGUMENT", "node_arguments"]
 
@@ -24,7 +25,7 @@ def node_arguments(*, optional: bool = False) -> tuple[Argument, ...]:
         argument(
             "--include-hidden-nodes",
             action="store_true",
-            help="Also nodes whose name begins with an underscore",
+            help=HIDDEN_NODES,
         ),
         argument(
             "--timeout",

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import sys
+
 import pytest
 
 from ros2cli import graph as ask
 from ros2cli.discovery import wait_until_discovered
+from ros2cli.main import main
+from turtlewire import msg
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
-from turtlewire.wire.qos import QoS
+from turtlewire.wire.qos import Durability, QoS, Reliability
 
 HASH = "RIHS01_" + "0" * 64
 
@@ -127,3 +132,48 @@ def test_what_never_comes_is_not_waited_for_forever():
     graph = Incomplete(news_needed=2)
     wait_until_discovered(graph)
     assert graph.listeners == []
+
+
+def test_the_commands_own_node_is_listed_only_without_a_daemon(capsys):
+    own = f"/_ros2cli_{os.getpid()}"
+    assert main(["node", "list", "-a"]) == 0
+    assert own not in capsys.readouterr().out.splitlines()
+    assert main(["node", "list", "-a", "--no-daemon"]) == 0
+    assert own in capsys.readouterr().out.splitlines()
+
+
+def test_a_hidden_node_is_shown_only_when_asked_for(capsys):
+    other = open_context()
+    other.create_node("_hidden")
+    try:
+        assert main(["node", "info", "/_hidden"]) == 1
+        assert capsys.readouterr().err.startswith("Unable to find node '/_hidden'\n")
+        assert main(["node", "info", "--include-hidden", "/_hidden"]) == 0
+        assert capsys.readouterr().out.startswith("/_hidden\n  Subscribers:")
+    finally:
+        other.close()
+
+
+@pytest.mark.parametrize("verb", ["hz", "bw", "delay"])
+def test_statistics_do_not_ask_for_the_history_of_a_topic(run, verb):
+    other = open_context()
+    try:
+        kind = TypeId(
+            "geometry_msgs/msg/PointStamped", msg.type_hash("geometry_msgs/msg/PointStamped")
+        )
+        latched = QoS(durability=Durability.TRANSIENT_LOCAL, depth=50)
+        node = other.create_node("map")
+        publisher = node.create_publisher("/map", kind, latched)
+        publisher.publish(msg.serialize(msg.get_message("geometry_msgs/msg/PointStamped")()))
+        program = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
+        run(sys.executable, "-c", program, "topic", verb, "/map")
+
+        def subscriptions():
+            return ask.endpoints_of_topic(other.graph, "/map", "subscription")
+
+        assert other.graph.wait_for(lambda: bool(subscriptions()), 60_000_000_000)
+        (found,) = subscriptions()
+        assert found.qos.durability == Durability.VOLATILE
+        assert found.qos.reliability == Reliability.BEST_EFFORT
+    finally:
+        other.close()

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import argument
 from ros2cli.discovery import GraphNode
+from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
 
 if TYPE_CHECKING:
     import argparse
 
 __all__ = ["ARGUMENTS", "main"]
 
-
-ARGUMENTS = (
-    argument("-t", "--show-types", action="store_true", help="Show the types too"),
-    argument("-c", "--count-actions", action="store_true", help="Only show how many there are"),
-)
+ARGUMENTS = (SHOW_TYPES, count_argument("action"))
 
 
 def main(args: argparse.Namespace) -> None:
@@ -25,8 +21,4 @@ def main(args: argparse.Namespace) -> None:
 
     with GraphNode() as graph:
         found = actions(graph)
-    if args.count_actions:
-        print(len(found))
-        return
-    for name, types in found:
-        print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+    print_names_and_types(found, args)

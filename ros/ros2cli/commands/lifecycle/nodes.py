@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 
 if TYPE_CHECKING:
     import argparse
@@ -20,9 +21,9 @@ ARGUMENTS = (
         "--all",
         "--include-hidden-nodes",
         action="store_true",
-        help="Also nodes whose name begins with an underscore",
+        help=HIDDEN_NODES,
     ),
-    argument("-c", "--count-nodes", action="store_true", help="Only show how many there are"),
+    count_argument("node"),
 )
 
 
@@ -32,8 +33,4 @@ def main(args: argparse.Namespace) -> None:
 
     with GraphNode(args.spin_time) as graph:
         names = managed_nodes(graph, hidden=args.all)
-    if args.count_nodes:
-        print(len(names))
-        return
-    for name in names:
-        print(name)
+    print_names(names, args)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
 from ros2cli.output import tell
 
 if TYPE_CHECKING:
@@ -16,10 +17,8 @@ __all__ = ["ARGUMENTS", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
-    argument(
-        "-a", "--all", action="store_true", help="Also nodes whose name begins with an underscore"
-    ),
-    argument("-c", "--count-nodes", action="store_true", help="Only show how many there are"),
+    argument("-a", "--all", action="store_true", help=HIDDEN_NODES),
+    count_argument("node"),
 )
 
 
@@ -32,11 +31,9 @@ def main(args: argparse.Namespace) -> None:
         names = node_names(graph, hidden=args.all)
     if not args.no_daemon:  # ROS 2 asks its daemon then, where the command has no node
         names = [name for name in names if name != helper.full_name]
-    if args.count_nodes:
-        print(len(names))
-        return
-    if len(set(names)) < len(names):
-        warning = "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have unintended side effects."
-        tell(warning)
-    for name in names:
-        print(name)
+    if len(set(names)) < len(names) and not args.count:
+        tell(
+            "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+            "which can have unintended side effects."
+        )
+    print_names(names, args)

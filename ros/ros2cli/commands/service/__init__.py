@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cli.arguments import argument
+from ros2cli.listing import hidden_argument
 
 __all__ = ["ARGUMENTS", "VERBS"]
 
@@ -16,10 +16,4 @@ VERBS = {
 }
 
 
-ARGUMENTS = (
-    argument(
-        "--include-hidden-services",
-        action="store_true",
-        help="Also services with a part that begins with an underscore",
-    ),
-)
+ARGUMENTS = (hidden_argument("service"),)

@@ -6,6 +6,12 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS, GraphNode
+from ros2cli.listing import (
+    SHOW_TYPES,
+    count_argument,
+    hidden_argument,
+    print_names_and_types,
+)
 
 if TYPE_CHECKING:
     import argparse
@@ -18,13 +24,9 @@ __all__ = ["ARGUMENTS", "main"]
 
 ARGUMENTS = (
     *STRATEGY_ARGUMENTS,
-    argument("-t", "--show-types", action="store_true", help="Show the types too"),
-    argument("-c", "--count-topics", action="store_true", help="Only show how many there are"),
-    argument(
-        "--include-hidden-topics",
-        action="store_true",
-        help="Also topics with a part that begins with an underscore",
-    ),
+    SHOW_TYPES,
+    count_argument("topic"),
+    hidden_argument("topic"),
     argument("-v", "--verbose", action="store_true", help="Show how many publish and subscribe"),
 )
 
@@ -35,13 +37,10 @@ def main(args: argparse.Namespace) -> None:
 
     with GraphNode(args.spin_time) as graph:
         found = topics(graph, hidden=args.include_hidden_topics)
-        if args.count_topics:
-            print(len(found))
-        elif args.verbose:
+        if args.verbose and not args.count:
             _print_verbose(graph, found)
         else:
-            for name, types in found:
-                print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+            print_names_and_types(found, args)
 
 
 def _print_verbose(graph: Graph, found: NamesAndTypes) -> None:

@@ -1,0 +1,75 @@
+"""What the verbs that list, find and tell types of topics, services and actions share."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli.arguments import argument
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Mapping
+
+    from ros2cli.arguments import Argument
+    from ros2cli.graph import NamesAndTypes
+
+__all__ = [
+    "HIDDEN_NODES",
+    "SHOW_TYPES",
+    "count_argument",
+    "hidden_argument",
+    "of_type",
+    "print_names",
+    "print_names_and_types",
+    "print_types",
+]
+
+SHOW_TYPES = argument("-t", "--show-types", action="store_true", help="Show the types too")
+HIDDEN_NODES = "Also nodes whose name begins with an underscore"
+
+
+def count_argument(kind: str) -> Argument:
+    """The option ``--count-topics`` for the kind ``topic``, and so on; its value is ``count``."""
+    return argument(
+        "-c",
+        f"--count-{kind}s",
+        dest="count",
+        action="store_true",
+        help="Only show how many there are",
+    )
+
+
+def hidden_argument(kind: str) -> Argument:
+    """The option ``--include-hidden-topics`` for the kind ``topic``, and so on."""
+    return argument(
+        f"--include-hidden-{kind}s",
+        action="store_true",
+        help=f"Also {kind}s with a part that begins with an underscore",
+    )
+
+
+def of_type(found: NamesAndTypes, type_name: str) -> list[str]:
+    """The names of those that have a type."""
+    return [name for name, types in found if type_name in types]
+
+
+def print_names(names: list[str], args: argparse.Namespace) -> None:
+    """Print the names, or how many there are."""
+    for line in [len(names)] if args.count else names:
+        print(line)
+
+
+def print_names_and_types(found: NamesAndTypes, args: argparse.Namespace) -> None:
+    """Print the names, with their types if asked for, or how many there are."""
+    shown = [f"{name} [{', '.join(types)}]" if args.show_types else name for name, types in found]
+    print_names(shown, args)
+
+
+def print_types(name: str, known: Mapping[str, list[str]]) -> int:
+    """Print the types of a name; returns the exit status, 1 if the name is not known."""
+    from ros2cli.suggestion import say_what_was_meant
+
+    for type_name in known.get(name, ()):
+        print(type_name)
+    say_what_was_meant(name, known)
+    return 0 if known.get(name) else 1
