@@ -34,7 +34,7 @@ def argument(*names: str, completer: Completer | None = None, **options: Any) ->
     Args:
         *names: Its flags, or one name.
         completer: Offers values to the shell.
-        **options: What argparse takes: ``help``, ``type``, ``default`` and so on.
+        **options: Options of argparse: ``help``, ``type``, ``default`` and so on.
     """
     return Argument(names, options, completer)
 

@@ -54,7 +54,7 @@ def _run_in_family(command: list[str], environment: dict[str, str]) -> int:
 def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCHLD, *_PASSED_ON})
     try:
-        process = subprocess.Popen(  # noqa: S603  what the user asked for
+        process = subprocess.Popen(  # noqa: S603
             command,
             env=environment,
             # `ros2 run` has one thread.
@@ -75,7 +75,7 @@ def _run(
     environment: dict[str, str],
     children: list[subprocess.Popen[bytes]] | None = None,
 ) -> int:
-    with subprocess.Popen(command, env=environment) as process:  # noqa: S603  what the user asked for
+    with subprocess.Popen(command, env=environment) as process:  # noqa: S603
         if children is not None:
             children.append(process)
         while process.returncode is None:

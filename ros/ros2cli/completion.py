@@ -1,4 +1,4 @@
-"""What the shell is offered to complete a word."""
+"""Completions that are offered to the shell."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def frame_names(**_: Any) -> list[str]:
 
 
 def arguments_of_executable(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """What may follow the name of an executable; known for those of tf2_ros that take frames."""
+    """Arguments of an executable: frames for those of tf2_ros that take them."""
     executable = (parsed_args.package_name, parsed_args.executable_name)
     return frame_names() if executable in _TAKES_FRAMES else []
 

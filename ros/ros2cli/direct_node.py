@@ -119,7 +119,7 @@ class DirectNode:
         return True
 
     def pause(self, seconds: float) -> None:
-        """Handle callbacks for so long.
+        """Handle callbacks for a number of seconds.
 
         Raises:
             KeyboardInterrupt: At Ctrl-C, or another signal that ends this process.
@@ -136,7 +136,7 @@ class DirectNode:
 
         Args:
             future: The answer to come.
-            server: What answers, for the error, for example ``service '/spawn'``.
+            server: Name of the server for the error, for example ``service '/spawn'``.
             is_served: Whether it is still there; asked at every change of the graph.
             timeout: Seconds to wait; None waits as long as the server is there.
 

@@ -1,4 +1,4 @@
-"""Taking part in the domain just long enough to know who is there."""
+"""Joins the domain for as long as it takes to discover its nodes."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
 
     Args:
         graph: The graph.
-        spin_time: Wait exactly so many seconds instead.
+        spin_time: Wait exactly this number of seconds instead.
     """
     only_this_host = (
         sys.platform == "linux"
@@ -97,7 +97,9 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
 
 
 class GraphNode:
-    """A hidden node that looks at the graph; a context manager. Lighter than a node of rclpy, since it sends and receives nothing.
+    """A hidden node that looks at the graph; a context manager.
+
+    It starts faster than a node of rclpy, since it sends and receives nothing.
 
     Args:
         spin_time: Seconds to wait for discovery; None waits until all is known.

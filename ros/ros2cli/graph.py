@@ -1,4 +1,7 @@
-"""Questions to the graph, as the verbs ask them. Names and types come as ``(name, [types])`` pairs, sorted by name."""
+"""Questions that the verbs ask the graph.
+
+Names and types come as ``(name, [types])`` pairs, sorted by name.
+"""
 
 from __future__ import annotations
 
@@ -127,7 +130,10 @@ def action_clients(graph: Graph, full_name: str) -> NamesAndTypes:
 
 
 def action_nodes(graph: Graph, action: str, kind: str) -> NamesAndTypes:
-    """The nodes that publish ("publisher": servers) or subscribe to ("subscription": clients) the feedback of an action."""
+    """The servers (``kind`` "publisher") or clients ("subscription") of an action.
+
+    Servers publish the feedback of the action, and clients subscribe to it.
+    """
     found = []
     for endpoint in endpoints_of_topic(graph, f"{action}{_FEEDBACK}", kind):
         if endpoint.node is not None:

@@ -1,4 +1,4 @@
-"""What the verbs that list, find and tell types of topics, services and actions share."""
+"""Shared parts of the verbs ``list``, ``find`` and ``type``."""
 
 from __future__ import annotations
 

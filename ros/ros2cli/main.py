@@ -89,15 +89,14 @@ def _run(words: list[str]) -> int:
         chosen = getattr(args, "parser", parser)
         hint = _hint(unknown[0], _OPTION.findall(chosen.format_usage()))
         chosen.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
-    if (
-        not args.use_python_default_buffering and sys.stdout is not None
-    ):  # None: whoever started this has closed it
+    # stdout is None if it was closed at the start.
+    if not args.use_python_default_buffering and sys.stdout is not None:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     return _status(args)
 
 
 def make_parser(words: list[str]) -> argparse.ArgumentParser:
-    """The parser for a command line; of commands and verbs that are not on it only the names are known.
+    """The parser for a command line; loads only the commands and verbs that are on it.
 
     Args:
         words: The words after ``ros2``.
@@ -122,7 +121,7 @@ def _add_choices(
     words: list[str],
     package: str,
 ) -> None:
-    """Add commands or verbs; the one that the words name is loaded."""
+    """Add commands or verbs, and load the one on the command line."""
     title = "Verbs" if " " in prog else "Commands"
     what = "<command>" if prog == "ros2" else "<verb>"
     group = parser.add_subparsers(
@@ -164,7 +163,7 @@ def _status(args: argparse.Namespace) -> int:
         return _EXIT_READER_GONE
     except RuntimeError as error:
         status = _told(error)
-    except Exception as error:  # noqa: BLE001  a user gets one line; the name of the error is what a search finds
+    except Exception as error:  # noqa: BLE001  the user gets one line, which names the class
         import traceback
 
         status = "".join(traceback.format_exception_only(type(error), error)).rstrip("\n")
@@ -181,5 +180,5 @@ def _told(error: RuntimeError) -> str:
 
 
 def _words_to_complete() -> list[str]:
-    """What the shell has of the command line when it asks for completions."""
+    """The words of the command line for which the shell asks completions."""
     return os.environ.get("COMP_LINE", "").split()[1:] if "_ARGCOMPLETE" in os.environ else []

@@ -1,4 +1,4 @@
-"""What verbs print: text of other processes must not steer the terminal."""
+"""Output of the verbs: text from other processes must not control the terminal."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class _EscapingStream:
 
 @contextlib.contextmanager
 def escaped_output() -> Iterator[None]:
-    """Escape what is printed to stdout meanwhile: names, strings and log lines of any peer."""
+    """Escape stdout within this context: names, strings and log lines may come from any peer."""
     stream = sys.stdout
     if stream is None:
         yield

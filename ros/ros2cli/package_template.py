@@ -82,7 +82,7 @@ def files(
     Args:
         name: Name of the package.
         package_format: Format of the package.xml, ``2`` or ``3``.
-        description: What the package is for.
+        description: Purpose of the package.
         license_name: Its licence.
         maintainer: Name and e-mail address.
         dependencies: Packages that it depends on.
@@ -115,7 +115,8 @@ def files(
         ),
         "setup.cfg": _SETUP_CFG.format(name=name),
         f"resource/{name}": "",
-        "test/test_import.py": f"import {name}\n\n\ndef test_the_package_can_be_imported():\n    assert {name}.__name__ == '{name}'\n",
+        "test/test_import.py": f"import {name}\n\n\ndef test_the_package_can_be_imported():\n"
+        f"    assert {name}.__name__ == '{name}'\n",
     }
     if node_name is not None:
         made[f"{name}/{node_name}.py"] = _NODE.format(name=name)

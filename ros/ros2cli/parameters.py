@@ -63,7 +63,8 @@ class Question:
         """
         if not self._client.wait_for_service(self._timeout):
             raise RuntimeError(
-                f"Wait for service timed out: the node '{self._node_name}' has no parameter services"
+                f"Wait for service timed out: the node '{self._node_name}' has no"
+                " parameter services"
             )
         self._answer = self._client.call_async(self._request)
         self._deadline = time.monotonic() + self._timeout
@@ -112,7 +113,7 @@ class RemoteParameters:
         )
 
     def meant(self, name: str) -> str:
-        """A line with the nearest parameters; empty if there is one of this name, or none is near."""
+        """A line with the nearest parameters; empty if the name exists, or none is near."""
         from ros2cli.suggestion import did_you_mean
 
         known = self.names()

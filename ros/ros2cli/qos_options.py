@@ -28,7 +28,7 @@ _LIVELINESS = ("system_default", "automatic", "manual_by_topic", "unknown", "bes
 QOS_ARGUMENTS = (
     argument("--qos-profile", choices=_PROFILES, help="Named profile to begin with"),
     argument("--qos-depth", metavar="N", type=unsigned_int, help="Length of the queue"),
-    argument("--qos-history", choices=_HISTORY, help="What the queue keeps"),
+    argument("--qos-history", choices=_HISTORY, help="Which messages the queue keeps"),
     argument(
         "--qos-reliability", choices=_RELIABILITY, help="Whether lost messages are sent again"
     ),
@@ -116,5 +116,6 @@ def matching_publishers(graph: Graph, topic: str) -> QoSProfile:
 
 def _say_fallback(offered: str, used: str) -> None:
     print(
-        f"Some, but not all, publishers are offering {offered}. Falling back to {used} as it will connect to all publishers"
+        f"Some, but not all, publishers are offering {offered}. "
+        f"Falling back to {used} as it will connect to all publishers"
     )

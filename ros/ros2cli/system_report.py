@@ -1,4 +1,7 @@
-"""What ``ros2 doctor --report`` prints: this computer, the middleware, the environment and the topics, to be put into a bug report."""
+"""What ``ros2 doctor --report`` prints, for a bug report.
+
+These are facts about the computer, the middleware, the environment and the topics.
+"""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def message_class(type_name: str) -> Any:
 
 
 def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> Any:
-    """The message class of a topic that somebody publishes or subscribes to.
+    """The message class of a topic that has publishers or subscriptions.
 
     Args:
         direct: The node that asks.
@@ -37,10 +37,10 @@ def type_of_topic(direct: DirectNode, topic: str, *, blocking: bool = False) -> 
         blocking: Wait for the topic to appear.
 
     Returns:
-        The class, or None when nobody knows the topic.
+        The class, or None if there is no such topic.
 
     Raises:
-        RuntimeError: The topic has several types, or one that is not known here.
+        RuntimeError: The topic has several types, or a type that is not installed.
     """
     graph = direct.graph
     types = graph.topic_names_and_types().get(topic, [])

@@ -23,7 +23,7 @@ def read_values(text: str) -> dict[str, Any]:
     """The mapping that a YAML text is; an empty text is an empty one.
 
     Raises:
-        RuntimeError: It is no mapping, or one that aliases or nesting make too large.
+        RuntimeError: It is not a mapping, or aliases or nesting make it too large.
         yaml.YAMLError: It is no YAML.
     """
     import yaml

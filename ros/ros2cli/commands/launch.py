@@ -50,7 +50,7 @@ ARGUMENTS = (
         "--noninteractive",
         action="store_true",
         default=not _at_terminal(),
-        help="Nobody at a terminal watches",
+        help="Run without a terminal",
     ),
     argument("-d", "--debug", action="store_true", help="Log what the launch does in detail"),
     exclusive(
@@ -78,7 +78,7 @@ ARGUMENTS = (
     argument("--launch-prefix", help="Command to put before all processes, for example a debugger"),
     argument(
         "--launch-prefix-filter",
-        help="Pattern of the executables that get the prefix; all when it is not given",
+        help="Pattern of the executables that get the prefix; all if it is left out",
     ),
     argument(
         "package_name",
@@ -122,7 +122,7 @@ def main(args: argparse.Namespace) -> int | str | None:
 def _warn_of_unknown(
     context: LaunchContext, source: LaunchDescriptionSource, names: list[str]
 ) -> None:
-    """Name arguments that the file does not declare and that look like one that it does."""
+    """Warn of arguments whose names resemble those that the file declares."""
     if not names:
         return
     from launch.logging import get_logger
@@ -264,7 +264,7 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
 
 
 def _description(source: LaunchDescriptionSource) -> LaunchDescription:
-    """What the file describes; errors get a hint that says where in the file."""
+    """The description in the file; errors get a hint with the place in the file."""
     from launch import LaunchContext
     from launch.utilities.raised_in import raised_in
 

@@ -34,7 +34,7 @@ ARGUMENTS = (
         "-iw",
         "--include-warnings",
         action="store_true",
-        help="Count what is only worth knowing as a failure too",
+        help="Count warnings as failures, too",
     ),
     argument(
         "-ep",

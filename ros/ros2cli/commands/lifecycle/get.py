@@ -22,7 +22,7 @@ ARGUMENTS = (
     argument(
         "node_name",
         nargs="?",
-        help="Full name of the node; all when it is not given",
+        help="Full name of the node; all if it is left out",
         completer=managed_node_names,
     ),
 )

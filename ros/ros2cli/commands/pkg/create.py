@@ -28,7 +28,7 @@ ARGUMENTS = (
         default="3",
         help="Format of the package.xml",
     ),
-    argument("--description", default="TODO: Package description", help="What the package is for"),
+    argument("--description", default="TODO: Package description", help="Purpose of the package"),
     argument(
         "--license", default="TODO: License declaration", help="Its licence, for example Apache-2.0"
     ),
@@ -58,14 +58,23 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> str | None:
     """Make the folder with all that an ament_python package needs."""
     if not _NAME.fullmatch(args.package_name):
-        return f"Invalid package name '{args.package_name}': small letters, digits and single underscores, beginning with a letter"
+        return (
+            f"Invalid package name '{args.package_name}': use lower-case letters, digits and"
+            " single underscores, and begin with a letter"
+        )
     if args.node_name is not None and not _NODE_NAME.fullmatch(args.node_name):
-        return f"Invalid node name '{args.node_name}': letters, digits and underscores, not beginning with a digit"
+        return (
+            f"Invalid node name '{args.node_name}': use letters, digits and underscores, and do"
+            " not begin with a digit"
+        )
     if args.node_name == args.package_name:
         return "[ERROR] [ros2pkg]: node name cannot be the same as the package name"
     folder = os.path.join(args.destination_directory, args.package_name)
     if os.path.exists(folder):
-        return f"\nAborted!\nThe directory already exists: {folder}\nRemove it, or choose another destination directory or package name"
+        return (
+            f"\nAborted!\nThe directory already exists: {folder}\n"
+            "Remove it, or choose another destination directory or package name"
+        )
     email = args.maintainer_email or f"{args.maintainer_name}@todo.todo"
     _print_plan(args, email)
     files = package_template.files(

@@ -18,7 +18,7 @@ ARGUMENTS = (
     argument(
         "package_name",
         nargs="?",
-        help="Name of the package; all when it is not given",
+        help="Name of the package; all if it is left out",
         completer=packages,
     ),
     argument("--full-path", action="store_true", help="Show the paths"),

@@ -66,7 +66,8 @@ def main(args: argparse.Namespace) -> str | None:
         )
         if subscription.get_publisher_count() < 1:
             print(
-                f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
+                f"No publishers on topic '{topic}'; "
+                "is service introspection on the client or server enabled?"
             )
         direct.spin()
     return None
@@ -87,7 +88,8 @@ def _type_of_service(graph: Graph, service: str) -> str | None:
     types = dict(services(graph, hidden=True)).get(service, [])
     if len(types) > 1:
         raise RuntimeError(
-            f"Cannot echo service '{service}', as it contains more than one type: [{', '.join(types)}]"
+            f"Cannot echo service '{service}', as it contains more than one type: "
+            f"[{', '.join(types)}]"
         )
     return types[0] if types else None
 

@@ -140,7 +140,7 @@ class _Printer:
             self._finish()
 
     def _print(self, value: Any, info: dict[str, Any]) -> None:
-        """Print a value and, if there is any, what is known of its message."""
+        """Print a value, after the information about its message if there is any."""
         args = self._args
         length = None if args.full_length else args.truncate_length
         if args.raw or not hasattr(value, "SLOT_TYPES"):
@@ -180,7 +180,7 @@ def _field(message: Any, path: str | None) -> Any:
     for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path or ""):
         try:
             message = getattr(message, name) if name else message[int(index)]
-        except (AttributeError, IndexError, TypeError) as error:  # noqa: PERF203  a path has few parts
+        except (AttributeError, IndexError, TypeError) as error:  # noqa: PERF203
             from ros2cli.suggestion import field_meant
 
             raise RuntimeError(f"Invalid field '{path}': {error}{field_meant(error)}") from error
@@ -205,7 +205,8 @@ def make_filter(expression: str | None) -> Callable[[Any], bool] | None:
         code = compile(expression, "<filter>", "eval")
     except SyntaxError as error:
         raise RuntimeError(f"Invalid filter expression '{expression}': {error}") from error
-    return lambda message: bool(eval(code, {}, {"m": message}))  # noqa: S307  the user's own expression
+    # The expression is the user's own, as a Python program would be.
+    return lambda message: bool(eval(code, {}, {"m": message}))  # noqa: S307
 
 
 def _lost(args: argparse.Namespace) -> Any:
@@ -215,7 +216,8 @@ def _lost(args: argparse.Namespace) -> Any:
 
     def report(status: Any) -> None:
         print(
-            f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: {status.total_count}",
+            f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n"
+            f"\ttotal count: {status.total_count}",
             end="---\n",
         )
 

@@ -54,16 +54,18 @@ ARGUMENTS = (
     ),
     exclusive(
         argument("-1", "--once", action="store_true", help="Publish one message"),
-        argument("-t", "--times", type=positive_int, default=0, help="Publish so many messages"),
+        argument(
+            "-t", "--times", type=positive_int, default=0, help="Publish this number of messages"
+        ),
     ),
     argument(
         "-w",
         "--wait-matching-subscriptions",
         type=unsigned_int,
-        help="Wait for so many subscriptions; by default for one with --once and --times",
+        help="Number of subscriptions to wait for; 1 by default with --once and --times",
     ),
     argument(
-        "--max-wait-time-secs", type=positive_float, help="Wait at most so long for subscriptions"
+        "--max-wait-time-secs", type=positive_float, help="Longest time to wait for subscriptions"
     ),
     argument(
         "--keep-alive",
@@ -129,7 +131,10 @@ def _wait_for_subscriptions(
             else min(_SAY_WAITING_EVERY_S, deadline - time.monotonic())
         )
         if rest <= 0:
-            return f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got {count} subscribers"
+            return (
+                f"Timed out waiting for subscribers: Expected {wanted} subscribers"
+                f" but only got {count} subscribers"
+            )
         direct.wait_for(lambda: publisher.get_subscription_count() >= wanted, rest)
     return None
 

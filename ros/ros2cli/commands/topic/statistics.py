@@ -46,7 +46,8 @@ class Intervals:
         shortest, longest = min(self._values), max(self._values)
         return (
             f"average rate: {rate:.3f}\n"
-            f"\tmin: {shortest:.3f}s max: {longest:.3f}s std dev: {deviation:.5f}s window: {len(self._values) + 1}\n"
+            f"\tmin: {shortest:.3f}s max: {longest:.3f}s std dev: {deviation:.5f}s"
+            f" window: {len(self._values) + 1}\n"
         )
 
 
@@ -74,7 +75,8 @@ class Delays:
         mean, deviation = _spread(self._values)
         return (
             f"average delay: {mean:.3f}\n"
-            f"\tmin: {min(self._values):.3f}s max: {max(self._values):.3f}s std dev: {deviation:.5f}s window: {len(self._values)}\n"
+            f"\tmin: {min(self._values):.3f}s max: {max(self._values):.3f}s"
+            f" std dev: {deviation:.5f}s window: {len(self._values)}\n"
         )
 
 
@@ -105,4 +107,7 @@ class Sizes:
             f"{value / divisor:.{digits}f} {unit}"
             for value in (rate, statistics.fmean(sizes), min(sizes), max(sizes))
         )
-        return f"{shown}/s from {len(sizes)} messages\n\tMessage size mean: {mean} min: {least} max: {most}\n"
+        return (
+            f"{shown}/s from {len(sizes)} messages\n"
+            f"\tMessage size mean: {mean} min: {least} max: {most}\n"
+        )
