@@ -47,7 +47,7 @@ def test_the_page_does_what_it_says(page, run):
             last = Command(run, sys.executable, "-c", text)
         else:
             assert kind == "sh"
-            for line in text.splitlines():
+            for line in text.replace("\\\n", "").splitlines():
                 if line.endswith(" &"):
                     run("bash", "-c", f"exec {line.removesuffix(' &')}")
                 else:
