@@ -8,6 +8,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from launch.conditions import evaluate_condition_expression
+from launch.frontend import Parser
 from launch.frontend.type_utils import list_item_type
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.parameter_values import evaluate_value, typed
@@ -134,9 +136,6 @@ class ParameterFile:
             OSError: It cannot be read.
             SubstitutionFailure: A substitution has no text.
         """
-        from launch.conditions import evaluate_condition_expression
-        from launch.frontend import Parser
-
         path = Path(perform_substitutions(context, self._param_file))
         if not evaluate_condition_expression(context, self._allow_substs):
             return path

@@ -6,6 +6,7 @@ import os
 import shlex
 from typing import TYPE_CHECKING, Any
 
+from launch import logging
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
@@ -91,7 +92,5 @@ class Command(Substitution):
             if on_stderr == "fail":
                 raise SubstitutionFailure(message)
             if on_stderr == "warn":
-                from launch import logging
-
                 logging.get_logger("launch.substitutions.command").warning("%s", message)
         return result.stdout

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from launch import logging
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 
@@ -33,6 +34,4 @@ class LaunchLogDir(Substitution):
 
     def perform(self, _context: LaunchContext) -> str:
         """The folder."""
-        from launch import logging
-
         return logging.launch_config.log_dir

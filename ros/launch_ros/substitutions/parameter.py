@@ -8,6 +8,7 @@ from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities.scope import global_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,8 +56,6 @@ class Parameter(Substitution):
         Raises:
             SubstitutionFailure: It is not set, and there is no default.
         """
-        from launch_ros.utilities.scope import global_parameters
-
         name = perform_substitutions(context, self._name)
         for entry in reversed(global_parameters(context)):
             if isinstance(entry, tuple) and entry[0] == name:

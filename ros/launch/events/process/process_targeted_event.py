@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from launch.event import Event
@@ -48,8 +49,6 @@ def matches_name(name: str) -> Callable[[ProcessRunner], bool]:
 
 def matches_executable(exec_name: str) -> Callable[[ProcessRunner], bool]:
     """Matches processes that run the executable with this file name."""
-    import os
-
     return lambda action: (
         action.process_details is not None
         and os.path.basename(action.process_details["cmd"][0]) == exec_name
