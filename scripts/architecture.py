@@ -10,7 +10,7 @@ import argparse
 import ast
 import configparser
 import sys
-from collections import Counter, defaultdict
+from collections import defaultdict
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -188,7 +188,7 @@ def main() -> int:
     from architecture_map import draw
 
     path = arguments.root / "docs" / "images" / "architecture.svg"
-    image = draw(house, Counter(room(name) for name in house.paths))
+    image = draw(house)
     if not arguments.check:
         path.write_text(image, encoding="utf-8")
     elif not path.exists() or path.read_text(encoding="utf-8") != image:

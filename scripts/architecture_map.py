@@ -8,23 +8,21 @@ from typing import TYPE_CHECKING
 from architecture import ENGINE, SHELLS, room, strong_components
 
 if TYPE_CHECKING:
-    from collections import Counter
-
     from architecture import House
 
-WIDTH, BOX, ROW, TOP = 1180, 40, 92, 24
+WIDTH, BOX, ROW, TOP = 1180, 30, 82, 12
 STYLE = """
-  text { font: 13px system-ui, sans-serif; fill: #1b2a35 } .count { font-size: 10px; fill: #5a6b78 }
+  text { font: 13px system-ui, sans-serif; fill: #1b2a35 }
   rect { stroke: #7d8f9b; rx: 6 } .engine { fill: #dcefe6 } .ros { fill: #e3ebf7 }
   .shells { fill: #f6eeda } path { fill: none; stroke: #8fa1ad } .up { stroke: #c0392b }
   @media (prefers-color-scheme: dark) {
-    text { fill: #e4ebf0 } .count { fill: #9fb0bb } path { stroke: #6b7f8c }
+    text { fill: #e4ebf0 } path { stroke: #6b7f8c }
     .engine { fill: #1f4a3a } .ros { fill: #243b5c } .shells { fill: #54471f }
   }
 """
 
 
-def draw(house: House, sizes: Counter[str]) -> str:
+def draw(house: House) -> str:
     """The picture; the same for the same imports."""
     arrows = house.rooms()
     rows = _rows(arrows)
@@ -40,7 +38,7 @@ def draw(house: House, sizes: Counter[str]) -> str:
     ]
     upward = sorted({(room(source), room(target)) for source, target in house.excused})
     lines += [_arrow(places[source], places[target], ' class="up"') for source, target in upward]
-    boxes = [_box(name, places[name], sizes[name] or len(house.shells)) for name in sorted(places)]
+    boxes = [_box(name, place) for name, place in sorted(places.items())]
     height = TOP + len(rows) * ROW
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" role="img" '
@@ -99,14 +97,11 @@ def _arrow(start: tuple[float, float], end: tuple[float, float], style: str) -> 
     return f'<path{style} d="{way}"/>'
 
 
-def _box(name: str, place: tuple[float, float], size: int) -> str:
-    kind = "shells" if name == SHELLS else "engine" if name.startswith(ENGINE + ".") else "ros"
-    kind = "engine" if name == ENGINE else kind
+def _box(name: str, place: tuple[float, float]) -> str:
+    kind = "shells" if name == SHELLS else "engine" if name.split(".")[0] == ENGINE else "ros"
     x, y = place
-    unit = "packages" if name == SHELLS else "module" if size == 1 else "modules"
-    width = max(8 * len(name), 70) + 16
+    width = 8 * len(name) + 16
     return (
         f'<rect class="{kind}" x="{x - width / 2:.0f}" y="{y}" width="{width}" height="{BOX}"/>'
-        f'<text x="{x:.0f}" y="{y + 17}" text-anchor="middle">{escape(name)}</text>'
-        f'<text class="count" x="{x:.0f}" y="{y + 32}" text-anchor="middle">{size} {unit}</text>'
+        f'<text x="{x:.0f}" y="{y + 20}" text-anchor="middle">{escape(name)}</text>'
     )
