@@ -98,7 +98,8 @@ def _arrow(start: tuple[float, float], end: tuple[float, float], style: str) -> 
 
 
 def _box(name: str, place: tuple[float, float]) -> str:
-    kind = "shells" if name == SHELLS else "engine" if name.split(".")[0] == ENGINE else "ros"
+    in_engine = name == ENGINE or name.startswith(f"{ENGINE}.")
+    kind = "shells" if name == SHELLS else "engine" if in_engine else "ros"
     x, y = place
     width = 8 * len(name) + 16
     return (
