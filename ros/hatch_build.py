@@ -1,4 +1,4 @@
-"""Builds the data of the wheel: for each ROS package what ament, colcon and rosdep look for, and the shell files of the prefix.
+"""Builds the data of the wheel: files for ament, colcon and rosdep, and shell files of the prefix.
 
 Every folder here and in ``interfaces/`` with an ``__init__.py`` is a ROS package. Entry points of
 the groups ``turtlewire.executables.<package>`` become ``lib/<package>/<executable>``, as ``ros2

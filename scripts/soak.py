@@ -27,8 +27,8 @@ VISITS_PER_MINUTE = 60
 MOST_VISITORS = 12  # at a time: a slow machine gets fewer, and the table says how many
 KILLED = 3  # one of so many visitors
 SAMPLES = 60
-#: How much more than in the middle third a process may hold at least in the last third. Packets fill
-#: a receive buffer of 1 MB before Cyclone frees it, so memory goes up and down by that much.
+#: How much more than in the middle third a process may hold at least in the last third. Packets
+#: fill a receive buffer of 1 MB before Cyclone frees it, so memory goes up and down by that much.
 MEMORY_LIMIT = 3 << 18
 START_LIMIT_S = 120
 END_LIMIT_S = 60

@@ -19,7 +19,7 @@ __all__ = ["ComponentManager"]
 
 
 class ComponentManager(Node):
-    """Offers the services by which ROS 2 loads, unloads and lists components: ``~/_container/load_node`` and its like.
+    """Offers ROS 2's services that load, unload and list components (``~/_container/load_node`` …).
 
     A component is a class of nodes, given as ``package.module.Class``. It is constructed without
     arguments, as its own ``main()`` would do it; name, namespace, parameters and remappings of the
@@ -113,7 +113,8 @@ def _construct(request: Any) -> Node:
     module_name, _, class_name = request.plugin_name.replace(":", ".").rpartition(".")
     if not module_name:
         raise ValueError(
-            f"'{request.plugin_name}' is no component of {request.package_name}; expected 'package.module.Class'"
+            f"'{request.plugin_name}' is no component of {request.package_name}; "
+            "expected 'package.module.Class'"
         )
     node_class = getattr(importlib.import_module(module_name), class_name)
     token = component_arguments.set(_words(request))

@@ -1,4 +1,4 @@
-# The compiled core; use it through turtlewire.Buffer. The documentation is in the docstrings of the module itself.
+# The compiled core; use it through turtlewire.Buffer. The module itself has the docstrings.
 
 from collections.abc import Callable, Sequence
 from typing import Any, final

@@ -18,7 +18,10 @@ _LINES = _HARMLESS | {"\n", "\t"}
 
 
 def printable(text: str) -> str:
-    r"""``text`` on one line: control, direction and invisible characters as ``\x1b``, ``\u202e``."""
+    r"""``text`` on one line.
+
+    Control, direction and invisible characters as ``\x1b``, ``\u202e``.
+    """
     return text if text.isprintable() else _escaped(text, _HARMLESS)
 
 

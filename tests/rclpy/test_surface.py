@@ -1,10 +1,8 @@
-"""The public surface of ROS 2 Jazzy's rclpy, name by name: modules, functions, classes, methods, parameters, defaults, constants, errors.
+"""The public surface of ROS 2 Jazzy's rclpy, name by name, with parameters and defaults.
 
 A table says what is there in ROS 2. Ours may take more keywords, with defaults; it may not lack
 one, or have another default.
 """
-
-# ruff: noqa: E501 - a row of a table is a line
 
 from __future__ import annotations
 
@@ -597,7 +595,7 @@ def find(path):
 
 
 def functions():
-    """Each callable of the table: where it is, its name, its parameters, and the module where it is as well."""
+    """Each callable of the table: its place, name and parameters, and its second module."""
     place = None
     for line in FUNCTIONS.strip().splitlines():
         if not line.startswith(" "):
@@ -792,7 +790,7 @@ OF_ROS_2 |= {"_time_source", "_type_description_service"}
 
 @pytest.mark.parametrize("kind", [Node, LifecycleNode])
 def test_a_program_may_have_attributes_of_its_own(context, kind):
-    """Whoever derives from a node may call an attribute or a method as he likes: `_name`, `_graph`, `_executor`, `_register`."""
+    """A class derived from Node may use any attribute name, for example `_name` or `_executor`."""
     node = kind("tested", context=context, enable_logger_service=True)
     private = {
         name

@@ -18,7 +18,8 @@ __all__ = ["lazy_classes"]
 def lazy_classes(home: str) -> Callable[[str], type]:
     """The ``__getattr__`` of a module of interfaces.
 
-    ROS 2's generator has a private module for each interface, ``geometry_msgs.msg._twist``, and some
+    ROS 2's generator has a private module for each interface, ``geometry_msgs.msg._twist``, and
+    some
     programs import from there; they are put into ``sys.modules``.
 
     Args:

@@ -142,7 +142,10 @@ class EventStatus(NamedTuple):
 
 
 class Entity(ABC):
-    """Something with a lifetime on the wire; waitable ones can be attached to a :class:`WaitSet`."""
+    """Something with a lifetime on the wire.
+
+    Waitable ones can be attached to a :class:`WaitSet`.
+    """
 
     @abstractmethod
     def close(self) -> None:
@@ -150,13 +153,16 @@ class Entity(ABC):
 
 
 class Event(Entity):
-    """Reports one kind of event of one publisher or subscription. Waitable (ready: it happened since the last :meth:`take`)."""
+    """Reports one kind of event of one publisher or subscription.
+
+    Waitable (ready: it happened since the last :meth:`take`).
+    """
 
     kind: EventKind
 
     @abstractmethod
     def take(self) -> EventStatus | None:
-        """The counters, or None when nothing happened since the last call (or since the endpoint was created)."""
+        """The counters, or None if nothing happened since the last call (or since the creation)."""
 
 
 class Sink(Protocol):
@@ -222,7 +228,10 @@ class Publisher(Entity):
 
     @abstractmethod
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
-        """Block until all reliable subscriptions have received all that was published; False when the time is over before."""
+        """Block until all reliable subscriptions have received all that was published.
+
+        False when the time is over before.
+        """
 
 
 class Subscription(Entity):
@@ -232,7 +241,10 @@ class Subscription(Entity):
 
     @abstractmethod
     def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
-        """Take up to ``limit`` waiting messages, oldest first; an empty list when there are none."""
+        """Take up to ``limit`` waiting messages, oldest first.
+
+        An empty list when there are none.
+        """
 
     @abstractmethod
     def publisher_count(self) -> int:
@@ -264,11 +276,11 @@ class Client(Entity):
 
     @abstractmethod
     def take(self, limit: int = 32) -> list[tuple[int, bytes]]:
-        """Take up to ``limit`` responses to requests of this client as ``(sequence_number, cdr)``."""
+        """Take up to ``limit`` responses to this client as ``(sequence_number, cdr)``."""
 
     @abstractmethod
     def is_ready(self) -> bool:
-        """Whether a server is there that would receive a request and whose response would arrive here."""
+        """Whether a server is there that gets a request and whose response arrives here."""
 
 
 class Service(Entity):
@@ -290,7 +302,10 @@ Waitable = Subscription | Client | Service | Event
 
 
 class WaitSet(Entity):
-    """Waits for several entities at once. One thread waits at a time; any thread may attach, detach and wake."""
+    """Waits for several entities at once. One thread waits at a time.
+
+    Any thread may attach, detach and wake.
+    """
 
     @abstractmethod
     def attach(self, entity: Waitable) -> None:
@@ -315,7 +330,10 @@ class WaitSet(Entity):
 
     @abstractmethod
     def wake(self) -> None:
-        """End the current or the next :meth:`wait`. Safe from any thread and from a signal's helper thread."""
+        """End the current or the next :meth:`wait`.
+
+        Safe from any thread and from a signal's helper thread.
+        """
 
 
 class Node(Entity):
@@ -369,11 +387,14 @@ class Graph(ABC):
 
     @abstractmethod
     def endpoints(self) -> list[EndpointInfo]:
-        """All known endpoints, those of services included (demangled to ``rq/…`` names unless asked below)."""
+        """All known endpoints, also those of services (as ``rq/…`` names unless asked below)."""
 
     @abstractmethod
     def topic_names_and_types(self, *, demangle: bool = True) -> dict[str, list[str]]:
-        """Topic name to sorted type names; services hidden and names demangled unless ``demangle`` is False."""
+        """Topic name to sorted type names.
+
+        Services hidden and names demangled unless ``demangle`` is False.
+        """
 
     @abstractmethod
     def service_names_and_types(self) -> dict[str, list[str]]:
@@ -381,7 +402,7 @@ class Graph(ABC):
 
     @abstractmethod
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
-        """Block until ``predicate()`` is true, tested at once and after every change of the graph (no polling).
+        """Block until ``predicate()`` is true; test it at once and after every change of the graph.
 
         Args:
             predicate: Called without locks held, on the calling thread.
@@ -393,14 +414,19 @@ class Graph(ABC):
 
     @abstractmethod
     def is_complete(self) -> bool:
-        """Whether everything on this host is known: its participants, where the system tells how many there are, and what they announced.
+        """Whether everything on this host is known.
+
+        Its participants, where the system tells how many there are, and what they announced.
 
         Of participants on other hosts that are not known yet it says nothing.
         """
 
     @abstractmethod
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
-        """Call ``on_change`` on the context's reader thread after changes; returns a function that ends it."""
+        """Call ``on_change`` on the context's reader thread after changes.
+
+        Returns a function that ends it.
+        """
 
 
 class Context(ABC):
@@ -431,4 +457,7 @@ class Context(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Close everything, end the reader thread and all waits, and join. Idempotent; always returns."""
+        """Close everything, end the reader thread and all waits, and join. Idempotent.
+
+        Always returns.
+        """

@@ -86,7 +86,10 @@ def middleware_name() -> str:
 
 
 def discovery() -> Discovery:
-    """What ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY`` and ``ROS_STATIC_PEERS`` say; ``LOCALHOST`` when they say nothing."""
+    """What ``ROS_AUTOMATIC_DISCOVERY_RANGE``, ``ROS_LOCALHOST_ONLY`` and ``ROS_STATIC_PEERS`` say.
+
+    ``LOCALHOST`` when they say nothing.
+    """
     peers = tuple(
         peer.strip() for peer in os.environ.get("ROS_STATIC_PEERS", "").split(";") if peer.strip()
     )
@@ -100,7 +103,8 @@ def discovery() -> Discovery:
         if localhost_only == "1":
             warn_once(
                 "ROS_LOCALHOST_ONLY=1",
-                "'localhost_only' is enabled, 'automatic_discovery_range' and 'static_peers' will be ignored.",
+                "'localhost_only' is enabled, 'automatic_discovery_range' and 'static_peers' "
+                "will be ignored.",
             )
             return Discovery(Range.LOCALHOST, ())
     return Discovery(_range(os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip()), peers)
@@ -114,7 +118,8 @@ def _range(text: str) -> Range:
     except KeyError:
         warn_once(
             "ROS_AUTOMATIC_DISCOVERY_RANGE",
-            f"Invalid value '{text}' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming localhost only "
+            f"Invalid value '{text}' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming "
+            "localhost only "
             "(valid: SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)",
         )
         return Range.LOCALHOST

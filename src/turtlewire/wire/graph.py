@@ -50,7 +50,7 @@ _U32 = Struct("<I")
 
 
 class NodeEndpoints(NamedTuple):
-    """A node and the gids (16 bytes each) of its endpoints, as ``ros_discovery_info`` lists them."""
+    """A node and the gids (16 bytes each) of its endpoints, as in ``ros_discovery_info``."""
 
     namespace: str
     name: str
@@ -59,7 +59,7 @@ class NodeEndpoints(NamedTuple):
 
 
 def pack_discovery_info(participant: bytes, nodes: Iterable[NodeEndpoints]) -> bytes:
-    """Serialize a ``rmw_dds_common/msg/ParticipantEntitiesInfo`` (little endian CDR with its header)."""
+    """Serialize a ``rmw_dds_common/msg/ParticipantEntitiesInfo`` (little endian, with header)."""
     nodes = list(nodes)
     out = bytearray(_HEADER + participant + _U32.pack(len(nodes)))
     for node in nodes:
@@ -96,7 +96,8 @@ class _DiscoveryInfoReader:
     def read(self) -> tuple[bytes, list[NodeEndpoints]]:
         if self._cdr[:2] != _HEADER[:2]:
             raise CdrError(
-                f"ros_discovery_info: expected little endian CDR (00 01), got header {self._cdr[:4].hex(' ')}"
+                "ros_discovery_info: expected little endian CDR (00 01), got header "
+                f"{self._cdr[:4].hex(' ')}"
             )
         participant = self._bytes(_GID_SIZE)
         return participant, [self._node() for _ in range(self._count(_NODE_MIN_SIZE))]
@@ -120,7 +121,8 @@ class _DiscoveryInfoReader:
         (count,) = _U32.unpack(self._bytes(4))
         if count * item_size > len(self._cdr) - self._at:
             raise CdrError(
-                f"ros_discovery_info: {count} items announced, {len(self._cdr) - self._at} bytes left"
+                f"ros_discovery_info: {count} items announced, {len(self._cdr) - self._at} bytes "
+                "left"
             )
         return int(count)
 
@@ -140,14 +142,17 @@ def format_user_data(**values: str) -> bytes:
 
 
 def parse_user_data(user_data: bytes) -> dict[str, str]:
-    """Read ``key=value;`` pairs; other content is left out (peers that are not ROS put there what they like)."""
+    """Read ``key=value;`` pairs.
+
+    Other content is left out (peers that are not ROS put there what they like).
+    """
     text = user_data.rstrip(b"\x00").decode("utf-8", "replace")
     pairs = (item.partition("=") for item in text.split(";"))
     return {key.strip(): value for key, equals, value in pairs if equals}
 
 
 class GraphView(Graph):
-    """The part of :class:`Graph` that follows from ``nodes()`` and ``endpoints()``, and waiting for changes.
+    """The part of :class:`Graph` that derives from ``nodes()`` and ``endpoints()``, and waiting.
 
     Whoever keeps the data calls :meth:`notify_changed` after each change, without locks held, and
     :meth:`end_waits` at the end.
@@ -195,7 +200,10 @@ class GraphView(Graph):
         return predicate()
 
     def is_complete(self) -> bool:
-        """See :meth:`Graph.is_complete`; nothing is under way where nothing has to be discovered."""
+        """See :meth:`Graph.is_complete`.
+
+        Nothing is under way where nothing has to be discovered.
+        """
         return True
 
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
@@ -242,7 +250,10 @@ def _grouped(pairs: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
 
 
 def with_best_available(qos: QoS, topic: str, kind: str, context: Context) -> QoS:
-    """Choose the best-available policies of a new ``"publisher"`` or ``"subscription"`` after the endpoints that the graph knows now."""
+    """Choose the best-available policies of a new ``"publisher"`` or ``"subscription"``.
+
+    They follow the endpoints that the graph knows now.
+    """
     if not qos.has_best_available:
         return qos
     others = [

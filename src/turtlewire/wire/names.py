@@ -61,7 +61,10 @@ class Fault(NamedTuple):
 
 
 def validate_topic_name(name: str) -> Fault | None:
-    """Check a topic or service name as a user types it: relative, private (``~``) and with substitutions allowed."""
+    """Check a topic or service name as a user types it.
+
+    Relative, private (``~``) and with substitutions allowed.
+    """
     if not name:
         return Fault("topic name must not be empty string", 0)
     if _is_digit(name[0]):
@@ -99,7 +102,8 @@ def _fault_outside_braces(char: str, index: int) -> str:
     return (
         ""
         if allowed
-        else "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+        else "topic name must not contain characters other than alphanumerics, '_', '~', '{', or "
+        "'}'"
     )
 
 
@@ -223,17 +227,26 @@ def fully_qualified_node_name(node_name: str, namespace: str) -> str:
 
 
 def is_hidden(name: str) -> bool:
-    """Whether tools leave this topic, service or node out by default: one of its tokens starts with an underscore."""
+    """Whether tools leave this topic, service or node out by default.
+
+    One of its tokens starts with an underscore.
+    """
     return any(token.startswith("_") for token in name.split("/"))
 
 
 def topic_to_dds(topic: str, *, bare: bool = False) -> str:
-    """``/turtle1/pose`` becomes ``rt/turtle1/pose``; it stays when ``bare`` (QoS ``avoid_ros_namespace_conventions``)."""
+    """``/turtle1/pose`` becomes ``rt/turtle1/pose``.
+
+    It stays when ``bare`` (QoS ``avoid_ros_namespace_conventions``).
+    """
     return topic if bare else "rt" + topic
 
 
 def topic_from_dds(dds_topic: str) -> str | None:
-    """``rt/turtle1/pose`` becomes ``/turtle1/pose``; None when it is not a ROS topic (a service's, or foreign)."""
+    """``rt/turtle1/pose`` becomes ``/turtle1/pose``.
+
+    None when it is not a ROS topic (a service's, or foreign).
+    """
     return dds_topic[2:] if dds_topic.startswith("rt/") else None
 
 
@@ -257,17 +270,23 @@ def service_from_dds(dds_topic: str) -> str | None:
 
 
 def type_to_dds(type_name: str) -> str:
-    """``turtlesim/msg/Pose`` becomes ``turtlesim::msg::dds_::Pose_``; names that are no ROS names stay."""
+    """``turtlesim/msg/Pose`` becomes ``turtlesim::msg::dds_::Pose_``.
+
+    Names that are no ROS names stay.
+    """
     package, _, base = type_name.rpartition("/")
     return f"{package.replace('/', '::')}::dds_::{base}_" if package else type_name
 
 
 def type_from_dds(dds_type: str) -> str:
-    """``turtlesim::msg::dds_::Pose_`` becomes ``turtlesim/msg/Pose``; names that are no ROS names stay."""
+    """``turtlesim::msg::dds_::Pose_`` becomes ``turtlesim/msg/Pose``.
+
+    Names that are no ROS names stay.
+    """
     match = _DDS_TYPE.fullmatch(dds_type)
     return f"{match.group(1).replace('::', '/')}/{match.group(2)}" if match else dds_type
 
 
 def service_type(part_name: str) -> str:
-    """``turtlesim/srv/Spawn_Request`` and ``turtlesim/srv/Spawn_Response`` become ``turtlesim/srv/Spawn``."""
+    """``turtlesim/srv/Spawn_Request`` and ``…_Response`` become ``turtlesim/srv/Spawn``."""
     return part_name.removesuffix("_Request").removesuffix("_Response")

@@ -67,7 +67,10 @@ class Liveliness(IntEnum):
 
 
 class QoS(NamedTuple):
-    """The quality of service of one endpoint; the default is ROS 2's default profile. Durations are nanoseconds, 0 means unspecified."""
+    """The quality of service of one endpoint.
+
+    The default is ROS 2's default profile. Durations are nanoseconds, 0 means unspecified.
+    """
 
     history: History = History.KEEP_LAST
     depth: int = 10
@@ -91,7 +94,10 @@ class QoS(NamedTuple):
 
 
 def fit_subscription(qos: QoS, offered: Iterable[QoS]) -> QoS:
-    """Choose the best-available policies of a subscription so that it matches all publishers: the highest that all of them offer."""
+    """Choose the best-available policies of a subscription so that it matches all publishers.
+
+    The highest that all of them offer.
+    """
     offered = list(offered)
     reliable = all(other.reliability == Reliability.RELIABLE for other in offered)
     transient_local = all(other.durability == Durability.TRANSIENT_LOCAL for other in offered)
@@ -113,7 +119,10 @@ def fit_subscription(qos: QoS, offered: Iterable[QoS]) -> QoS:
 
 
 def fit_publisher(qos: QoS, requested: Iterable[QoS]) -> QoS:
-    """Choose the best-available policies of a publisher so that it matches all subscriptions: the highest level of service."""
+    """Choose the best-available policies of a publisher so that it matches all subscriptions.
+
+    The highest level of service.
+    """
     requested = list(requested)
     manual = any(other.liveliness == Liveliness.MANUAL_BY_TOPIC for other in requested)
     return _filled(

@@ -19,7 +19,7 @@ _said: set[str] = set()
 
 
 def warn_once(key: str, text: str) -> None:
-    """Write ``text`` as a ROS 2 warning, unless something was said under ``key`` before in this process."""
+    """Write ``text`` as a ROS 2 warning, once for each ``key`` in this process."""
     if key not in _said:
         _said.add(key)
         warn(text)
@@ -35,7 +35,10 @@ def warn(text: str) -> None:
 def call_guarded(
     on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str
 ) -> None:
-    """Hand over a message on a thread that serves others too: an exception is said once, and goes no further."""
+    """Hand over a message on a thread that serves others too.
+
+    An exception is said once, and goes no further.
+    """
     try:
         on_message(*message)
     except Exception as error:  # noqa: BLE001 - whatever it is

@@ -1,4 +1,6 @@
-"""Services over two topics, as rmw_cyclonedds does them: requests and replies carry a 16-byte id in front of their fields.
+"""Services over two topics, as rmw_cyclonedds does them.
+
+Requests and replies carry a 16-byte id in front of their fields.
 
 The id is the client's number (``uint64``) and a sequence number (``int64``); the server sends it
 back, and a client drops replies to others.
@@ -32,7 +34,10 @@ def join_header(request_id: RequestId, cdr: bytes) -> bytes:
 
 
 def split_header(payload: bytes) -> tuple[RequestId, bytes] | None:
-    """Take the id out again; None when the payload is too short to hold one (a peer on another middleware's service layout)."""
+    """Take the id out again.
+
+    None when the payload is too short to hold one (a peer on another middleware's service layout).
+    """
     if len(payload) < _BODY:
         return None
     return RequestId(*_HEADER.unpack_from(payload, _ENCAPSULATION)), payload[
@@ -114,5 +119,6 @@ class TopicService(Service):
 def _warn_short(service: str, what: str) -> None:
     warn_once(
         f"{service}/{what}",
-        f"dropped a {what} of service {service} that is too short to carry its id; the peer's middleware is not rmw_cyclonedds_cpp",
+        f"dropped a {what} of service {service} that is too short to carry its id; the peer's "
+        "middleware is not rmw_cyclonedds_cpp",
     )

@@ -1,4 +1,4 @@
-"""Tells the other participants which nodes are here and which endpoints are theirs (``ros_discovery_info``)."""
+"""Announces the nodes of this participant and their endpoints (``ros_discovery_info``)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,10 @@ ANNOUNCEMENT_INTERVAL_NS = 20_000_000
 
 
 class NodeRecord:
-    """What is announced of one node; its owner adds and removes gids and then calls :meth:`Announcer.changed`."""
+    """What is announced of one node.
+
+    Its owner adds and removes gids and then calls :meth:`Announcer.changed`.
+    """
 
     def __init__(self, namespace: str, name: str) -> None:
         self.namespace = namespace

@@ -25,7 +25,9 @@ _LAST_PORT = 65535
 
 
 def domain_configuration(domain_id: int, discovery: Discovery) -> str:
-    """The configuration: ours first and then ``CYCLONEDDS_URI``, so that the user has the last word.
+    """The configuration.
+
+    Ours first and then ``CYCLONEDDS_URI``, so that the user has the last word.
 
     Raises:
         WireError: A static peer is not an address.
@@ -53,7 +55,8 @@ def _general(discovery: Discovery) -> str:
     # Without the loopback interface Cyclone 11 drops what processes with a configuration of
     # rmw_cyclonedds send to localhost; and with it alone, nobody from outside gets in.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
-    return f"<General><AllowMulticast>false</AllowMulticast>{'' if discovery.static_peers else loopback}</General>"
+    interfaces = "" if discovery.static_peers else loopback
+    return f"<General><AllowMulticast>false</AllowMulticast>{interfaces}</General>"
 
 
 def _peers(discovery: Discovery) -> str:
@@ -76,7 +79,9 @@ def _peers(discovery: Discovery) -> str:
 
 
 def _resolved(peer: str) -> str:
-    """The IPv4 address of a static peer, and its port if it has one; empty, after a warning, when there is no such host.
+    """The IPv4 address of a static peer, and its port if it has one.
+
+    Empty, after a warning, when there is no such host.
 
     Cyclone aborts the process for a peer that it cannot resolve, so it gets none.
 

@@ -110,7 +110,8 @@ class CycloneContext(Context):
         if self._process != os.getpid():
             error = WireError(f"{what}: the context was opened before this process was forked")
             raise error.with_hint(
-                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context."
+                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the "
+                "first context."
             )
 
     def close(self) -> None:

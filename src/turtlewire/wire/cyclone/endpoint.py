@@ -1,4 +1,7 @@
-"""What publishers and subscriptions have in common: a place in the graph, and statuses that change."""
+"""What publishers and subscriptions have in common.
+
+A place in the graph, and statuses that change.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +59,10 @@ class EndpointSpec(NamedTuple):
 
 
 class StatusSource(NamedTuple):
-    """Where the counters of an event come from: the status bit, the function that reads and resets them, and their translation."""
+    """Where the counters of an event come from.
+
+    The status bit, the function that reads and resets them, and their translation.
+    """
 
     bit: int
     read: Callable[..., int]

@@ -1,4 +1,7 @@
-"""The graph as this participant sees it: Cyclone's builtin topics, and the ``ros_discovery_info`` of the others."""
+"""The graph as this participant sees it.
+
+Cyclone's builtin topics, and the ``ros_discovery_info`` of the others.
+"""
 
 from __future__ import annotations
 
@@ -81,7 +84,10 @@ class _BuiltinReader:
 
 
 class CycloneGraph(GraphView):
-    """Collects what Cyclone discovers. Started at its first use, because most processes never ask."""
+    """Collects what Cyclone discovers.
+
+    Started at its first use, because most processes never ask.
+    """
 
     def __init__(
         self, participant: Participant, announcer: Announcer, reader: ReaderThread
@@ -192,7 +198,10 @@ class CycloneGraph(GraphView):
         ]
 
     def is_complete(self) -> bool:
-        """See :meth:`Graph.is_complete`: each ROS participant has announced its nodes, and each endpoint of theirs is known."""
+        """See :meth:`Graph.is_complete`.
+
+        Each ROS participant has announced its nodes, and each endpoint of theirs is known.
+        """
         on_host = processes_on_host(self._domain_id)
         with self._lock:
             if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:

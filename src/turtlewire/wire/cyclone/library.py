@@ -62,10 +62,12 @@ def _find() -> str:
                 if name.startswith(start):
                     return os.path.join(folder, name)
     error = WireError(
-        f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on {sys.platform}"
+        f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on "
+        f"{sys.platform}"
     )
     raise error.with_hint(
-        "pip install cyclonedds==11.0.1 (wheels exist for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows), "
+        "pip install cyclonedds==11.0.1 (wheels exist for Python 3.10 to 3.13 on Linux x86-64, "
+        "macOS and Windows), "
         "or RMW_IMPLEMENTATION=local inside one process."
     )
 

@@ -49,7 +49,10 @@ class _Domains:
             self._users[domain_id] = self._users.get(domain_id, 0) + 1
 
     def _notice_fork(self) -> None:
-        """A forked child has none of Cyclone's threads, and Cyclone would wait for them for ever: a new context is of no use there."""
+        """A forked child has none of Cyclone's threads, and Cyclone would wait for them for ever.
+
+        A new context is of no use there.
+        """
         if self._process == os.getpid():
             return
         if any(self._users.values()):
@@ -57,7 +60,8 @@ class _Domains:
                 "open a context: this process was forked from one with an open context"
             )
             raise error.with_hint(
-                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the first context."
+                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the "
+                "first context."
             )
         self._process = os.getpid()
         self._log = None  # its pipe is shared with the parent
@@ -116,13 +120,15 @@ def _failure(code: int, domain_id: int, said: list[str]) -> TurtlewireError:
     processes, limit = processes_on_host(domain_id), max_processes(domain_id)
     if processes is not None and processes >= limit:
         return error.with_hint(
-            f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or use another domain."
+            f"Processes of this host in the domain: {processes}; it holds {limit}. End some, or "
+            "use another domain."
         )
     if os.environ.get("CYCLONEDDS_URI"):
         return error.with_hint("CYCLONEDDS_URI is set: mend what Cyclone says of it, or unset it.")
     if "interfaces" in reason:
         return error.with_hint(
-            "Is a network interface up? Nodes of one computer need the loopback one (`ip link set lo up`)."
+            "Is a network interface up? Nodes of one computer need the loopback one (`ip link set "
+            "lo up`)."
         )
     return error
 
@@ -153,7 +159,9 @@ class Participant:
         self._check_types()
 
     def _check_types(self) -> None:
-        """Make sure that this build of Cyclone understands our opaque type: bytes that go in come out.
+        """Make sure that this build of Cyclone understands our opaque type.
+
+        Bytes that go in come out.
 
         Nobody sees this: Cyclone does not announce topics, only their readers and writers.
         """
@@ -170,7 +178,8 @@ class Participant:
             dds.serdata_unref(serdata)
         if copy != probe:
             raise WireError(
-                "this build of Cyclone DDS lays out types in another way; turtlewire needs cyclonedds 11.0.1"
+                "this build of Cyclone DDS lays out types in another way; turtlewire needs "
+                "cyclonedds 11.0.1"
             )
 
     def _create(self, enclave: str) -> int:

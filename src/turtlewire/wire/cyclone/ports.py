@@ -22,7 +22,10 @@ _LOCAL_PORT = re.compile(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", re.MULTILINE)
 
 
 def max_processes(domain_id: int) -> int:
-    """How many processes of one host a domain takes: it has ports for them and one more; the last domain has fewer than the others."""
+    """How many processes of one host a domain takes: it has ports for them and one more.
+
+    The last domain has fewer than the others.
+    """
     return min(_MAX_PROCESSES, (_LAST_PORT - _first_port(domain_id)) // _PER_PARTICIPANT)
 
 
@@ -31,7 +34,10 @@ def _first_port(domain_id: int) -> int:
 
 
 def processes_on_host(domain_id: int) -> int | None:
-    """The number of processes of the domain in this host's network namespace; None where the kernel does not tell (only Linux does)."""
+    """The number of processes of the domain in this host's network namespace.
+
+    None where the kernel does not tell (only Linux does).
+    """
     first = _first_port(domain_id)
     ports: set[int] = set()
     try:
@@ -44,5 +50,8 @@ def processes_on_host(domain_id: int) -> int | None:
 
 
 def process_of(gid: bytes) -> bytes:
-    """What participants of one process have in common in their gids; other vendors than Cyclone have one port for each participant."""
+    """What participants of one process have in common in their gids.
+
+    Other vendors than Cyclone have one port for each participant.
+    """
     return gid[:4] if gid.startswith(_CYCLONE) else gid[:12]

@@ -80,7 +80,10 @@ def _set_history_and_durability(pointer: int, qos: QoS) -> None:
 
 
 def read_qos(pointer: int) -> QoS:
-    """What a ``dds_qos_t`` of a discovered endpoint says; what it does not say stays at our defaults."""
+    """What a ``dds_qos_t`` of a discovered endpoint says.
+
+    What it does not say stays at our defaults.
+    """
     kind, number, duration = c_int(), c_int32(), c_int64()
     values: dict[str, Any] = {}
     if dds.qget_history(pointer, kind, number):

@@ -1,4 +1,7 @@
-"""The one thread of a context: it serves subscriptions with ``on_message``, and everything about the graph."""
+"""The one thread of a context.
+
+It serves subscriptions with ``on_message``, and everything about the graph.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,7 @@ class ReaderThread:
         self._thread.start()
 
     def watch(self, condition: int, call: Callable[[], None]) -> None:
-        """Call ``call`` whenever the condition, or an enabled status of the entity, is triggered."""
+        """Call ``call`` when the condition, or an enabled status of the entity, is triggered."""
         self._conditions.attach(condition, call)
 
     def unwatch(self, condition: int) -> None:

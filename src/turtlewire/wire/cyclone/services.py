@@ -1,4 +1,7 @@
-"""Services as rmw_cyclonedds does them: which server belongs to which client is in the user data of their endpoints."""
+"""Services as rmw_cyclonedds does them.
+
+Which server belongs to which client is in the user data of their endpoints.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +36,7 @@ _KNOWN_CLIENTS = 1000
 
 
 def format_service_id(participant_gid: bytes, number: int) -> str:
-    """The ``clientid`` or ``serviceid`` of an endpoint pair, in rmw_cyclonedds's spelling (` 1.10.a8.…`)."""
+    """``clientid`` or ``serviceid`` of an endpoint pair, as in rmw_cyclonedds (` 1.10.a8.…`)."""
     first, *rest = participant_gid[:12] + number.to_bytes(4, "big")
     return f"{first:2x}." + ".".join(f"{byte:x}" for byte in rest)
 
@@ -52,7 +55,10 @@ class CycloneClient(TopicClient):
         super().__init__(service, handle.value, requests, replies)
 
     def is_ready(self) -> bool:
-        """See :meth:`Client.is_ready`: one and the same server reads our requests and writes replies to us."""
+        """See :meth:`Client.is_ready`.
+
+        One and the same server reads our requests and writes replies to us.
+        """
         readers = _matched_ids(
             self.requests.handle,
             dds.matched_subscriptions,
@@ -152,7 +158,10 @@ class CycloneService(TopicService):
             self.send_waiting()
 
     def send_waiting(self) -> None:
-        """Send the waiting replies that can arrive now; those that waited long enough are dropped."""
+        """Send the waiting replies that can arrive now.
+
+        Those that waited long enough are dropped.
+        """
         now = time.monotonic_ns()
         with self._lock:
             ready = [waiting for waiting in self._waiting if self._can_reach(waiting.client)]
@@ -174,7 +183,10 @@ def _matched_ids(
     read_matched: Callable[..., ctypes._Pointer[dds.BuiltinEndpoint]],
     key: str,
 ) -> set[str | None]:
-    """The ``clientid`` or ``serviceid`` of all endpoints that match; None stands for those that say none."""
+    """The ``clientid`` or ``serviceid`` of all endpoints that match.
+
+    None stands for those that say none.
+    """
     ids: set[str | None] = set()
     for instance in matched_handles(handle, list_matched):
         endpoint = read_matched(handle, instance)

@@ -116,7 +116,10 @@ class CycloneSubscription(Endpoint, Subscription):
             return messages
 
     def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
-        """What a sink left, readable or not; None when that was nothing. Their publishers are introduced to the sink."""
+        """What a sink left, readable or not.
+
+        None when that was nothing. Their publishers are introduced to the sink.
+        """
         kept = inlet.rest()
         messages = self._messages_of(kept)
         for _, publisher, _ in kept:
@@ -143,7 +146,7 @@ class CycloneSubscription(Endpoint, Subscription):
         self._forget = True
 
     def _forget_publishers(self, senders: set[int]) -> None:
-        """Forget the publishers that have left, but for the ``senders`` of the messages just taken."""
+        """Forget the publishers that left, except the ``senders`` of the messages just taken."""
         self._forget = False
         there = senders.union(matched_handles(self.handle, dds.matched_publications))
         for publisher in self._gids.keys() - there:
@@ -164,23 +167,32 @@ class CycloneSubscription(Endpoint, Subscription):
         return gid
 
     def _compare_types(self, theirs: str) -> None:
-        """DDS matches types by name; a definition with other fields is seen in its hash only (foreign peers announce none)."""
+        """DDS matches types by name.
+
+        A definition with other fields is seen in its hash only (foreign peers announce none).
+        """
         ours = self.spec.type_id
         if theirs and theirs != ours.type_hash:
             warn_once(
                 f"type {self.topic} {theirs}",
-                f"a peer on {self.topic} has another definition of {ours.name}: its messages may be refused, or read wrongly. "
-                f"Both sides need the same version of {ours.name.partition('/')[0]} (type hash there {theirs}, here {ours.type_hash}).",
+                f"a peer on {self.topic} has another definition of {ours.name}: its messages may "
+                "be refused, or read wrongly. "
+                f"Both sides need the same version of {ours.name.partition('/')[0]} (type hash "
+                f"there {theirs}, here {ours.type_hash}).",
             )
 
     def user_data_of(self, publisher_gid: bytes) -> bytes:
-        """What the publisher of a taken message announced of itself; empty when that is not known."""
+        """What the publisher of a taken message announced of itself.
+
+        Empty when that is not known.
+        """
         return self._user_data.get(publisher_gid, b"")
 
     def _refuse(self, data: bytes) -> bool:
         warn_once(
             f"header {self.topic}",
-            f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian CDR (00 01)",
+            f"dropped a message on {self.topic}: header {data[:4].hex(' ')} is not little endian "
+            "CDR (00 01)",
         )
         return False
 
@@ -222,7 +234,10 @@ def deliver_rest_to(
     inlet: Inlet,
     on_message: Callable[[bytes, MessageInfo], None],
 ) -> Callable[[], None]:
-    """:func:`deliver_to` of a subscription with a sink: what the reader thread calls when the inlet's guard is triggered."""
+    """:func:`deliver_to` of a subscription with a sink.
+
+    What the reader thread calls when the inlet's guard is triggered.
+    """
 
     def deliver() -> None:
         while not subscription.closed and (rest := subscription.take_rest(inlet)) is not None:

@@ -26,7 +26,7 @@ _GUARD = 0
 
 
 class ConditionSet(Generic[T]):
-    """Conditions (and entities with statuses), each with the object that :meth:`wait` returns for it."""
+    """Conditions (or entities with statuses) and the object that :meth:`wait` returns for each."""
 
     def __init__(self, participant: int) -> None:
         self._wait_set = dds.check(dds.create_wait_set(participant), "create a wait set")

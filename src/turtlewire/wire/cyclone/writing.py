@@ -18,7 +18,10 @@ if TYPE_CHECKING:
         """Sends messages with one DDS writer. Thread-safe."""
 
         def write(self, cdr: bytes) -> int:
-            """Send a message; a negative code if that failed: one of Cyclone's or of this module."""
+            """Send a message.
+
+            A negative code if that failed: one of Cyclone's or of this module.
+            """
             ...
 
         def close(self) -> None:

@@ -1,4 +1,7 @@
-"""What joins the contexts of one domain of one process: who publishes, who listens, and who matches whom."""
+"""What joins the contexts of one domain of one process.
+
+Who publishes, who listens, and who matches whom.
+"""
 
 from __future__ import annotations
 

@@ -161,7 +161,10 @@ class LocalSubscription(LocalEndpoint, Subscription):
         self._join(self.bus.add_subscription)
 
     def receive_late(self, publisher: LocalPublisher) -> None:
-        """Take over what a newly matched publisher keeps for late joiners; called with the lock held."""
+        """Take over what a newly matched publisher keeps for late joiners.
+
+        Called with the lock held.
+        """
         if self.qos.durability == Durability.TRANSIENT_LOCAL:
             for message in publisher.kept():
                 self.receive(message)
