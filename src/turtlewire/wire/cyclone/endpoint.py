@@ -123,14 +123,15 @@ class Endpoint(Entity):
         changed = ctypes.c_uint32()
         if dds.get_status_changes(self.handle, changed) < 0:
             return  # it has been deleted
+        # First, so that the event finds what they set.
+        if changed.value & self._sources[EventKind.MATCHED].bit:
+            for call in self.on_matched:
+                call()
         for kind, source in self._sources.items():
             if changed.value & source.bit:
                 status = source.structure()
                 source.read(self.handle, status)
                 self._event(kind).add(source.translate(status))
-        if changed.value & self._sources[EventKind.MATCHED].bit:
-            for call in self.on_matched:
-                call()
 
     def close(self) -> None:
         """See :meth:`Entity.close`."""
