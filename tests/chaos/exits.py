@@ -53,7 +53,7 @@ def intake():
     """What the wire's reader thread does for a listener."""
     from turtlewire._native import Intake
 
-    in_daemons(Intake(False, 0).take)
+    in_daemons(Intake(False, 0, lambda: None).take)
 
 
 def change_listener():
