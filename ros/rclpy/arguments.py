@@ -173,6 +173,24 @@ class Arguments:
         both._parameter_maps = other._parameter_maps + self._parameter_maps
         return both
 
+    def configure_logging(self) -> None:
+        """Apply what the process's command line says of logging; ``rclpy.init`` does it."""
+        from .impl import log_output
+        from .logging import get_logger
+
+        log_output.configure(
+            levels=self.log_levels,
+            console=self.stdout_logs,
+            rosout=self.rosout_logs,
+            file=self.external_lib_logs,
+            file_prefix=self.log_file_name,
+        )
+        if self.log_config_file is not None:
+            get_logger("rcl").warning(
+                "Configuration files of logging are not supported: "
+                f"'{self.log_config_file}' is ignored"
+            )
+
     def remap_node_name(self, node_name: str) -> str:
         """The name that a node of this name gets."""
         return self._remap("NODE_NAME", node_name, node_name, "/")

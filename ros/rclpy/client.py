@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
+from ._execution.blocking import Call, wait_for_response
 from ._rclpy_pybind11 import RCLError
 from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
-from .wait_for_response import wait_for_response
 
 if TYPE_CHECKING:
     from turtlewire.wire import base
 
+    from ._execution.entity import Work
     from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
-    from .entity import Work
     from .qos import QoSProfile
 
 __all__ = ["Client"]
@@ -112,9 +112,13 @@ class Client(IntrospectedEndpoint):
     def _block_for(self, future: Future, timeout_sec: float | None) -> Any:
         """Block until ``future``, which follows from a request of this client, is done."""
         try:
-            return wait_for_response(future, self, timeout_sec)
+            call = Call(self._wire.service, self._context, self._logger, self._serving_host())
+            return wait_for_response(future, call, timeout_sec)
         finally:
             self.remove_pending_request(future)
+
+    def _awaits(self, service: str) -> bool:
+        return bool(self._pending) and self._wire.service == service
 
     def remove_pending_request(self, future: Future) -> None:
         """Forget a request: its response will be ignored."""
@@ -159,6 +163,6 @@ class Client(IntrospectedEndpoint):
                     sequence_number,
                     response=response,
                 )
-            future._set_executor(self._serving_executor())
+            future._set_executor(self._serving_host())
             return future.set_result, (response,)
         return None

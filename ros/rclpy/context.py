@@ -7,7 +7,7 @@ import sys
 import threading
 import time
 import weakref
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from . import signals
 from ._rclpy_pybind11 import RCLError
@@ -22,11 +22,18 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from .arguments import Arguments
-    from .base_executor import Executor
 
 __all__ = ["Context"]
 
 _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context"
+
+
+class Scheduler(Protocol):
+    """What a context knows of an executor."""
+
+    def holds_up(self, service: str) -> bool:
+        """Whether a request for a service is there that cannot be answered at the moment."""
+        ...
 
 
 class Context:
@@ -44,8 +51,8 @@ class Context:
         self._valid = False
         self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
-        self._waits: set[threading.Event] = set()
-        self._executors: weakref.WeakSet[Executor] = weakref.WeakSet()
+        self.waits: set[threading.Event] = set()
+        self._schedulers: weakref.WeakSet[Scheduler] = weakref.WeakSet()
 
     def init(
         self,
@@ -86,17 +93,15 @@ class Context:
             if (
                 initialize_logging and len(_open_contexts) == 1
             ):  # the first context's command line decides, as in ROS 2
-                from . import logging
+                self._arguments.configure_logging()
 
-                logging.configure(self._arguments)
+    def note_scheduler(self, scheduler: Scheduler) -> None:
+        """Have :meth:`schedulers` name it while it exists."""
+        self._schedulers.add(scheduler)
 
-    def note_executor(self, executor: Executor) -> None:
-        """Have :meth:`executors` name it while it exists."""
-        self._executors.add(executor)
-
-    def executors(self) -> list[Executor]:
-        """All executors of this context."""
-        return list(self._executors)
+    def schedulers(self) -> list[Scheduler]:
+        """Those of all executors of this context."""
+        return list(self._schedulers)
 
     def ok(self) -> bool:
         """Whether it is initialized and has not been shut down."""
@@ -175,7 +180,7 @@ class Context:
         self._valid = False
         self.ended_by_signal = by_signal
         callbacks, self._callbacks = self._callbacks, []
-        waits = list(self._waits)
+        waits = list(self.waits)
 
         def tell() -> None:
             for wait in waits:
@@ -196,7 +201,7 @@ class Context:
         deadline = None if timeout_ns is None else time.monotonic() + timeout_ns / 1e9
         changed = threading.Event()
         with self._lock:
-            self._waits.add(changed)
+            self.waits.add(changed)
         remove_listener = self.wire.graph.add_listener(changed.set)
         try:
             while True:
@@ -210,7 +215,7 @@ class Context:
         finally:
             remove_listener()
             with self._lock:
-                self._waits.discard(changed)
+                self.waits.discard(changed)
 
     def on_shutdown(self, callback: Callable[[], None]) -> None:
         """Call ``callback()`` once when it shuts down, at once when it has been already; methods are held weakly.

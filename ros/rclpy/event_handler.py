@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, EventStatus
 
+from ._execution.entity import Entity, Host, Work
 from ._rclpy_pybind11 import UnsupportedEventTypeError
-from .entity import Entity, Work
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from .callback_groups import CallbackGroup
-    from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
 
 __all__ = [
@@ -162,11 +161,11 @@ class EventHandler(Entity):
         except WireError as error:
             raise UnsupportedEventTypeError(str(error)) from error
 
-    def _attach(self, executor: Executor) -> None:
-        executor._wait.watch(self._wire, self)
+    def _attach(self, host: Host) -> None:
+        host.wait.watch(self._wire, self)
 
-    def _detach(self, executor: Executor) -> None:
-        executor._wait.unwatch(self._wire)
+    def _detach(self, host: Host) -> None:
+        host.wait.unwatch(self._wire)
 
     def _take(self) -> Work | None:
         status = self._wire.take()

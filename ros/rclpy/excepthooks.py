@@ -56,7 +56,7 @@ def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
 
 
 def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
-    from .executors import ExternalShutdownException
+    from ._execution.exceptions import ExternalShutdownException
 
     if not (_signal_came and issubclass(arguments.exc_type, ExternalShutdownException)):
         _previous_thread_hook(arguments)

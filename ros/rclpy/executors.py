@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+import time
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
 
-from .base_executor import Executor, await_or_execute
-from .executor_exceptions import (
+from ._execution.exceptions import (
     ConditionReachedException,
     ExternalShutdownException,
     ShutdownException,
     TimeoutException,
 )
-from .multi_threaded_executor import MultiThreadedExecutor
+from ._execution.pool import PoolScheduler
+from ._execution.scheduler import Scheduler
+from .hints import described
+from .task import Future, Task
 
 if TYPE_CHECKING:
-    from .entity import Entity, Work
-    from .task import Task
+    from collections.abc import Callable
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from ._execution.entity import Entity
+    from .context import Context
+    from .node import Node
 
 __all__ = [
     "ConditionReachedException",
@@ -29,8 +40,288 @@ __all__ = [
 ]
 
 
+class Executor:
+    """Base of the executors. All methods are thread-safe; one thread spins at a time.
+
+    Args:
+        context: None takes the default context.
+
+    Raises:
+        NotInitializedException: The context is not initialized.
+    """
+
+    def __init__(self, *, context: Context | None = None) -> None:
+        from .utilities import get_default_context
+
+        self._context = get_default_context() if context is None else context
+        self._nodes: dict[Node, int] = {}
+        self._nodes_made = 0
+        self._rclpy_scheduler = self._make_scheduler(self._context)
+
+    def _make_scheduler(self, context: Context) -> Scheduler:
+        return Scheduler(context)
+
+    @property
+    def context(self) -> Context:
+        """Its context."""
+        return self._context
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.shutdown()
+
+    # Nodes
+
+    def add_node(self, node: Node) -> bool:
+        """Serve ``node`` from now on; it leaves the executor that served it before.
+
+        Returns:
+            False when this executor serves it already.
+
+        Raises:
+            TypeError: It is no node.
+        """
+        from .node import Node
+
+        if not isinstance(node, Node):
+            raise TypeError(
+                f"An executor serves nodes, such as Node('name'), not {described(node)}"
+            )
+        with self._rclpy_scheduler.lock:
+            if node in self._nodes:
+                return False
+            index = self._nodes[node] = self._nodes_made
+            self._nodes_made += 1
+        node.executor = self
+        node._rclpy_endpoints.attach(self._rclpy_scheduler, index)
+        return True
+
+    def remove_node(self, node: Node) -> None:
+        """Serve ``node`` no longer; nothing happens when it does not."""
+        with self._rclpy_scheduler.lock:
+            if self._nodes.pop(node, None) is None:
+                return
+        node._rclpy_endpoints.detach(self._rclpy_scheduler)
+        node.executor = None
+
+    def get_nodes(self) -> list[Node]:
+        """The nodes that it serves."""
+        with self._rclpy_scheduler.lock:
+            return list(self._nodes)
+
+    # Tasks
+
+    def create_task(
+        self, callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any, **kwargs: Any
+    ) -> Task[Any]:
+        """Run a function or a coroutine on this executor.
+
+        Returns:
+            The task, a future of its result.
+        """
+        return self._rclpy_scheduler.create_task(callback, *args, **kwargs)
+
+    # Spinning
+
+    def spin(self) -> None:
+        """Run callbacks until the executor or its context is shut down.
+
+        Raises:
+            ExternalShutdownException: The context was shut down by a signal, or by another thread
+                while it waited.
+            KeyboardInterrupt: Ctrl-C, in the main thread.
+            Exception: What a callback raised.
+        """
+        scheduler = self._rclpy_scheduler
+        outer, scheduler.serves_endlessly = scheduler.serves_endlessly, True
+        try:
+            while self._context.ok() and not scheduler.is_shutdown:
+                self.spin_once()
+        finally:
+            scheduler.serves_endlessly = outer
+        self._after_spin()
+
+    def _after_spin(self) -> None:
+        """A signal between two waits leaves ``spin`` as one during a wait does."""
+        if self._context.ended_by_signal:
+            raise ExternalShutdownException
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Wait for one callback and run it.
+
+        A message for a TransformListener counts, although another thread has stored it already.
+
+        Args:
+            timeout_sec: How long to wait; None or negative: without limit, 0: not at all.
+
+        Raises:
+            ExternalShutdownException: The context was shut down.
+            Exception: What a callback raised.
+        """
+        self._spin_once(timeout_sec)
+
+    def spin_until_future_complete(
+        self, future: Future[Any], timeout_sec: float | None = None
+    ) -> None:
+        """Run callbacks until ``future`` is done, or the time is over.
+
+        It also ends when the executor or its context is shut down.
+        """
+        self._wake_when_done(future)
+        deadline = (
+            None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+        )
+        remaining = timeout_sec
+        while self._context.ok() and not future.done() and not self._rclpy_scheduler.is_shutdown:
+            self._spin_once(remaining, future.done)
+            if deadline is not None:
+                remaining = deadline - time.monotonic()
+                if remaining <= 0:
+                    return
+
+    def spin_once_until_future_complete(
+        self, future: Future[Any], timeout_sec: float | None = None
+    ) -> None:
+        """Wait for one callback and run it, unless ``future`` is done before."""
+        self._wake_when_done(future)
+        self._spin_once(timeout_sec, future.done)
+
+    def _wake_when_done(self, future: Future[Any]) -> None:
+        if isinstance(future, Future):
+            future._add_waiter(self.wake)
+        elif hasattr(future, "add_done_callback"):  # of concurrent.futures, for example
+            future.add_done_callback(lambda _: self.wake())
+        else:
+            raise TypeError(
+                f"Expected a Future, such as call_async() returns, not {described(future)}"
+            )
+
+    def _spin_once(
+        self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
+    ) -> None:
+        scheduler = self._rclpy_scheduler
+        with scheduler.spinning():
+            try:
+                scheduler.run(*scheduler.next(_nanoseconds(timeout_sec), condition))
+            except (ShutdownException, TimeoutException, ConditionReachedException):
+                return
+
+    def wait_for_ready_callbacks(
+        self, timeout_sec: float | None = None
+    ) -> tuple[Task[Any], Entity | None, Node | None]:
+        """Wait for the next callback, its group claimed.
+
+        For executors of your own, whose ``spin_once`` decides where callbacks run.
+
+        Returns:
+            What to call exactly once, in any thread (a task: it keeps what the callback raises);
+            whose callback it is, and the node of that (both None for what :meth:`create_task` was
+            given).
+
+        Raises:
+            TimeoutException: Nothing was ready in time.
+            ShutdownException, ExternalShutdownException: The executor or the context was shut down.
+        """
+        source, work = self._rclpy_scheduler.next(_nanoseconds(timeout_sec))
+        handler: Task[Any] = Task(self._rclpy_scheduler.execute, (source, work))
+        if isinstance(source, Task):
+            return handler, None, None
+        index = source._rank[0]
+        return (
+            handler,
+            source,
+            next((n for n, place in self._nodes.items() if place == index), None),
+        )
+
+    def wake(self) -> None:
+        """End the current wait, or the next one at once."""
+        self._rclpy_scheduler.wake()
+
+    def can_execute(self, entity: Entity) -> bool:
+        """Whether the callback group of an entity lets it run at this moment."""
+        return entity.callback_group.can_execute(entity)
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Run no further callbacks, and wait for those that run in other threads.
+
+        Returns:
+            False when they did not end within ``timeout_sec`` (None or negative: no limit).
+        """
+        unlimited = timeout_sec is None or timeout_sec < 0
+        if not self._rclpy_scheduler.shutdown(None if unlimited else timeout_sec):
+            return False
+        for node in self.get_nodes():
+            self.remove_node(node)
+        self._rclpy_scheduler.close()
+        return True
+
+
 class SingleThreadedExecutor(Executor):
     """Runs callbacks in the thread that spins."""
 
-    def _run(self, source: Entity | Task, work: Work | None) -> None:
-        self._execute(source, work)
+
+class MultiThreadedExecutor(Executor):
+    """Runs callbacks in a pool of threads; the thread that spins waits and hands out.
+
+    What a callback raises leaves ``spin`` in the spinning thread.
+
+    Args:
+        num_threads: Size of the pool; None takes the number of processors that this process may
+            use.
+        context: None takes the default context.
+    """
+
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
+        from concurrent.futures import ThreadPoolExecutor
+
+        self._num_threads = _processors() if num_threads is None else num_threads
+        if num_threads == 1:
+            import warnings
+
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\n"
+                "Use the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
+        self._executor = ThreadPoolExecutor(self._num_threads)
+        super().__init__(context=context)
+
+    def _make_scheduler(self, context: Context) -> Scheduler:
+        return PoolScheduler(context, self._executor, self._num_threads)
+
+    def _spin_once(
+        self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
+    ) -> None:
+        try:
+            super()._spin_once(timeout_sec, condition)
+        except ExternalShutdownException:
+            return
+
+    def _after_spin(self) -> None:
+        """Nothing: a pool's ``spin`` just returns."""
+
+
+def _processors() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _nanoseconds(timeout_sec: float | None) -> int | None:
+    """None for a wait without limit."""
+    return None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
+
+
+async def await_or_execute(
+    callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any
+) -> Any:
+    """The result of a function or of a coroutine (function)."""
+    outcome = callback if isinstance(callback, CoroutineType) else callback(*args)
+    return await outcome if isinstance(outcome, CoroutineType) else outcome

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .entity import Entity, Work
+from ._execution.entity import Entity, Host, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .callback_groups import CallbackGroup
     from .context import Context
-    from .executors import Executor
 
 __all__ = ["GuardCondition"]
 
@@ -38,15 +37,15 @@ class GuardCondition(Entity):
         """Have the callback run. Safe from any thread."""
         self._check_usable()
         self._triggered = True
-        executor = self._serving_executor()
-        if executor is not None:
-            executor._wait.notify(self)
+        host = self._serving_host()
+        if host is not None:
+            host.wait.notify(self)
 
-    def _attach(self, executor: Executor) -> None:
+    def _attach(self, host: Host) -> None:
         if self._triggered:
-            executor._wait.notify(self)
+            host.wait.notify(self)
 
-    def _detach(self, executor: Executor) -> None:
+    def _detach(self, host: Host) -> None:
         """A trigger stays stored until an executor comes."""
 
     def _take(self) -> Work | None:

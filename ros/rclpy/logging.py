@@ -17,12 +17,10 @@ from .impl.rcutils_logger import RcutilsLogger
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from .arguments import Arguments
 
 __all__ = [
     "LoggingSeverity",
     "clear_config",
-    "configure",
     "get_logger",
     "get_logger_effective_level",
     "get_logger_level",
@@ -50,21 +48,6 @@ def get_logger(name: str) -> RcutilsLogger:
 def initialize() -> None:
     """Read the environment anew and open a log file for the next message."""
     log_output.configure()
-
-
-def configure(arguments: Arguments) -> None:
-    """Apply the command line of the process; ``rclpy.init`` does it."""
-    log_output.configure(
-        levels=arguments.log_levels,
-        console=arguments.stdout_logs,
-        rosout=arguments.rosout_logs,
-        file=arguments.external_lib_logs,
-        file_prefix=arguments.log_file_name,
-    )
-    if arguments.log_config_file is not None:
-        get_logger("rcl").warning(
-            f"Configuration files of logging are not supported: '{arguments.log_config_file}' is ignored"
-        )
 
 
 def shutdown() -> None:

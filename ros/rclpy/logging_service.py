@@ -8,7 +8,7 @@ from . import logging
 from .qos import qos_profile_services_default
 
 if TYPE_CHECKING:
-    from .node import Node
+    from ._node.views import ServiceOwner
 
 __all__ = ["LoggingService"]
 
@@ -16,7 +16,7 @@ __all__ = ["LoggingService"]
 class LoggingService:
     """Serves ``~/get_logger_levels`` and ``~/set_logger_levels`` of ``node``."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: ServiceOwner) -> None:
         from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 
         for service_type, name, callback in (

@@ -18,6 +18,9 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.wire import names
 
 from ._node.core import NodeCore
+from ._node.endpoints import NodeEndpoints, QosOverrides
+from ._node.graph import NodeGraph
+from ._node.parameters import NodeParameters
 from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client
 from .clock import ROSClock
@@ -25,10 +28,7 @@ from .exceptions import InvalidNamespaceException, InvalidNodeNameException, Not
 from .guard_condition import GuardCondition
 from .handle import Handle
 from .hints import with_hint
-from .node_endpoints import NodeEndpoints, QosOverrides
-from .node_graph import NodeGraph
 from .parameter_service import ParameterService
-from .parameters import NodeParameters
 from .publisher import Publisher
 from .qos import qos_profile_parameter_events, qos_profile_services_default
 from .service import Service

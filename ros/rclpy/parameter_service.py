@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import rcl_interfaces.msg
     from rcl_interfaces.msg import SetParametersResult
 
-    from .node import Node
+    from ._node.views import ParameterOwner
 
 __all__ = ["ParameterService"]
 
@@ -21,7 +21,7 @@ __all__ = ["ParameterService"]
 class ParameterService:
     """Serves the parameters of ``node``, which it does not keep alive."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: ParameterOwner) -> None:
         from rcl_interfaces import srv
 
         self._node_weak_ref = weakref.ref(node)
@@ -44,7 +44,7 @@ class ParameterService:
                 qos_profile=qos_profile_parameters,
             )
 
-    def _node(self) -> Node:
+    def _node(self) -> ParameterOwner:
         node = self._node_weak_ref()
         if node is None:
             raise ReferenceError("Expected valid node weak reference")

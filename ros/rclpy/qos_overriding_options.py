@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from rcl_interfaces.msg import SetParametersResult
 
-    from .parameters import NodeParameters
+    from ._node.parameters import NodeParameters
     from .qos import QoSProfile
 
 __all__ = [

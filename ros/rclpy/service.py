@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
+    from ._execution.entity import Work
     from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
-    from .entity import Work
     from .qos import QoSProfile
 
 __all__ = ["Service"]
@@ -71,6 +71,16 @@ class Service(IntrospectedEndpoint):
             self._events.publish(
                 EventType.RESPONSE_SENT, header.client_id, header.sequence_number, response=response
             )
+
+    def _serves(self, service: str) -> bool:
+        return bool(self._wire.service == service)
+
+    def _warn_of_self_wait(self) -> None:
+        self._logger.warning(
+            f"An async callback awaits, and service '{self._wire.service}', which was called, "
+            "cannot run before it ends: both are in one callback group. If it awaits that service, "
+            "it waits for ever: give the service a callback group of its own"
+        )
 
     def _take(self) -> Work | None:
         for header, cdr in self._wire.take(1):

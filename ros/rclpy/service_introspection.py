@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.msg import serialize, type_name
 
-from .entity import Entity
+from ._execution.entity import Entity, Host
 from .type_support import type_id
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
     from .clock import Clock
-    from .executors import Executor
     from .qos import QoSProfile
 
 __all__ = ["EventType", "IntrospectedEndpoint", "ServiceIntrospectionState"]
@@ -109,11 +108,11 @@ class IntrospectedEndpoint(Entity):
                 introspection_state == ServiceIntrospectionState.CONTENTS,
             )
 
-    def _attach(self, executor: Executor) -> None:
-        executor._wait.watch(self._wire, self)
+    def _attach(self, host: Host) -> None:
+        host.wait.watch(self._wire, self)
 
-    def _detach(self, executor: Executor) -> None:
-        executor._wait.unwatch(self._wire)
+    def _detach(self, host: Host) -> None:
+        host.wait.unwatch(self._wire)
 
     def _close(self) -> None:
         if self._events is not None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize
 
-from .entity import Entity, Work
+from ._execution.entity import Entity, Host, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from ._node.core import NodeCore
     from .callback_groups import CallbackGroup
-    from .executors import Executor
     from .qos import QoSProfile
 
 __all__ = ["MessageInfo", "Subscription"]
@@ -92,11 +91,11 @@ class Subscription(Entity):
         """Whether the middleware filters by content: it does not."""
         return False
 
-    def _attach(self, executor: Executor) -> None:
-        executor._wait.watch(self._wire, self)
+    def _attach(self, host: Host) -> None:
+        host.wait.watch(self._wire, self)
 
-    def _detach(self, executor: Executor) -> None:
-        executor._wait.unwatch(self._wire)
+    def _detach(self, host: Host) -> None:
+        host.wait.unwatch(self._wire)
 
     def take_message(
         self, _msg_type: Any = None, _raw: bool | None = None

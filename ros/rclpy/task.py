@@ -11,17 +11,31 @@ import sys
 import threading
 import weakref
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-    from .executors import Executor
+    from typing_extensions import TypeVar
+
+    T = TypeVar("T", default=Any)
+else:
+    from typing import TypeVar
+
+    T = TypeVar("T")
 
 __all__ = ["Future", "Task"]
 
 
-class Future:
+class TaskRunner(Protocol):
+    """What runs done-callbacks: an executor."""
+
+    def create_task(self, callback: Callable[..., Any], *args: Any) -> Any:
+        """Run ``callback(*args)`` soon."""
+        ...
+
+
+class Future(Generic[T]):
     """The outcome of something that is not finished yet. Thread-safe.
 
     Args:
@@ -29,16 +43,16 @@ class Future:
             the future.
     """
 
-    def __init__(self, *, executor: Executor | None = None) -> None:
+    def __init__(self, *, executor: TaskRunner | None = None) -> None:
         self._done = False
         self._cancelled = False
-        self._result: Any = None
+        self._result: T | None = None
         self._exception: BaseException | None = None
         self._exception_fetched = False
-        self._callbacks: list[Callable[[Future], Any]] = []
+        self._callbacks: list[Callable[[Future[T]], Any]] = []
         self._waiters: list[Callable[[], object]] = []
         self._lock = threading.Lock()
-        self._executor: weakref.ref[Executor] | None = None
+        self._executor: weakref.ref[TaskRunner] | None = None
         self._set_executor(executor)
 
     def __del__(self) -> None:
@@ -47,7 +61,7 @@ class Future:
                 f"The following exception was never retrieved: {self._exception}", file=sys.stderr
             )
 
-    def __await__(self) -> Generator[Any, None, Any]:
+    def __await__(self) -> Generator[Any, None, T]:
         if self._pending():
             loop = _running_asyncio_loop()
             if loop is None or loop is _steps.loop_outside:
@@ -82,7 +96,7 @@ class Future:
         """Whether it has a result or an exception, or was cancelled."""
         return self._done or self._cancelled
 
-    def result(self) -> Any:
+    def result(self) -> T:
         """The result, or None while there is none.
 
         Raises:
@@ -91,14 +105,14 @@ class Future:
         if self._exception is not None:
             self._exception_fetched = True
             raise self._exception
-        return self._result
+        return self._result  # type: ignore[return-value]  # None before it is done, as in ROS 2
 
     def exception(self) -> BaseException | None:
         """The exception, if it ended with one."""
         self._exception_fetched = True
         return self._exception
 
-    def set_result(self, result: Any) -> None:
+    def set_result(self, result: T) -> None:
         """Finish it with a result."""
         self._finish(result=result)
 
@@ -106,7 +120,7 @@ class Future:
         """Finish it with an exception, which :meth:`result` will raise."""
         self._finish(exception=exception)
 
-    def add_done_callback(self, callback: Callable[[Future], Any]) -> None:
+    def add_done_callback(self, callback: Callable[[Future[T]], Any]) -> None:
         """Call ``callback(future)`` when it is done; at once when it is done already.
 
         With an executor the callback runs as a task of that executor (exceptions leave its
@@ -122,7 +136,7 @@ class Future:
         else:
             executor.create_task(callback, self)
 
-    def remove_done_callback(self, callback: Callable[[Future], Any]) -> bool:
+    def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
         """Forget a done-callback that has not been called yet; whether there was one."""
         with self._lock:
             if callback not in self._callbacks:
@@ -148,7 +162,7 @@ class Future:
         if callbacks:
             self._run_callbacks(callbacks)
 
-    def _run_callbacks(self, callbacks: list[Callable[[Future], Any]]) -> None:
+    def _run_callbacks(self, callbacks: list[Callable[[Future[T]], Any]]) -> None:
         executor = self._get_executor()
         for callback in callbacks:
             if executor is not None:
@@ -175,14 +189,14 @@ class Future:
         self._add_waiter(done.set)
         return done.wait(timeout_sec)
 
-    def _get_executor(self) -> Executor | None:
+    def _get_executor(self) -> TaskRunner | None:
         return None if self._executor is None else self._executor()
 
-    def _set_executor(self, executor: Executor | None) -> None:
+    def _set_executor(self, executor: TaskRunner | None) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
 
 
-class Task(Future):
+class Task(Future[T]):
     """Runs a function or a coroutine; its result or exception becomes the task's.
 
     Calling the task runs it up to its next ``await`` of something unfinished. A task belongs to an
@@ -195,7 +209,7 @@ class Task(Future):
         handler: Callable[..., Any] | CoroutineType[Any, Any, Any],
         args: tuple[Any, ...] | list[Any] | None = None,
         kwargs: dict[str, Any] | None = None,
-        executor: Executor | None = None,
+        executor: TaskRunner | None = None,
     ) -> None:
         super().__init__(executor=executor)
         self._handler: Any = handler

@@ -15,9 +15,8 @@ if TYPE_CHECKING:
     import rosgraph_msgs.msg
     from rcl_interfaces.msg import SetParametersResult
 
+    from ._node.views import TimeSourceOwner
     from .clock import Clock
-    from .node import Node
-    from .subscription import Subscription
 
 __all__ = ["CLOCK_TOPIC", "USE_SIM_TIME_NAME", "TimeSource"]
 
@@ -33,10 +32,10 @@ class TimeSource:
             :meth:`attach_node`.
     """
 
-    def __init__(self, *, node: Node | None = None) -> None:
-        self._node: weakref.ref[Node] | None = None
+    def __init__(self, *, node: TimeSourceOwner | None = None) -> None:
+        self._node: weakref.ref[TimeSourceOwner] | None = None
         self._clocks: set[ROSClock] = set()
-        self._clock_subscription: Subscription | None = None
+        self._clock_subscription: Any = None
         self._last_time_ns = 0
         self._ros_time_is_active = False
         if node is not None:
@@ -59,7 +58,7 @@ class TimeSource:
         else:
             self._unsubscribe()
 
-    def attach_node(self, node: Node) -> None:
+    def attach_node(self, node: TimeSourceOwner) -> None:
         """Let this node's parameter decide; an earlier node is detached."""
         if self._node is not None:
             self.detach_node()
@@ -95,7 +94,7 @@ class TimeSource:
         clock._set_ros_time_is_active(self._ros_time_is_active)
         self._clocks.add(clock)
 
-    def _attached_node(self) -> Node | None:
+    def _attached_node(self) -> TimeSourceOwner | None:
         return None if self._node is None else self._node()
 
     def _subscribe(self) -> None:

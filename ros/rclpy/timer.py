@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any
 
+from ._execution.entity import Entity, Host, Work
 from .clock_type import ClockType
-from .entity import Entity, Work
 from .exceptions import ROSInterruptException
 from .hints import with_hint
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .clock import Clock, TimeJump
     from .context import Context
-    from .executors import Executor
 
 __all__ = ["Rate", "Timer"]
 
@@ -122,15 +121,15 @@ class Timer(Entity):
         return None if self._follows_clock_topic() else delay_ns
 
     def _reschedule(self) -> None:
-        executor = self._serving_executor()
-        if executor is not None:
-            executor._wait.timers.schedule(self, self._delay_ns())
+        host = self._serving_host()
+        if host is not None:
+            host.wait.timers.schedule(self, self._delay_ns())
 
-    def _attach(self, executor: Executor) -> None:
-        executor._wait.timers.schedule(self, self._delay_ns())
+    def _attach(self, host: Host) -> None:
+        host.wait.timers.schedule(self, self._delay_ns())
 
-    def _detach(self, executor: Executor) -> None:
-        executor._wait.timers.discard(self)
+    def _detach(self, host: Host) -> None:
+        host.wait.timers.discard(self)
 
     def _take(self) -> Work | None:
         now_ns = self._now_ns()
@@ -215,8 +214,8 @@ class Rate:
             RuntimeError: The rate was destroyed, or this thread is the one that spins: nobody would
                 end the sleep.
         """
-        executor = self._timer._serving_executor()
-        if executor is not None and executor._spinning_thread == threading.get_ident():
+        host = self._timer._serving_host()
+        if host is not None and host.is_spun_by_this_thread():
             raise RuntimeError(
                 "Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"
             )

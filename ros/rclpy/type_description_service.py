@@ -12,7 +12,7 @@ from .qos import qos_profile_services_default
 if TYPE_CHECKING:
     from type_description_interfaces.msg import IndividualTypeDescription, TypeSource
 
-    from .node import Node
+    from ._node.views import ParameterOwner
 
 __all__ = ["START_TYPE_DESCRIPTION_SERVICE_PARAM", "TypeDescriptionService"]
 
@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 class TypeDescriptionService:
     """Serves ``~/get_type_description`` of ``node``, unless the read-only parameter that it declares is false."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: ParameterOwner) -> None:
         if not node.has_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM):
             from rcl_interfaces.msg import ParameterDescriptor
 

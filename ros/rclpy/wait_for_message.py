@@ -46,7 +46,7 @@ def wait_for_message(
         msg_type, topic, came.set_result, qos_profile, group
     )
     with SingleThreadedExecutor(context=node.context) as executor:
-        executor._adopt(subscription)
+        executor._rclpy_scheduler.adopt(subscription)
         try:
             executor.spin_until_future_complete(came, None if time_to_wait < 0 else time_to_wait)
         except ExternalShutdownException:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .entity import Entity, Work
+from ._execution.entity import Entity, Host, Work
 from .subscription import Subscription
 from .timer import Timer
 
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from .callback_groups import CallbackGroup
-    from .executors import Executor
     from .guard_condition import GuardCondition
     from .task import Future
 
@@ -147,10 +146,10 @@ class Waitable(Entity):
 
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
-        executor = self._serving_executor()
-        future._set_executor(executor)
+        host = self._serving_host()
+        future._set_executor(host)
 
-    def _attach(self, executor: Executor) -> None:
+    def _attach(self, host: Host) -> None:
         if self._wait_set is None:
             self._wait_set = WaitSet()
             self.add_to_wait_set(self._wait_set)
@@ -159,11 +158,11 @@ class Waitable(Entity):
                 part.callback_group = self.callback_group
                 self._parts.append(part)
         for part in self._parts:
-            executor._adopt(part)
+            host.adopt(part)
 
-    def _detach(self, executor: Executor) -> None:
+    def _detach(self, host: Host) -> None:
         for part in self._parts:
-            executor._detach(part)
+            host.release(part)
 
     def _close(self) -> None:
         for part in self._parts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from threading import current_thread
 from typing import TYPE_CHECKING, Any
 
-from rclpy.background_events import BackgroundEvents
+from rclpy._execution.background_events import BackgroundEvents
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from turtlewire.tf import listener as engine
 

@@ -109,8 +109,8 @@ def test_messages_without_news_count_too_and_each_arrival_once(listener, talker,
 def test_spin_is_not_woken(listener, talker, executor, node):
     talker.wait_for_listener()
     waits = []
-    wait = executor._wait.wait
-    executor._wait.wait = lambda timeout: (waits.append(1), wait(timeout))[1]
+    wait = executor._rclpy_scheduler.wait.wait
+    executor._rclpy_scheduler.wait.wait = lambda timeout: (waits.append(1), wait(timeout))[1]
     done = rclpy.task.Future()
     spinning = threading.Thread(target=executor.spin)
     node.create_guard_condition(lambda: done.set_result(None)).trigger()

@@ -266,8 +266,10 @@ def test_a_blocked_subscription_costs_no_cpu(node, executor):
     publisher.publish(Int32())
     executor.spin_once(timeout_sec=10)
     waits = []
-    wait_once = executor._wait._wait_set.wait
-    executor._wait._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    wait_once = executor._rclpy_scheduler.wait._wait_set.wait
+    executor._rclpy_scheduler.wait._wait_set.wait = lambda timeout: (
+        waits.append(timeout) or wait_once(timeout)
+    )
     executor.spin_once(timeout_sec=0.2)
     assert len(waits) <= 3
 
@@ -492,9 +494,10 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
     at_once, later = (
         node.create_guard_condition(lambda: done.set_result("in the same group")) for _ in range(2)
     )
-    warn = executor._warn_of_nested_spin
+    scheduler = executor._rclpy_scheduler
+    warn = scheduler.warn_of_nested_spin
     monkeypatch.setattr(
-        executor, "_warn_of_nested_spin", lambda: (warn(), done.set_result("after the warning"))
+        scheduler, "warn_of_nested_spin", lambda: (warn(), done.set_result("after the warning"))
     )
 
     def wait():
@@ -518,7 +521,7 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
 def test_an_async_callback_that_waits_for_itself_is_warned_of(
     node, any_executor, capfd, monkeypatch
 ):
-    monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 10_000_000)
+    monkeypatch.setattr("rclpy._execution.self_waits._PATIENCE_NS", 10_000_000)
     service = node.create_service(AddTwoInts, "held_up", lambda _, response: response)
     client = node.create_client(AddTwoInts, "held_up")
     warned = Future()
@@ -543,7 +546,7 @@ def test_an_async_callback_that_waits_for_itself_is_warned_of(
 
 
 def test_an_async_callback_that_waits_for_others_is_not(node, any_executor, capfd, monkeypatch):
-    monkeypatch.setattr("rclpy.self_waits._PATIENCE_NS", 0)
+    monkeypatch.setattr("rclpy._execution.self_waits._PATIENCE_NS", 0)
     node.create_service(
         AddTwoInts,
         "free",
@@ -573,7 +576,7 @@ def test_spinning_until_a_future_of_another_library_is_done(any_executor):
 
 def test_two_threads_cannot_spin_one_executor(executor, spinning):
     spinning(executor)
-    while executor._spinning_thread is None:
+    while not executor._rclpy_scheduler.is_spun():
         time.sleep(0.001)
     with pytest.raises(RuntimeError, match="Executor is already spinning"):
         executor.spin_once(timeout_sec=0)
@@ -595,8 +598,15 @@ def test_shutdown_waits_for_callbacks_of_other_threads(node, pool):
 
 
 def test_shutdown_in_a_callback_ends_spin(node, any_executor):
-    node.create_guard_condition(any_executor.shutdown).trigger()
+    ended = threading.Event()
+
+    def shut_down():
+        any_executor.shutdown()
+        ended.set()
+
+    node.create_guard_condition(shut_down).trigger()
     any_executor.spin()
+    assert ended.wait(60)
     assert node.executor is None
 
 
@@ -639,8 +649,10 @@ def test_the_default_size_of_a_pool(context):
 
 def test_an_idle_executor_does_not_run(node, executor, spinning):
     waits = []
-    wait_once = executor._wait._wait_set.wait
-    executor._wait._wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    wait_once = executor._rclpy_scheduler.wait._wait_set.wait
+    executor._rclpy_scheduler.wait._wait_set.wait = lambda timeout: (
+        waits.append(timeout) or wait_once(timeout)
+    )
     spinning(executor)
     deadline = time.monotonic() + 60
     while not waits and time.monotonic() < deadline:
@@ -706,3 +718,21 @@ def test_an_executor_of_ones_own_decides_where_callbacks_run(context, node):
             executor.spin_once(timeout_sec=0)
     assert executor.can_execute(guards[0])
     other.destroy_node()
+
+
+def test_a_group_that_becomes_free_while_an_entity_is_paused_is_noticed(node, executor):
+    """Its last holder finds nothing to resume if it ends just before the entity is in the list."""
+
+    class FreeOnSecondLook(MutuallyExclusiveCallbackGroup):
+        looks = 0
+
+        def can_execute(self, entity):
+            self.looks += 1
+            return self.looks > 1  # it was busy at the first look, and nothing will resume us
+
+    ran = Future()
+    group = FreeOnSecondLook()
+    node.create_guard_condition(lambda: ran.set_result(True), callback_group=group).trigger()
+    executor.spin_until_future_complete(ran, timeout_sec=5)
+    assert ran.done()
+    assert group.looks >= 2

@@ -291,34 +291,30 @@ def test_stdout_and_wrong_values(logger, monkeypatch, capfd):
 
 
 def test_the_command_line_decides(logger, capfd):
-    rclpy.logging.configure(
-        Arguments.parse(
-            [
-                "--ros-args",
-                "--log-level",
-                "warn",
-                "--log-level",
-                "robot:=debug",
-                "--disable-external-lib-logs",
-            ]
-        )
-    )
+    Arguments.parse(
+        [
+            "--ros-args",
+            "--log-level",
+            "warn",
+            "--log-level",
+            "robot:=debug",
+            "--disable-external-lib-logs",
+        ]
+    ).configure_logging()
     logger.debug("shown")
     rclpy.logging.get_logger("other").info("hidden")
     assert messages(capfd) == ["shown"]
-    rclpy.logging.configure(
-        Arguments.parse(["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"])
-    )
+    Arguments.parse(
+        ["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"]
+    ).configure_logging()
     logger.error("hidden")
     assert messages(capfd) == []
 
 
 def test_a_configuration_file_is_ignored_with_a_warning(logger, capfd):
-    rclpy.logging.configure(
-        Arguments.parse(
-            ["--ros-args", "--log-config-file", "spdlog.conf", "--disable-external-lib-logs"]
-        )
-    )
+    Arguments.parse(
+        ["--ros-args", "--log-config-file", "spdlog.conf", "--disable-external-lib-logs"]
+    ).configure_logging()
     logger.info("shown")
     assert messages(capfd) == [
         "Configuration files of logging are not supported: 'spdlog.conf' is ignored",

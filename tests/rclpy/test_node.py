@@ -300,4 +300,4 @@ def test_timers_that_come_and_go_leave_nothing_in_the_executor(context, node, ex
     for _ in range(100):
         executor.add_node(node)
         executor.remove_node(node)
-    assert len(executor._wait.timers._heap) < 5
+    assert len(executor._rclpy_scheduler.wait.timers._heap) < 5

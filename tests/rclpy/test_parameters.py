@@ -15,8 +15,8 @@ from rcl_interfaces.msg import (
     SetParametersResult,
 )
 from rclpy import exceptions
+from rclpy._node.parameters import NodeParameters
 from rclpy.parameter import Parameter
-from rclpy.parameters import NodeParameters
 from rclpy.time import Time
 
 GOLDEN = Path(__file__).parent.parent / "golden" / "cli"

@@ -145,7 +145,7 @@ def test_tasks_wait_for_each_other_without_polling(executor):
     for _ in range(5):
         executor.spin_once(timeout_sec=0)
     assert steps == ["first waits"]
-    assert executor._tasks == []
+    assert executor._rclpy_scheduler._tasks == []
     gate.set_result("gate open")
     executor.spin_until_future_complete(task, timeout_sec=10)
     assert task.result() == "done"

@@ -7,13 +7,13 @@ import time
 
 import pytest
 
+from rclpy._execution.timer_queue import TimerQueue
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.time import Time
 from rclpy.timer import Timer
-from rclpy.timer_queue import TimerQueue
 
 MS = 1_000_000
 

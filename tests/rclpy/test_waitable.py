@@ -91,7 +91,7 @@ def test_its_group_is_respected(node, executor):
     executor.spin_once(timeout_sec=0)
     assert composed.executed == []
     group.ending_execution(other)
-    executor._resume_paused()
+    executor._rclpy_scheduler.resume_paused()
     executor.spin_once(timeout_sec=10)
     assert composed.executed == [("guard_condition", None)]
     composed.destroy()

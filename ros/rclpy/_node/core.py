@@ -6,9 +6,9 @@ import weakref
 from functools import partial
 from typing import TYPE_CHECKING
 
+from rclpy._node.rosout import RosoutPublisher
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.logging import get_logger
-from rclpy.rosout import RosoutPublisher
 from turtlewire.wire import names
 
 if TYPE_CHECKING:

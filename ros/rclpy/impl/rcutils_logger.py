@@ -32,14 +32,14 @@ class _Throttle:
     """Lets a message through when enough time has passed since the last one."""
 
     def __init__(self, options: dict[str, Any]) -> None:
-        from rclpy.clock import Clock
-
         clock = options.get("throttle_time_source_type")
-        if clock is not None and not isinstance(clock, Clock):
+        if clock is not None and not callable(getattr(clock, "now", None)):
             raise ValueError(
                 f'Received throttle_time_source_type of "{clock}" is not a clock instance.'
             )
-        self._now_ns: Callable[[], int] = time.time_ns if clock is None else clock._now_ns
+        self._now_ns: Callable[[], int] = (
+            time.time_ns if clock is None else lambda: int(clock.now().nanoseconds)
+        )
         self._period_ns = int(options["throttle_duration_sec"] * 1e9)
         self._next_ns = 0
 

@@ -190,10 +190,10 @@ class Simulation:
         for _ in range(_MOST_CALLBACKS_IN_A_TICK):
             self._reader.run()
             try:
-                ready = self._executor._next(0, None)
+                ready = self._executor._rclpy_scheduler.next(0)
             except TimeoutException:
                 return
-            self._executor._run(*ready)
+            self._executor._rclpy_scheduler.run(*ready)
         raise RuntimeError(
             f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s "
             "and did not come to rest"

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from turtlewire.wire import names
-
-from ._rclpy_pybind11 import NodeNameNonExistentError
-from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._node.core import NodeCore
+    from rclpy._node.endpoints import NodeEndpoints
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
     from turtlewire.wire.base import EndpointInfo, Graph
-
-    from ._node.core import NodeCore
-    from .node_endpoints import NodeEndpoints
-    from .topic_endpoint_info import TopicEndpointInfo
 
 __all__ = ["NamesAndTypes", "NodeGraph"]
 
@@ -160,7 +158,7 @@ class NodeGraph:
 
     def endpoint_infos(self, kind: str, topic: str, *, no_mangle: bool) -> list[TopicEndpointInfo]:
         """What is known of each publisher or subscription of a topic."""
-        from .topic_endpoint_info import TopicEndpointInfo
+        from rclpy.topic_endpoint_info import TopicEndpointInfo
 
         name = (
             topic

@@ -1,9 +1,9 @@
-"""What an executor waits for: endpoints with something to take, timers that are due, entities that report themselves."""
+"""What an executor waits for: endpoints with something to take, and timers that are due."""
 
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from .timer_queue import TimerQueue
 
@@ -12,13 +12,27 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-    from .background_events import BackgroundEvents
-    from .entity import Entity
-
 __all__ = ["ExecutorWait"]
 
 
-class ExecutorWait:
+class _Ranked(Protocol):
+    """What can be reported as ready."""
+
+    _rank: tuple[int, int, int]
+
+
+class _Background(Protocol):
+    """Messages that other threads handle."""
+
+    def expect(self) -> None:
+        """Have the next one reported with :meth:`ExecutorWait.notify`."""
+        ...
+
+
+T = TypeVar("T", bound=_Ranked)
+
+
+class ExecutorWait(Generic[T]):
     """One wait for everything; one thread waits at a time, all other methods are thread-safe.
 
     Args:
@@ -30,15 +44,15 @@ class ExecutorWait:
     """
 
     def __init__(self, wait_set: base.WaitSet) -> None:
-        self.timers = TimerQueue(wait_set.wake)
-        self.background: set[BackgroundEvents] = set()
+        self.timers: TimerQueue[Any] = TimerQueue(wait_set.wake)
+        self.background: set[_Background] = set()
         self._wait_set = wait_set
-        self._by_wire: dict[base.Entity, Entity] = {}
-        self._notified: deque[Entity] = deque()
+        self._by_wire: dict[base.Entity, T] = {}
+        self._notified: deque[T] = deque()
         self._waiting = False
         self._ended = False
 
-    def watch(self, wire: base.Waitable, entity: Entity) -> None:
+    def watch(self, wire: base.Waitable, entity: T) -> None:
         """Report ``entity`` when its side on the wire has something."""
         self._by_wire[wire] = entity
         self._wait_set.attach(wire)
@@ -48,7 +62,7 @@ class ExecutorWait:
         self._wait_set.detach(wire)
         self._by_wire.pop(wire, None)
 
-    def notify(self, entity: Entity) -> None:
+    def notify(self, entity: T) -> None:
         """Report ``entity`` at once."""
         self._notified.append(entity)
         self.wake()
@@ -62,8 +76,12 @@ class ExecutorWait:
         """End the current wait, or the next one at once."""
         self._wait_set.wake()
 
-    def wait(self, timeout_ns: int | None) -> list[Entity]:
-        """Block until something is ready, at most ``timeout_ns`` (None: no limit); what is ready, in ROS 2's order."""
+    def wait(self, timeout_ns: int | None) -> list[T]:
+        """Block until something is ready, at most ``timeout_ns`` (None: no limit).
+
+        Returns:
+            What is ready, in ROS 2's order.
+        """
         if self._notified:
             timeout_ns = 0
         else:
@@ -103,5 +121,5 @@ class ExecutorWait:
             self._wait_set.close()
 
 
-def _rank(entity: Entity) -> tuple[int, int, int]:
+def _rank(entity: _Ranked) -> tuple[int, int, int]:
     return entity._rank

@@ -6,39 +6,38 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from turtlewire.msg import type_name
-from turtlewire.wire import names
-
-from ._rclpy_pybind11 import RCLError
-from .callback_groups import MutuallyExclusiveCallbackGroup
-from .client import Client
-from .entity import Entity
-from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
-from .exceptions import InvalidServiceNameException, InvalidTopicNameException
-from .guard_condition import GuardCondition
-from .hints import described, with_hint
-from .publisher import Publisher
-from .qos import QoSProfile
-from .service import Service
-from .subscription import Subscription
-from .timer import Rate, Timer
-from .type_support import (
+from rclpy._execution.entity import Entity
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.client import Client
+from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.guard_condition import GuardCondition
+from rclpy.hints import described, with_hint
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
+from rclpy.service import Service
+from rclpy.subscription import Subscription
+from rclpy.timer import Rate, Timer
+from rclpy.type_support import (
     check_is_valid_msg_type,
     check_is_valid_srv_type,
     service_type_ids,
     type_id,
 )
+from turtlewire.msg import type_name
+from turtlewire.wire import names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ._node.core import NodeCore
-    from .base_executor import Executor
-    from .callback_groups import CallbackGroup
-    from .clock import Clock
-    from .parameters import NodeParameters
-    from .qos_overriding_options import QoSOverridingOptions
-    from .waitable import Waitable
+    from rclpy._execution.entity import Host
+    from rclpy._node.core import NodeCore
+    from rclpy._node.parameters import NodeParameters
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
+    from rclpy.qos_overriding_options import QoSOverridingOptions
+    from rclpy.waitable import Waitable
 
 __all__ = ["NodeEndpoints", "QosOverrides", "validate_qos"]
 
@@ -55,7 +54,7 @@ class QosOverrides(NamedTuple):
         """The profile with the parameters' values; ``kind`` is publisher or subscription."""
         if self.options is None:
             return profile
-        from .qos_overriding_options import overridden_profile
+        from rclpy.qos_overriding_options import overridden_profile
 
         return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
 
@@ -69,7 +68,7 @@ class NodeEndpoints:
 
     def __init__(self, core: NodeCore) -> None:
         self._core = core
-        self._host: tuple[weakref.ref[Executor], int] | None = None
+        self._host: tuple[weakref.ref[Host], int] | None = None
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -299,15 +298,15 @@ class NodeEndpoints:
 
     def add_waitable(self, waitable: Waitable) -> None:
         """See :meth:`rclpy.node.Node.add_waitable`."""
-        from .waitable import Waitable
+        from rclpy.waitable import Waitable
 
         self._own(Waitable, waitable)
 
     def remove_waitable(self, waitable: Waitable) -> None:
         """See :meth:`rclpy.node.Node.remove_waitable`."""
-        executor = waitable._serving_executor()
+        executor = waitable._serving_host()
         if executor is not None:
-            executor._detach(waitable)
+            executor.release(waitable)
         self._disown(waitable)
 
     def keep(self, resource: Any) -> None:
@@ -332,10 +331,10 @@ class NodeEndpoints:
             reference, node_index = host
             executor = reference()
             if executor is not None:
-                executor._adopt(owned, node_index)
+                executor.adopt(owned, node_index)
         return owned
 
-    def attach(self, executor: Executor, node_index: int) -> None:
+    def attach(self, executor: Host, node_index: int) -> None:
         """Have ``executor`` serve the entities, those of the future included.
 
         Args:
@@ -344,13 +343,13 @@ class NodeEndpoints:
         """
         self._host = (weakref.ref(executor), node_index)
         for entity in self.entities():
-            executor._adopt(entity, node_index)
+            executor.adopt(entity, node_index)
 
-    def detach(self, executor: Executor) -> None:
+    def detach(self, executor: Host) -> None:
         """Undo :meth:`attach`."""
         self._host = None
         for entity in self.entities():
-            executor._detach(entity)
+            executor.release(entity)
 
     def _disown(self, owned: Any) -> None:
         with self._lock:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import weakref
 from typing import TYPE_CHECKING, Protocol
 
-from .entity import Entity, Work
+from rclpy._execution.entity import Entity, Host, Work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .executors import Executor
 
 __all__ = ["Arrivals", "BackgroundEvents"]
 
@@ -56,15 +55,15 @@ class BackgroundEvents(Entity):
             self._report()
 
     def _report(self) -> None:
-        executor = self._serving_executor()
-        if executor is not None:
-            executor._wait.notify(self)
+        host = self._serving_host()
+        if host is not None:
+            host.wait.notify(self)
 
-    def _attach(self, executor: Executor) -> None:
-        executor._wait.background.add(self)
+    def _attach(self, host: Host) -> None:
+        host.wait.background.add(self)
 
-    def _detach(self, executor: Executor) -> None:
-        executor._wait.background.discard(self)
+    def _detach(self, host: Host) -> None:
+        host.wait.background.discard(self)
 
     def _take(self) -> Work | None:
         return (_nothing, ()) if self._arrivals.take_arrivals() else None

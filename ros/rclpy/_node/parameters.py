@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import parameter_descriptors
-from .exceptions import (
+from rclpy._node import descriptors as rules
+from rclpy._node.declarations import new_descriptor, override, read_declaration, yaml_hint
+from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
     ParameterAlreadyDeclaredException,
@@ -13,9 +14,8 @@ from .exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
-from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
-from .parameter_declarations import new_descriptor, override, read_declaration, yaml_hint
-from .validate_parameter_name import validate_parameter_name
+from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from rclpy.validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -28,8 +28,7 @@ if TYPE_CHECKING:
         ParameterValue,
         SetParametersResult,
     )
-
-    from .time import Time
+    from rclpy.time import Time
 
 __all__ = ["NodeParameters"]
 
@@ -144,7 +143,7 @@ class NodeParameters:
             raise ParameterAlreadyDeclaredException(repeated)
         for parameter, descriptor in declared.values():
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
-            if reason.startswith(parameter_descriptors.WRONG_TYPE):
+            if reason.startswith(rules.WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
                 error = InvalidParameterTypeException(parameter, expected.name)
                 error.is_of_command_line = (
@@ -315,7 +314,7 @@ class NodeParameters:
             parameter.name: self._descriptor(parameter.name) for parameter in parameter_list
         }
         for parameter in parameter_list:
-            reason = parameter_descriptors.refusal(
+            reason = rules.refusal(
                 parameter, descriptors[parameter.name], declaring=declarations is not None
             )
             if reason:
@@ -411,7 +410,7 @@ class NodeParameters:
             raise ParameterImmutableException(name)
         if not descriptor.dynamic_typing and not descriptor.type:
             descriptor.type = self._parameters[name].type_.value
-        if parameter_descriptors.refusal(self._parameters[name], descriptor, declaring=True):
+        if rules.refusal(self._parameters[name], descriptor, declaring=True):
             alternative = self._parameters[name]
             if alternative_value is not None:
                 from rcl_interfaces.msg import Parameter as ParameterMsg

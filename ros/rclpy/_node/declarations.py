@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .parameter import Parameter
+from rclpy.parameter import Parameter
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor

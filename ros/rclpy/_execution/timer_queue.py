@@ -6,17 +6,18 @@ import heapq
 import itertools
 import threading
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .timer import Timer
-
 __all__ = ["TimerQueue"]
 
 
-class TimerQueue:
+T = TypeVar("T")
+
+
+class TimerQueue(Generic[T]):
     """A heap of due moments on the monotonic clock. Thread-safe.
 
     A rescheduled or removed timer leaves its old entry behind; entries carry a ticket, and only the
@@ -29,12 +30,12 @@ class TimerQueue:
 
     def __init__(self, on_earlier: Callable[[], None]) -> None:
         self._on_earlier = on_earlier
-        self._heap: list[tuple[int, int, Timer]] = []
-        self._tickets: dict[Timer, int] = {}
+        self._heap: list[tuple[int, int, T]] = []
+        self._tickets: dict[T, int] = {}
         self._next_ticket = itertools.count()
         self._lock = threading.Lock()
 
-    def schedule(self, timer: Timer, delay_ns: int | None) -> None:
+    def schedule(self, timer: T, delay_ns: int | None) -> None:
         """Have ``timer`` come due after ``delay_ns``; None: not until it is scheduled again. Replaces its former entry."""
         with self._lock:
             if delay_ns is None:
@@ -49,7 +50,7 @@ class TimerQueue:
         if is_first:
             self._on_earlier()
 
-    def discard(self, timer: Timer) -> None:
+    def discard(self, timer: T) -> None:
         """Forget ``timer``."""
         self.schedule(timer, None)
 
@@ -59,9 +60,9 @@ class TimerQueue:
             self._drop_stale()
             return max(0, self._heap[0][0] - time.monotonic_ns()) if self._heap else None
 
-    def pop_due(self) -> list[Timer]:
+    def pop_due(self) -> list[T]:
         """Remove and return the timers that are due; each must be scheduled again to come back."""
-        due: list[Timer] = []
+        due: list[T] = []
         with self._lock:
             now = time.monotonic_ns()
             self._drop_stale()

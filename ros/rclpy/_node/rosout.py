@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rclpy.impl import log_output
+from rclpy.type_support import type_id
 from turtlewire import msg
 from turtlewire.errors import WireError
 from turtlewire.wire.qos import Durability, QoS
 
-from .impl import log_output
-from .type_support import type_id
-
 if TYPE_CHECKING:
+    from rclpy.impl.log_output import LogRecord
     from turtlewire.wire import base
-
-    from .impl.log_output import LogRecord
 
 __all__ = ["RosoutPublisher"]
 

@@ -1,0 +1,170 @@
+"""Blocking for a response, without the deadlocks that lie in wait there."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from .exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
+
+if TYPE_CHECKING:
+    from rclpy.context import Context
+    from rclpy.impl.rcutils_logger import RcutilsLogger
+    from rclpy.task import Future
+
+    from .entity import Host
+
+__all__ = ["Call", "wait_for_response"]
+
+T = TypeVar("T")
+
+#: After this time a wait that nothing seems to end is logged.
+_PATIENCE_S = 1.0
+
+
+class Call(NamedTuple):
+    """What is waited for, and where.
+
+    Attributes:
+        service: Full name of the service.
+        context: The client's context, whose shutdown ends the wait.
+        logger: Where warnings go.
+        host: Of the executor that serves the client; None if no executor does.
+    """
+
+    service: str
+    context: Context
+    logger: RcutilsLogger
+    host: Host | None
+
+
+def wait_for_response(future: Future[T], call: Call, timeout_sec: float | None) -> T:
+    """Block until ``future`` is done.
+
+    Outside of the executor's thread this waits for the thread that spins, and warns if there is
+    none. In a callback of a single-threaded executor it serves the responses itself.
+
+    Raises:
+        TimeoutError: The time was over before.
+        RuntimeError: The service is in the executor that is blocked.
+        ExternalShutdownException, ShutdownException: The context or the executor was shut down.
+    """
+    deadline = None if timeout_sec is None or timeout_sec < 0 else time.monotonic() + timeout_sec
+    host = call.host
+    if host is not None and host.is_spun_by_this_thread():
+        _serve_responses(host, future, call, deadline)
+    else:
+        _wait_for_other_thread(future, call, deadline)
+    if not future.done():
+        raise TimeoutError
+    return future.result()
+
+
+def _serve_responses(host: Host, future: Future[T], call: Call, deadline: float | None) -> None:
+    """In a callback: hand responses to their futures, and nothing else, until ``future`` is done."""
+    future._add_waiter(host.wake)
+    patience: float | None = time.monotonic() + _PATIENCE_S
+    with host.serving_responses(future):
+        while not future.done() and (deadline is None or time.monotonic() < deadline):
+            if patience is not None and time.monotonic() >= patience:
+                patience = None
+                _warn_of_other_executor(call)
+            if host.holds_up(call.service):
+                raise RuntimeError(
+                    "The service is served by the executor that this call blocks: "
+                    "it would never answer"
+                )
+            try:
+                ready = host.next(
+                    _remaining_ns(deadline, patience),
+                    lambda: future.done() or host.holds_up(call.service),
+                )
+            except (TimeoutException, ConditionReachedException):
+                continue
+            host.execute(*ready)
+
+
+def _remaining_ns(*moments: float | None) -> int | None:
+    """Until the first of these moments; None if there is none."""
+    known = [moment for moment in moments if moment is not None]
+    return max(0, int((min(known) - time.monotonic()) * 1_000_000_000)) if known else None
+
+
+def _wait_for_other_thread(future: Future[T], call: Call, deadline: float | None) -> None:
+    done = threading.Event()
+    future._add_waiter(done.set)
+    waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])
+    for wait in waits:
+        wait.add(done)
+
+    def is_over() -> bool:
+        ended = not call.context.ok() or _is_shutdown(call.host)
+        return future.done() or ended or (deadline is not None and time.monotonic() >= deadline)
+
+    try:
+        patience: float | None = _PATIENCE_S
+        while not is_over():
+            done.clear()
+            if not is_over() and not _wait(done, deadline, patience) and patience is not None:
+                patience = None
+                if not is_over():
+                    _warn_of_long_wait(call)
+    finally:
+        for wait in waits:
+            wait.discard(done)
+    if not future.done():
+        _raise_if_ended(call)
+
+
+def _is_shutdown(host: Host | None) -> bool:
+    return host is not None and host.is_shutdown
+
+
+def _warn_of_long_wait(call: Call) -> None:
+    if call.host is None or not call.host.is_spun():
+        call.logger.warning(
+            f"Waiting for a response of service '{call.service}', but nobody spins the node that "
+            "calls it: spin it in another thread, or use call_async() and "
+            "spin_until_future_complete()"
+        )
+    elif call.host.holds_up(call.service):
+        call.logger.warning(
+            f"Waiting for a response of service '{call.service}', which cannot run because its "
+            "callback group is busy. If the callback that waits is in that group, it waits for "
+            "ever: give the service a callback group of its own"
+        )
+    else:
+        _warn_of_other_executor(call)
+
+
+def _warn_of_other_executor(call: Call) -> None:
+    """Another executor of this process has the request and cannot run the service."""
+    if any(
+        host is not call.host and host.holds_up(call.service) for host in call.context.schedulers()
+    ):
+        call.logger.warning(
+            f"Waiting for a response of service '{call.service}', which another executor "
+            "of this process serves: all its threads, or the service's callback group, are busy. "
+            "If they wait for a service of this executor, both wait for ever: use call_async() "
+            "with await, or a MultiThreadedExecutor with more threads"
+        )
+
+
+def _wait(done: threading.Event, deadline: float | None, at_most: float | None) -> bool:
+    remaining = None if deadline is None else max(0.0, deadline - time.monotonic())
+    return done.wait(
+        at_most if remaining is None else min(remaining, remaining if at_most is None else at_most)
+    )
+
+
+def _raise_if_ended(call: Call) -> None:
+    if not call.context.ok():
+        raise ExternalShutdownException
+    if _is_shutdown(call.host):
+        raise ShutdownException

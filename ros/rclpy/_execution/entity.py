@@ -1,0 +1,199 @@
+"""What an executor serves: subscriptions, timers, services, clients, guard conditions, waitables.
+
+Programs derive from some of these classes, so that all names which ROS 2 does not define begin with
+an underscore; within the package, the scheduler uses them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rclpy._rclpy_pybind11 import InvalidHandle
+
+if TYPE_CHECKING:
+    import threading
+    import weakref
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.task import Future, Task
+
+    from .wait import ExecutorWait
+
+__all__ = ["Entity", "Host", "Work"]
+
+#: A callback and its arguments; the callback may be, or return, a coroutine.
+Work = tuple["Callable[..., Any]", "tuple[Any, ...]"]
+
+
+class Host(Protocol):
+    """What entities, and callbacks that block, need of the executor; the scheduler fulfils it.
+
+    Attributes:
+        wait: Where entities report that they are ready.
+        is_shutdown: Whether the executor was shut down.
+        blocked: Set when the executor is shut down.
+    """
+
+    wait: ExecutorWait[Entity]
+    is_shutdown: bool
+    blocked: set[threading.Event]
+
+    def adopt(self, entity: Entity, node_index: int = -1) -> None:
+        """Serve an entity."""
+        ...
+
+    def release(self, entity: Entity) -> None:
+        """Serve an entity no longer."""
+        ...
+
+    def create_task(self, callback: Callable[..., Any], *args: Any) -> Task[Any]:
+        """Run a function on the executor."""
+        ...
+
+    def wake(self) -> None:
+        """End the current wait, or the next one at once."""
+        ...
+
+    def is_spun(self) -> bool:
+        """Whether any thread spins the executor."""
+        ...
+
+    def is_spun_by_this_thread(self) -> bool:
+        """Whether this thread spins the executor, and so must not wait for it."""
+        ...
+
+    def serving_responses(self, future: Future[Any]) -> AbstractContextManager[None]:
+        """Within the block, only responses are handed out."""
+        ...
+
+    def holds_up(self, service: str) -> bool:
+        """Whether a request for a service is here that cannot be answered at the moment."""
+        ...
+
+    def next(
+        self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
+    ) -> tuple[Entity | Task[Any], Work | None]:
+        """Wait for the next thing to run."""
+        ...
+
+    def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
+        """Run it."""
+        ...
+
+
+class Entity:
+    """Base of all entities.
+
+    An entity is *attached* to at most one executor, that of its node. When it is ready, the
+    executor claims its callback group, calls :meth:`_work` and runs what comes back. An entity
+    whose group is busy is *paused*: it must not report itself ready again before it is *resumed*,
+    or the executor would spin.
+
+    Attributes:
+        callback_group: Says which callbacks may run at the same time.
+        _host: The executor that serves it, as a weak reference.
+        _rank: Its place in a cycle of the executor: number of the node, kind, number of the entity.
+        _destroyed: Whether :meth:`destroy` was called.
+        _on_destroy: Called with the entity after it was destroyed.
+        _owner: The waitable that it is part of, which decides about its work.
+    """
+
+    #: Place in the order of one node's entities within a cycle of the executor (waitables of all
+    #: nodes come first).
+    _ORDER = 0
+    #: Whether its work has to respect the callback group.
+    _GATED = True
+
+    callback_group: CallbackGroup
+
+    def __init__(self, callback_group: CallbackGroup | None) -> None:
+        self._host: weakref.ref[Host] | None = None
+        self._rank: tuple[int, int, int] = (0, 0, 0)
+        self._destroyed = False
+        self._on_destroy: Callable[[Entity], None] | None = None
+        self._owner: Owner | None = None
+        if callback_group is not None:
+            self.callback_group = callback_group
+            callback_group.add_entity(self)
+
+    def _serving_host(self) -> Host | None:
+        """The executor that serves it."""
+        reference = self._host  # one look: another thread may detach it at any moment
+        return None if reference is None else reference()
+
+    @property
+    def handle(self) -> Any:
+        """The entity itself, for ``with`` statements such as those around ROS 2's C handles."""
+        self._check_usable()
+        return self
+
+    def __enter__(self) -> Any:
+        self._check_usable()
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        """Nothing to release."""
+
+    def _check_usable(self) -> None:
+        if self._destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+
+    def destroy(self) -> None:
+        """Take it out of its executor and close it; further use raises ``InvalidHandle``.
+
+        Idempotent.
+        """
+        if self._destroyed:
+            return
+        self._destroyed = True
+        host = self._serving_host()
+        if host is not None:
+            host.release(self)
+        self._close()
+        if self._on_destroy is not None:
+            self._on_destroy(self)
+
+    def _close(self) -> None:
+        """Release what it holds on the wire."""
+
+    def _attach(self, host: Host) -> None:
+        """Report readiness to ``host`` from now on."""
+        raise NotImplementedError
+
+    def _detach(self, host: Host) -> None:
+        """Stop reporting."""
+        raise NotImplementedError
+
+    def _pause(self, host: Host) -> None:
+        """Stop reporting for a while."""
+        self._detach(host)
+
+    def _resume(self, host: Host) -> None:
+        """Report again, at once if it is ready."""
+        self._attach(host)
+
+    def _work(self) -> Work | None:
+        """What has to run now; the executor calls it."""
+        return self._take() if self._owner is None else self._owner._work_of(self)
+
+    def _take(self) -> Work | None:
+        """Take what made it ready; None if there was nothing after all."""
+        raise NotImplementedError
+
+    def _serves(self, service: str) -> bool:  # noqa: ARG002 - most entities serve none
+        """Whether it answers requests of this service."""
+        return False
+
+    def _awaits(self, service: str) -> bool:  # noqa: ARG002 - most entities call none
+        """Whether it has sent a request to this service that is not answered yet."""
+        return False
+
+
+class Owner(Protocol):
+    """What an entity is part of."""
+
+    def _work_of(self, part: Entity) -> Work | None:
+        """What has to run when a part is ready."""
+        ...

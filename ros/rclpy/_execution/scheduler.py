@@ -1,0 +1,348 @@
+"""The part of an executor that decides what runs next, and runs it.
+
+One wait serves everything. The middleware's wait set holds the subscriptions, clients and services,
+and is told once when one comes or goes; the earliest timer gives the wait's limit; a guard
+condition, a finished future or another thread ends the wait. Nothing is collected anew for a pass,
+and nothing polls: an idle executor does not run at all.
+
+Within one cycle the order is that of ROS 2: unfinished tasks (the newest first), the waitables of
+all nodes, then node by node its timers, subscriptions, guard conditions, clients and services.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from collections import deque
+from contextlib import contextmanager
+from types import CoroutineType
+from typing import TYPE_CHECKING, Any
+
+from rclpy.logging import get_logger
+from rclpy.task import Future, Task
+from turtlewire.errors import WireError
+
+from .exceptions import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    TimeoutException,
+)
+from .running_callbacks import RunningCallbacks
+from .self_waits import SelfWaits
+from .wait import ExecutorWait
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rclpy.context import Context
+
+    from .entity import Entity, Host, Work
+
+__all__ = ["Scheduler"]
+
+#: A spin within a callback that finds nothing to do for so long is warned of.
+_PATIENCE_NS = 1_000_000_000
+
+
+class Scheduler:
+    """Finds and runs what is ready. All methods are thread-safe; one thread spins at a time.
+
+    Attributes:
+        context: Its context.
+        wait: The wait for everything that can become ready.
+        is_shutdown: Whether :meth:`shutdown` was called.
+        serves_endlessly: Whether ``spin`` runs: then messages that need no callback are no events.
+        lock: Guards the state of it all.
+        blocked: Set when the executor is shut down; for threads that wait for a response.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.wait: ExecutorWait[Entity] = ExecutorWait(context.wire.create_wait_set())
+        self.is_shutdown = False
+        self.serves_endlessly = False
+        self.blocked: set[threading.Event] = set()
+        self._entities_made = 0
+        self._served: dict[Entity, None] = {}
+        self.lock = threading.RLock()
+        self._tasks: list[Task[Any]] = []
+        self._ready: deque[Entity | Task[Any]] = deque()
+        self._paused: set[Entity] = set()
+        self._holders: dict[Task[Any], Entity] = {}
+        self._running = RunningCallbacks()
+        self._self_waits = SelfWaits()
+        self._spinning_thread: int | None = None
+        self._response_awaited: Future[Any] | None = None
+        context.on_shutdown(self.wake)
+        context.note_scheduler(self)
+
+    # Entities
+
+    def adopt(self, entity: Entity, node_index: int = -1) -> None:
+        """Serve an entity of the node with this number; those of no node come first."""
+        with self.lock:
+            if entity._host is not None or entity._destroyed:
+                return
+            self._entities_made += 1
+            entity._rank = (node_index, entity._ORDER, self._entities_made)
+            entity._host = weakref.ref(self)
+            self._served[entity] = None
+            self._listen_to(entity, entity._attach)
+
+    def release(self, entity: Entity) -> None:
+        """Serve an entity no longer."""
+        with self.lock:
+            entity._host = None
+            self._served.pop(entity, None)
+            self._paused.discard(entity)
+            self._self_waits.goes_on(entity)
+            entity._detach(self)
+
+    def _listen_to(self, entity: Entity, attach: Callable[[Host], None]) -> None:
+        """Attach an entity, which another thread or a shutdown may destroy at this moment."""
+        try:
+            attach(self)
+        except WireError:
+            if self.context.ok() and not entity._destroyed:
+                raise
+
+    # Tasks
+
+    def create_task(
+        self, callback: Callable[..., Any] | CoroutineType[Any, Any, Any], *args: Any, **kwargs: Any
+    ) -> Task[Any]:
+        """Run a function or a coroutine; a future of its result."""
+        task: Task[Any] = Task(callback, args, kwargs, executor=self)
+        self._schedule(task)
+        return task
+
+    def _schedule(self, task: Task[Any]) -> None:
+        with self.lock:
+            self._tasks.append(task)
+        self.wake()
+
+    # Finding the next thing to run
+
+    @contextmanager
+    def spinning(self) -> Iterator[None]:
+        """Within the block, this thread spins; RuntimeError if another one does."""
+        outer, me = self._spinning_thread, threading.get_ident()
+        if outer is not None and outer != me:
+            raise RuntimeError("Executor is already spinning")
+        self._spinning_thread = me
+        try:
+            yield
+        finally:
+            self._spinning_thread = outer
+
+    def is_spun_by_this_thread(self) -> bool:
+        """Whether this thread spins, and so must not wait for what only spinning brings about."""
+        return self._spinning_thread == threading.get_ident()
+
+    def is_spun(self) -> bool:
+        """Whether any thread spins."""
+        return self._spinning_thread is not None
+
+    def next(
+        self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
+    ) -> tuple[Entity | Task[Any], Work | None]:
+        """Wait for the next thing to run, and claim its callback group.
+
+        Raises:
+            ConditionReachedException: ``condition()`` is true.
+            TimeoutException: Nothing was ready in time (None: no limit).
+            ShutdownException, ExternalShutdownException: The executor or the context was shut down.
+        """
+        deadline = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
+        expired = False
+        patience = self._patience()
+        while True:
+            if condition is not None and condition():
+                raise ConditionReachedException
+            self.check_alive()
+            if self._ready:
+                source = self._ready.popleft()
+                work = None if isinstance(source, Task) else self._claim(source)
+                if work is not None or isinstance(source, Task):
+                    return source, work
+                continue
+            if expired:
+                raise TimeoutException
+            remaining = None if deadline is None else max(0, deadline - time.monotonic_ns())
+            expired = remaining == 0
+            if patience is None or remaining is not None or not self._paused:
+                self._collect(remaining)
+                continue
+            self._collect(max(0, patience - time.monotonic_ns()))
+            if not self._ready and time.monotonic_ns() >= patience:
+                patience = None
+                self.warn_of_nested_spin()
+
+    def check_alive(self) -> None:
+        """Raise if nothing may run any more."""
+        if self.is_shutdown:
+            raise ShutdownException
+        if not self.context.ok():
+            raise ExternalShutdownException
+
+    def _patience(self) -> int | None:
+        """Until when a spin may find nothing to run before that is warned of; None: for ever."""
+        is_nested = bool(self._running.of_this_thread()) and self._response_awaited is None
+        return time.monotonic_ns() + _PATIENCE_NS if is_nested else None
+
+    def warn_of_nested_spin(self) -> None:
+        """Say that a callback spins its own executor in vain."""
+        kinds = ", ".join(sorted({type(entity).__name__ for entity in self._paused}))
+        get_logger("rclpy").warning(
+            "A callback spins the executor that runs it, and nothing happens: what is ready "
+            f"({kinds}) belongs to the callback's own group. Use an async callback with await, or "
+            "put them into different callback groups"
+        )
+
+    def _collect(self, timeout_ns: int | None) -> None:
+        """Wait until something is ready, and line it up in ROS 2's order."""
+        tasks: list[Task[Any]] = []
+        if self._response_awaited is None:
+            with self.lock:
+                tasks, self._tasks = self._tasks, []
+            if not self.serves_endlessly or self._running.of_this_thread():
+                self.wait.expect_background()
+        entities = self.wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
+        self._self_waits.warn()
+        self._ready.extend(reversed(tasks))
+        self._ready.extend(entities)
+
+    def wake(self) -> None:
+        """End the current wait, or the next one at once."""
+        self.wait.wake()
+
+    # Callback groups
+
+    def _claim(self, entity: Entity) -> Work | None:
+        """Claim the entity's group and take its work; None if there is none or the group is busy."""
+        if entity._host is None:
+            return None  # destroyed, or moved to another executor meanwhile
+        if not entity._GATED:
+            return entity._work()
+        group = entity.callback_group
+        if not self.may_run(entity) or not group.beginning_execution(entity):
+            self._pause(entity)
+            return None
+        work = None
+        try:
+            work = entity._work()
+        finally:
+            if work is None:
+                self._release_group(entity)
+        return work
+
+    def may_run(self, entity: Entity) -> bool:
+        """Whether a callback of this entity may start now."""
+        return self._response_awaited is None and entity.callback_group.can_execute(entity)
+
+    def _pause(self, entity: Entity) -> None:
+        # With the lock: a thread that ends its callback may resume the entity at any moment.
+        with self.lock:
+            self._paused.add(entity)
+            entity._pause(self)
+            self._self_waits.held_up(entity, list(self._holders.values()), self._served)
+        if self.may_run(entity):  # it became free before it was in the list
+            self._resume(entity)
+
+    def _release_group(self, entity: Entity) -> None:
+        """Give the group back, and let those go on that waited for it."""
+        if not entity._GATED:
+            return
+        entity.callback_group.ending_execution(entity)
+        self.resume_paused()
+
+    def resume_paused(self) -> None:
+        """Let all entities report themselves again whose groups have become free."""
+        if not self._paused:
+            return
+        with self.lock:
+            free = [entity for entity in self._paused if self.may_run(entity)]
+        for entity in free:
+            self._resume(entity)
+
+    def _resume(self, entity: Entity) -> None:
+        with self.lock:
+            if entity not in self._paused:
+                return
+            self._paused.discard(entity)
+            self._self_waits.goes_on(entity)
+            self._listen_to(entity, entity._resume)
+        self.wake()
+
+    # Running
+
+    def run(self, source: Entity | Task[Any], work: Work | None) -> None:
+        """Run what :meth:`next` found; here, or in another thread."""
+        self.execute(source, work)
+
+    def execute(self, source: Entity | Task[Any], work: Work | None) -> None:
+        """Run a callback to its end or to its first ``await``, or a task to its next one."""
+        with self._running:
+            if work is None:
+                self._advance(source)  # type: ignore[arg-type]
+                return
+            callback, arguments = work
+            coroutine = None
+            try:
+                coroutine = callback(*arguments)
+            finally:
+                if not isinstance(coroutine, CoroutineType):
+                    self._release_group(source)  # type: ignore[arg-type]
+            if isinstance(coroutine, CoroutineType):
+                task: Task[Any] = Task(coroutine, executor=self)
+                self._holders[task] = source  # type: ignore[assignment]
+                self._advance(task)
+
+    def _advance(self, task: Task[Any]) -> None:
+        """Run one step of a task; have it run again when what it awaits is done."""
+        task()
+        if not task.done():
+            task._when_runnable(lambda: self._schedule(task))
+            return
+        holder = self._holders.pop(task, None)
+        if holder is not None:
+            self._release_group(holder)
+        error = task.exception()
+        if error is not None:
+            raise error
+
+    # Blocking for a response
+
+    @contextmanager
+    def serving_responses(self, future: Future[Any]) -> Iterator[None]:
+        """Within the block, only responses are handed out; for a callback that waits for one."""
+        outer, self._response_awaited = self._response_awaited, future
+        try:
+            yield
+        finally:
+            self._response_awaited = outer
+            self.resume_paused()
+
+    def holds_up(self, service: str) -> bool:
+        """Whether a request for a service is here that cannot be answered at the moment."""
+        return any(entity._serves(service) for entity in list(self._paused))
+
+    # The end
+
+    def shutdown(self, timeout_sec: float | None) -> bool:
+        """Run no further callbacks, and wait for those that run in other threads.
+
+        Returns:
+            False when they did not end within ``timeout_sec`` (None: no limit).
+        """
+        self.is_shutdown = True
+        self.wait.end()
+        for blocked in list(self.blocked):
+            blocked.set()
+        return self._running.wait_for_others(timeout_sec)
+
+    def close(self) -> None:
+        """Release the wait set after :meth:`shutdown`."""
+        self.wait.close()

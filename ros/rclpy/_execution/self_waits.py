@@ -1,0 +1,63 @@
+"""Async callbacks that await a service which is held up by their own callback group."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from rclpy.service import Service
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from .entity import Entity
+
+__all__ = ["SelfWaits"]
+
+_PATIENCE_NS = 1_000_000_000
+
+
+class SelfWaits:
+    """Services held up by a callback that may be waiting for them; warns after a second."""
+
+    def __init__(self) -> None:
+        self._due: dict[Entity, tuple[Service, int]] = {}
+
+    def held_up(
+        self, entity: Entity, suspended: Collection[Entity], served: Iterable[Entity]
+    ) -> None:
+        """Note an entity that has work which its group does not let it do.
+
+        It counts when it is a service, a suspended callback holds its group, and a client waits for
+        its response.
+
+        Args:
+            entity: What is held up.
+            suspended: Entities whose async callbacks await something.
+            served: All entities of the executor.
+        """
+        if isinstance(entity, Service) and any(
+            other.callback_group is entity.callback_group for other in suspended
+        ):
+            service = entity.service_name
+            if any(other._awaits(service) for other in list(served)):
+                self._due[entity] = (entity, time.monotonic_ns() + _PATIENCE_NS)
+
+    def goes_on(self, entity: Entity) -> None:
+        """It may work again, or is gone."""
+        self._due.pop(entity, None)
+
+    def bounded(self, timeout_ns: int | None) -> int | None:
+        """How long to wait before :meth:`warn` is due."""
+        if not self._due:
+            return timeout_ns
+        moments = [due for _, due in list(self._due.values())]
+        left = max(0, min(moments, default=0) - time.monotonic_ns())
+        return left if timeout_ns is None else min(left, timeout_ns)
+
+    def warn(self) -> None:
+        """Say what has been held up for too long, once."""
+        for service, due in list(self._due.values()):
+            if time.monotonic_ns() >= due:
+                self._due.pop(service, None)
+                service._warn_of_self_wait()

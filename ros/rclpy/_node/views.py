@@ -1,0 +1,114 @@
+"""What the built-in parts of a node need of it: they know a view of the node, not the node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rcl_interfaces.msg import (
+        ListParametersResult,
+        ParameterDescriptor,
+        SetParametersResult,
+    )
+    from rclpy.impl.rcutils_logger import RcutilsLogger
+    from rclpy.parameter import Parameter
+    from rclpy.qos import QoSProfile
+
+__all__ = ["ParameterOwner", "ServiceOwner", "TimeSourceOwner"]
+
+
+class ServiceOwner(Protocol):
+    """A node that offers services."""
+
+    def get_name(self) -> str:
+        """Base name."""
+        ...
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: QoSProfile = ...,
+    ) -> Any:
+        """Offer a service."""
+        ...
+
+
+class ParameterOwner(ServiceOwner, Protocol):
+    """A node that has parameters, too."""
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether a parameter is declared."""
+        ...
+
+    def declare_parameter(
+        self, name: str, value: Any = None, descriptor: ParameterDescriptor | None = None
+    ) -> Parameter:
+        """Declare a parameter."""
+        ...
+
+    def get_parameter(self, name: str) -> Parameter:
+        """A parameter."""
+        ...
+
+    def get_parameter_type(self, name: str) -> Any:
+        """The type of a parameter."""
+        ...
+
+    def describe_parameter(self, name: str) -> ParameterDescriptor:
+        """The descriptor of a parameter."""
+        ...
+
+    def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
+        """Names of parameters."""
+        ...
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """Set all parameters, or none."""
+        ...
+
+
+class TimeSourceOwner(Protocol):
+    """A node whose parameter says whether its clock follows ``/clock``."""
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether a parameter is declared."""
+        ...
+
+    def declare_parameter(self, name: str, value: Any = None) -> Parameter:
+        """Declare a parameter."""
+        ...
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        """A parameter."""
+        ...
+
+    def add_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
+        """Have ``callback`` accept or refuse new values."""
+        ...
+
+    def remove_on_set_parameters_callback(
+        self, callback: Callable[[list[Parameter]], SetParametersResult]
+    ) -> None:
+        """Undo :meth:`add_on_set_parameters_callback`."""
+        ...
+
+    def get_logger(self) -> RcutilsLogger:
+        """Its logger."""
+        ...
+
+    def create_subscription(
+        self, msg_type: Any, topic: str, callback: Callable[[Any], Any], qos_profile: QoSProfile
+    ) -> Any:
+        """Announce a subscription."""
+        ...
+
+    def destroy_subscription(self, subscription: Any) -> bool:
+        """Close a subscription."""
+        ...
