@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Generic
 
 from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
 from ._execution.blocking import Call, wait_for_response
 from ._rclpy_pybind11 import RCLError
+from ._typing import RequestT, ResponseT, SrvT_co, T
 from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
 
 if TYPE_CHECKING:
+    from turtlewire.msg import Service as ServiceClass
     from turtlewire.wire import base
 
     from ._execution.entity import Work
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["Client"]
 
 
-class Client(IntrospectedEndpoint):
+class Client(IntrospectedEndpoint, Generic[SrvT_co]):
     """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`. Thread-safe.
 
     Responses are handed to their futures whatever the callback group is doing: a callback that
@@ -46,7 +48,7 @@ class Client(IntrospectedEndpoint):
     def __init__(
         self,
         wire: base.Client,
-        srv_type: Any,
+        srv_type: type[SrvT_co],
         srv_name: str,
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
@@ -59,7 +61,9 @@ class Client(IntrospectedEndpoint):
         self._lock = threading.Lock()
         self._pending: dict[int, Future] = {}
 
-    def call_async(self, request: Any) -> Future:
+    def call_async(
+        self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT
+    ) -> Future[ResponseT]:
         """Send a request.
 
         Returns:
@@ -94,7 +98,11 @@ class Client(IntrospectedEndpoint):
                 raise
             raise RCLError("failed to send request: client's context is invalid") from None
 
-    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+    def call(
+        self: Client[ServiceClass[RequestT, ResponseT]],
+        request: RequestT,
+        timeout_sec: float | None = None,
+    ) -> ResponseT:
         """Send a request and block until its response is here.
 
         Another thread may spin the node; in a callback of the executor itself only responses are
@@ -109,7 +117,7 @@ class Client(IntrospectedEndpoint):
         """
         return self._block_for(self.call_async(request), timeout_sec)
 
-    def _block_for(self, future: Future, timeout_sec: float | None) -> Any:
+    def _block_for(self, future: Future[T], timeout_sec: float | None) -> T:
         """Block until ``future``, which follows from a request of this client, is done."""
         try:
             call = Call(self._wire.service, self._context, self._logger, self._serving_host())

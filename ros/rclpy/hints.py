@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
-__all__ = ["described", "with_hint"]
+__all__ = ["described", "require", "with_hint"]
 
 _Error = TypeVar("_Error", bound=BaseException)
 
@@ -26,3 +26,14 @@ def described(value: Any) -> str:
         if isinstance(value, type)
         else f"an object of type {type(value).__qualname__}"
     )
+
+
+def require(value: object, kind: type) -> None:
+    """Raise the AssertionError that ROS 2 raises for a value of another type.
+
+    Unlike an ``assert`` statement it works under ``python -O``, too.
+    """
+    if not isinstance(value, kind):
+        raise AssertionError(  # noqa: TRY004 - ROS 2's error
+            f"expected an object of type {kind.__name__}, got {described(value)}"
+        )

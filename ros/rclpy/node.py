@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import weakref
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from turtlewire.wire import names
 
@@ -32,7 +32,7 @@ from .parameter_service import ParameterService
 from .publisher import Publisher
 from .qos import qos_profile_parameter_events, qos_profile_services_default
 from .service import Service
-from .subscription import Subscription
+from .subscription import MessageInfo, Subscription
 from .time_source import TimeSource
 from .timer import Rate, Timer
 from .type_description_service import TypeDescriptionService
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
     from turtlewire.wire import base
 
+    from ._typing import MsgT, SrvT
     from .arguments import Arguments
     from .callback_groups import CallbackGroup
     from .clock import Clock
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from .waitable import Waitable
 
 __all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError", "component_arguments"]
+
 
 #: Command line for the next node of this thread, whose class need not know that it is loaded as a
 #: component.
@@ -154,7 +156,7 @@ class Node:
 
             self.__logging_service = LoggingService(self)
 
-    def __parameter_event_publisher(self) -> Publisher:
+    def __parameter_event_publisher(self) -> Publisher[Any]:
         from rcl_interfaces.msg import ParameterEvent
 
         return self._rclpy_endpoints.create_publisher(
@@ -226,22 +228,22 @@ class Node:
         return self._rclpy_endpoints.default_callback_group
 
     @property
-    def publishers(self) -> Iterator[Publisher]:
+    def publishers(self) -> Iterator[Publisher[Any]]:
         """Its publishers."""
         yield from self._rclpy_endpoints.of(Publisher)
 
     @property
-    def subscriptions(self) -> Iterator[Subscription]:
+    def subscriptions(self) -> Iterator[Subscription[Any]]:
         """Its subscriptions."""
         yield from self._rclpy_endpoints.of(Subscription)
 
     @property
-    def clients(self) -> Iterator[Client]:
+    def clients(self) -> Iterator[Client[Any]]:
         """Its service clients."""
         yield from self._rclpy_endpoints.of(Client)
 
     @property
-    def services(self) -> Iterator[Service]:
+    def services(self) -> Iterator[Service[Any]]:
         """Its services."""
         yield from self._rclpy_endpoints.of(Service)
 
@@ -276,15 +278,15 @@ class Node:
 
     def create_publisher(
         self,
-        msg_type: Any,
+        msg_type: type[MsgT],
         topic: str,
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
         event_callbacks: Any = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
-        publisher_class: type[Publisher] = Publisher,
-    ) -> Publisher:
+        publisher_class: type[Publisher[Any]] = Publisher,
+    ) -> Publisher[MsgT]:
         """Announce a publisher.
 
         Args:
@@ -312,9 +314,54 @@ class Node:
             QosOverrides(qos_overriding_options, self._parameters),
         )
 
+    @overload
     def create_subscription(
         self,
-        msg_type: Any,
+        msg_type: type[MsgT],
+        topic: str,
+        callback: Callable[[MsgT], Any] | Callable[[MsgT, MessageInfo], Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: Literal[False] = ...,
+        content_filter_options: ContentFilterOptions | None = None,
+    ) -> Subscription[MsgT]: ...
+
+    @overload
+    def create_subscription(
+        self,
+        msg_type: type[MsgT],
+        topic: str,
+        callback: Callable[[bytes], Any] | Callable[[bytes, MessageInfo], Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: Literal[True],
+        content_filter_options: ContentFilterOptions | None = None,
+    ) -> Subscription[MsgT]: ...
+
+    @overload
+    def create_subscription(
+        self,
+        msg_type: type[MsgT],
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool,
+        content_filter_options: ContentFilterOptions | None = None,
+    ) -> Subscription[MsgT]: ...
+
+    def create_subscription(
+        self,
+        msg_type: type[MsgT],
         topic: str,
         callback: Callable[..., Any],
         qos_profile: QoSProfile | int,
@@ -324,7 +371,7 @@ class Node:
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
         content_filter_options: ContentFilterOptions | None = None,  # noqa: ARG002 - see below
-    ) -> Subscription:
+    ) -> Subscription[MsgT]:
         """Announce a subscription.
 
         Args:
@@ -360,12 +407,12 @@ class Node:
 
     def create_client(
         self,
-        srv_type: Any,
+        srv_type: type[SrvT],
         srv_name: str,
         *,
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
-    ) -> Client:
+    ) -> Client[SrvT]:
         """Announce a client of a service.
 
         Args:
@@ -381,13 +428,13 @@ class Node:
 
     def create_service(
         self,
-        srv_type: Any,
+        srv_type: type[SrvT],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
         *,
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
-    ) -> Service:
+    ) -> Service[SrvT]:
         """Offer a service.
 
         Args:
@@ -448,19 +495,19 @@ class Node:
         """Have the executor serve ``waitable`` no longer."""
         self._rclpy_endpoints.remove_waitable(waitable)
 
-    def destroy_publisher(self, publisher: Publisher) -> bool:
+    def destroy_publisher(self, publisher: Publisher[Any]) -> bool:
         """Close a publisher; False when it is not of this node."""
         return self._rclpy_endpoints.destroy(Publisher, publisher)
 
-    def destroy_subscription(self, subscription: Subscription) -> bool:
+    def destroy_subscription(self, subscription: Subscription[Any]) -> bool:
         """Close a subscription; False when it is not of this node."""
         return self._rclpy_endpoints.destroy(Subscription, subscription)
 
-    def destroy_client(self, client: Client) -> bool:
+    def destroy_client(self, client: Client[Any]) -> bool:
         """Close a client; False when it is not of this node."""
         return self._rclpy_endpoints.destroy(Client, client)
 
-    def destroy_service(self, service: Service) -> bool:
+    def destroy_service(self, service: Service[Any]) -> bool:
         """Close a service; False when it is not of this node."""
         return self._rclpy_endpoints.destroy(Service, service)
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire.errors import WireError
 from turtlewire.msg import serialize
 from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
+from ._typing import MsgT
 from .duration import Duration
 from .handle import Handle
 from .qos_policies import DurabilityPolicy, LivelinessPolicy
@@ -26,11 +27,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Publisher"]
 
+
 _SLICE_NS = 100_000_000
 _NO_LIMIT = Duration(seconds=-1)
 
 
-class Publisher:
+class Publisher(Generic[MsgT]):
     """Sends messages to a topic; made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`. Thread-safe.
 
     Attributes:
@@ -39,7 +41,7 @@ class Publisher:
     """
 
     def __init__(
-        self, wire: base.Publisher, msg_type: Any, qos_profile: QoSProfile, core: NodeCore
+        self, wire: base.Publisher, msg_type: type[MsgT], qos_profile: QoSProfile, core: NodeCore
     ) -> None:
         self.msg_type = msg_type
         self.qos_profile = qos_profile
@@ -54,9 +56,9 @@ class Publisher:
             or 0 < qos_profile.deadline.nanoseconds < BEST_AVAILABLE_NS
         )
         self._destroyed = False
-        self._on_destroy: Callable[[Publisher], None] | None = None
+        self._on_destroy: Callable[[Any], None] | None = None
 
-    def publish(self, msg: Any) -> None:
+    def publish(self, msg: MsgT | bytes) -> None:
         """Send a message, or bytes that are one in CDR already.
 
         It is not encoded while nobody is there to receive it.

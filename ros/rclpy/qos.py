@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from enum import Enum, IntEnum
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.wire import qos as wire_qos
 
 from .duration import Duration
+from .hints import require, with_hint
 from .qos_policies import (
     DurabilityPolicy,
     HistoryPolicy,
@@ -110,10 +111,29 @@ class QoSProfile:
         "avoid_ros_namespace_conventions",
     )
 
-    def __init__(self, **kwargs: Any) -> None:
-        assert all(key in self._FIELDS for key in kwargs), (
-            f"Invalid arguments passed to constructor: {kwargs.keys()!r}"
-        )
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            history: HistoryPolicy | int = ...,
+            depth: int = ...,
+            reliability: ReliabilityPolicy | int = ...,
+            durability: DurabilityPolicy | int = ...,
+            lifespan: Duration = ...,
+            deadline: Duration = ...,
+            liveliness: LivelinessPolicy | int = ...,
+            liveliness_lease_duration: Duration = ...,
+            avoid_ros_namespace_conventions: bool = ...,
+        ) -> None: ...
+
+    def __init__(self, **kwargs: Any) -> None:  # type: ignore[no-redef]  # ROS 2's signature
+        if not all(key in self._FIELDS for key in kwargs):
+            unknown = ", ".join(sorted(kwargs.keys() - set(self._FIELDS)))
+            raise with_hint(
+                AssertionError(f"Invalid arguments passed to constructor: {kwargs.keys()!r}"),
+                f"A QoSProfile has no {unknown}; it has {', '.join(self._FIELDS)}",
+            )
         if "history" not in kwargs and "depth" not in kwargs:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
         self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
@@ -135,7 +155,7 @@ class QoSProfile:
 
     @history.setter
     def history(self, value: HistoryPolicy | int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         self._history = HistoryPolicy(value)
 
     @property
@@ -145,7 +165,7 @@ class QoSProfile:
 
     @depth.setter
     def depth(self, value: int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         if value < 0:
             raise ValueError("history depth must be greater than or equal to zero")
         if value == 0 and self._history == HistoryPolicy.KEEP_LAST:
@@ -164,7 +184,7 @@ class QoSProfile:
 
     @reliability.setter
     def reliability(self, value: ReliabilityPolicy | int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         self._reliability = ReliabilityPolicy(value)
 
     @property
@@ -174,7 +194,7 @@ class QoSProfile:
 
     @durability.setter
     def durability(self, value: DurabilityPolicy | int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         self._durability = DurabilityPolicy(value)
 
     @property
@@ -184,7 +204,7 @@ class QoSProfile:
 
     @lifespan.setter
     def lifespan(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        require(value, Duration)
         self._lifespan = value
 
     @property
@@ -194,7 +214,7 @@ class QoSProfile:
 
     @deadline.setter
     def deadline(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        require(value, Duration)
         self._deadline = value
 
     @property
@@ -204,7 +224,7 @@ class QoSProfile:
 
     @liveliness.setter
     def liveliness(self, value: LivelinessPolicy | int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         self._liveliness = LivelinessPolicy(value)
 
     @property
@@ -214,7 +234,7 @@ class QoSProfile:
 
     @liveliness_lease_duration.setter
     def liveliness_lease_duration(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        require(value, Duration)
         self._liveliness_lease_duration = value
 
     @property
@@ -224,7 +244,7 @@ class QoSProfile:
 
     @avoid_ros_namespace_conventions.setter
     def avoid_ros_namespace_conventions(self, value: bool) -> None:
-        assert isinstance(value, bool)
+        require(value, bool)
         self._avoid_ros_namespace_conventions = value
 
     def __eq__(self, other: object) -> bool:

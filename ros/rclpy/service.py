@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
 from ._rclpy_pybind11 import InvalidHandle
+from ._typing import SrvT_co
 from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Service"]
 
 
-class Service(IntrospectedEndpoint):
+class Service(IntrospectedEndpoint, Generic[SrvT_co]):
     """Answers requests; made by :meth:`Node.create_service <rclpy.node.Node.create_service>`.
 
     The callback is called with a request and an empty response, and returns the response.
@@ -42,7 +43,7 @@ class Service(IntrospectedEndpoint):
     def __init__(
         self,
         wire: base.Service,
-        srv_type: Any,
+        srv_type: type[SrvT_co],
         srv_name: str,
         callback: Callable[[Any, Any], Any],
         callback_group: CallbackGroup,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize
 
 from ._execution.entity import Entity, Host, Work
+from ._typing import MsgT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,11 +22,12 @@ if TYPE_CHECKING:
 
 __all__ = ["MessageInfo", "Subscription"]
 
+
 #: Second argument of a callback that takes two: what is known of the message beside its content.
 MessageInfo = dict[str, Any]
 
 
-class Subscription(Entity):
+class Subscription(Entity, Generic[MsgT]):
     """Receives the messages of a topic; made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
 
     Attributes:
@@ -46,7 +48,7 @@ class Subscription(Entity):
     def __init__(
         self,
         wire: base.Subscription,
-        msg_type: Any,
+        msg_type: type[MsgT],
         callback: Callable[..., Any],
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,

@@ -13,16 +13,10 @@ import weakref
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
+from ._typing import T
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
-
-    from typing_extensions import TypeVar
-
-    T = TypeVar("T", default=Any)
-else:
-    from typing import TypeVar
-
-    T = TypeVar("T")
 
 __all__ = ["Future", "Task"]
 

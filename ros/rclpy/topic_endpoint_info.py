@@ -48,7 +48,8 @@ class TopicEndpointInfo:
 
     def __init__(self, **kwargs: Any) -> None:
         unknown = set(kwargs) - set(self.__slots__)
-        assert not unknown, f"Invalid arguments passed to constructor: {sorted(unknown)}"
+        if unknown:
+            raise AssertionError(f"Invalid arguments passed to constructor: {sorted(unknown)}")
         self.node_name: str = kwargs.get("node_name", "")
         self.node_namespace: str = kwargs.get("node_namespace", "")
         self.topic_type: str = kwargs.get("topic_type", "")

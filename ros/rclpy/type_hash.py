@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from .hints import require
+
 __all__ = ["TypeHash"]
 
 _VALUE_SIZE = 32
@@ -39,7 +41,7 @@ class TypeHash:
 
     @version.setter
     def version(self, value: int) -> None:
-        assert isinstance(value, int)
+        require(value, int)
         self._version = value
 
     @property
@@ -49,7 +51,7 @@ class TypeHash:
 
     @value.setter
     def value(self, value: bytes) -> None:
-        assert isinstance(value, bytes)
+        require(value, bytes)
         self._value = value
 
     def __eq__(self, other: object) -> bool:

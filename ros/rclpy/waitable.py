@@ -94,6 +94,10 @@ class WaitSet:
         """Whether the entity of this type (``guard_condition``, ``subscription``, ``timer``) and index is ready."""
         return self._entities[entity_type][index] in self._ready
 
+    def mark_ready(self, entity: Entity) -> None:
+        """Say that this entity, and no other, is ready."""
+        self._ready = {entity}
+
     def entities(self) -> list[Entity]:
         """All of them."""
         return [entity for group in self._entities.values() for entity in group]
@@ -137,12 +141,14 @@ class Waitable(Entity):
 
     def _work_of(self, part: Entity) -> Work | None:
         """What has to run when a part is ready."""
-        assert self._wait_set is not None
+        wait_set = self._wait_set
+        if wait_set is None:
+            return None  # it was never attached
         advanced = None if isinstance(part, Subscription) else part._take()
         if advanced is None and isinstance(part, Timer):
             return None  # cancelled, or its clock went back
-        self._wait_set._ready = {part}
-        return (self.execute, (self.take_data(),)) if self.is_ready(self._wait_set) else None
+        wait_set.mark_ready(part)
+        return (self.execute, (self.take_data(),)) if self.is_ready(wait_set) else None
 
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""

@@ -1,5 +1,9 @@
 from __future__ import annotations
 
+import subprocess
+import sys
+import textwrap
+
 import pytest
 
 from rclpy.duration import Duration, Infinite
@@ -220,3 +224,26 @@ def test_two_system_defaults_are_left_open():
         "WARNING: Publisher reliability is system default and subscription reliability is system "
         "default;"
     )
+
+
+def test_mistyped_arguments_raise_under_python_o_too():
+    source = """
+        from rclpy.qos import QoSProfile
+        for arguments in ({"reliabilty": 2}, {"lifespan": 3}, {"reliability": "best"}):
+            try:
+                QoSProfile(depth=1, **arguments)
+            except AssertionError as error:
+                print(error)
+    """
+    done = subprocess.run(
+        [sys.executable, "-O", "-c", textwrap.dedent(source)],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert done.stdout.splitlines() == [
+        "Invalid arguments passed to constructor: dict_keys(['depth', 'reliabilty'])",
+        "expected an object of type Duration, got an object of type int",
+        "expected an object of type int, got an object of type str",
+    ]

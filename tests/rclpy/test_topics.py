@@ -375,3 +375,9 @@ def test_wait_for_message_in_a_callback(context, node):
         executor.add_node(node)
         executor.spin_once(timeout_sec=10)
     assert results == [(True, Int32(data=6))]
+
+
+def test_a_publisher_names_the_logger_of_its_node(context):
+    node = Node("talker", namespace="robot", context=context)
+    assert node.create_publisher(String, "chatter", 1).logger_name == "robot.talker"
+    node.destroy_node()

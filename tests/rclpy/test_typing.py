@@ -16,8 +16,11 @@ import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.client import Client
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.task import Future
 from rclpy.time import Time
 from std_msgs.msg import String
 from tf2_ros import Buffer, TransformException, TransformListener
@@ -31,6 +34,10 @@ class Talker(Node):
         quality = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         self.subscription = self.create_subscription(String, "chatter", self.heard, quality)
         self.service = self.create_service(AddTwoInts, "add", self.add)
+        self.typed: Publisher[String] = self.create_publisher(String, "chatter", 10)
+        self.plain: Publisher = self.typed
+        self.raw = self.create_subscription(String, "chatter", self.heard_raw, 10, raw=True)
+        self.client: Client[AddTwoInts] = self.create_client(AddTwoInts, "add")
         self.speed: float = self.declare_parameter("speed", 1.0).value
         self.buffer = Buffer()
         self.listener = TransformListener(self.buffer, self)
@@ -42,6 +49,12 @@ class Talker(Node):
             self.get_logger().info(f"{there.transform.translation.x + 1.0}")
         except TransformException as error:
             self.get_logger().info(str(error), throttle_duration_sec=1.0)
+
+    def heard_raw(self, cdr: bytes) -> None:
+        self.typed.publish(cdr)
+
+    def ask(self) -> Future[AddTwoInts.Response]:
+        return self.client.call_async(AddTwoInts.Request(a=1, b=2))
 
     def heard(self, message: String) -> None:
         self.get_logger().info(message.data)
@@ -65,13 +78,29 @@ def main() -> None:
 """
 
 MISTAKES = """
+from example_interfaces.action import Fibonacci
+from example_interfaces.srv import AddTwoInts
+from rclpy.action import ActionClient
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.task import Future
 from std_msgs.msg import String
 
 Node("a", namspace="/b")
 Node("a").create_timer("1.0", print)
 String().dta
+node = Node("a")
+node.create_publisher(String, "a", 1).publish(3)
+def heard(number: int) -> None: ...
+node.create_subscription(String, "a", heard, 1)
+QoSProfile(depht=1)
+client = node.create_client(AddTwoInts, "add")
+client.call_async(String())
+client.call(AddTwoInts.Request()).som
+ActionClient(node, Fibonacci, "count").send_goal_async(AddTwoInts.Request())
+Future[int]().set_result("1")
 """
+MISTAKEN_LINES = [10, 11, 12, 14, 16, 17, 19, 20, 21, 22]
 
 
 @pytest.mark.slow
@@ -100,4 +129,4 @@ def test_a_strict_type_checker_accepts_programs_and_finds_mistakes(tmp_path):
         timeout=110,
     )
     errors = [line.partition(" ")[0] for line in done.stdout.splitlines() if ": error: " in line]
-    assert errors == ["wrong.py:5:", "wrong.py:6:", "wrong.py:7:"], done.stdout
+    assert errors == [f"wrong.py:{line}:" for line in MISTAKEN_LINES], done.stdout

@@ -6,8 +6,9 @@ import os
 import threading
 import weakref
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
+from rclpy._typing import ActionT_co
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
@@ -19,9 +20,11 @@ from .goal_state import ACTIVE_STATES
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._typing import FeedbackT, GoalT, ResultT
     from rclpy.callback_groups import CallbackGroup
     from rclpy.client import Client
     from rclpy.node import Node
+    from turtlewire.msg import Action
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
@@ -85,7 +88,7 @@ class ClientGoalHandle:
         return self._action_client._get_result_async(self)
 
 
-class ActionClient(Waitable):
+class ActionClient(Waitable, Generic[ActionT_co]):
     """Sends goals to an action server. Thread-safe.
 
     Args:
@@ -103,7 +106,7 @@ class ActionClient(Waitable):
     def __init__(
         self,
         node: Node,
-        action_type: Any,
+        action_type: type[ActionT_co],
         action_name: str,
         *,
         callback_group: CallbackGroup | None = None,
@@ -116,7 +119,7 @@ class ActionClient(Waitable):
         check_for_type_support(action_type)
         super().__init__(callback_group or node.default_callback_group)
         self._node = node
-        self._action_type = action_type
+        self._action_type: Any = action_type
         self._action_name = action_name
         self._lock = threading.Lock()
         self._goal_handles: weakref.WeakValueDictionary[bytes, ClientGoalHandle] = (
@@ -124,7 +127,7 @@ class ActionClient(Waitable):
         )
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
         self._finished: deque[bytes] = deque()
-        impl = action_type.Impl
+        impl = action_type.Impl  # type: ignore[attr-defined]  # of generated classes
         self._goal_client = self._make_client(
             impl.SendGoalService, "send_goal", goal_service_qos_profile
         )
@@ -185,8 +188,8 @@ class ActionClient(Waitable):
         return self._node.context._wait_for_graph(self.server_is_ready, timeout_ns)
 
     def send_goal_async(
-        self,
-        goal: Any,
+        self: ActionClient[Action[GoalT, ResultT, FeedbackT]],
+        goal: GoalT,
         feedback_callback: Callable[[Any], Any] | None = None,
         goal_uuid: Any = None,
     ) -> Future:
@@ -241,8 +244,8 @@ class ActionClient(Waitable):
         future.set_result(handle)
 
     def send_goal(
-        self,
-        goal: Any,
+        self: ActionClient[Action[GoalT, ResultT, FeedbackT]],
+        goal: GoalT,
         feedback_callback: Callable[[Any], Any] | None = None,
         goal_uuid: Any = None,
     ) -> Any:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from threading import RLock
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Generic, cast
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import split_name
@@ -20,6 +20,20 @@ from turtlewire.msg.values import converter, element_code, scalar_default
 if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition
     from turtlewire.msg.types import AbstractType
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    _RequestT = TypeVar("_RequestT", default=Any)
+    _ResponseT = TypeVar("_ResponseT", default=Any)
+    _GoalT = TypeVar("_GoalT", default=Any)
+    _ResultT = TypeVar("_ResultT", default=Any)
+    _FeedbackT = TypeVar("_FeedbackT", default=Any)
+else:  # the defaults came with Python 3.13
+    from typing import TypeVar
+
+    _RequestT, _ResponseT = TypeVar("_RequestT"), TypeVar("_ResponseT")
+    _GoalT, _ResultT, _FeedbackT = TypeVar("_GoalT"), TypeVar("_ResultT"), TypeVar("_FeedbackT")
 
 __all__ = [
     "Action",
@@ -138,7 +152,7 @@ class _PartsOnDemand(type):
         return part
 
 
-class Service(metaclass=_PartsOnDemand):
+class Service(Generic[_RequestT, _ResponseT], metaclass=_PartsOnDemand):
     """Base of all service classes.
 
     Their ``Request``, ``Response`` and ``Event`` are message classes.
@@ -150,7 +164,7 @@ class Service(metaclass=_PartsOnDemand):
         raise NotImplementedError("Service classes can not be instantiated")
 
 
-class Action(metaclass=_PartsOnDemand):
+class Action(Generic[_GoalT, _ResultT, _FeedbackT], metaclass=_PartsOnDemand):
     """Base of all action classes.
 
     Their ``Goal``, ``Result`` and ``Feedback`` are message classes, ``Impl`` holds the rest.

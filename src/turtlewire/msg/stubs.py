@@ -120,9 +120,10 @@ class _StubWriter:
         ]
 
     def parts(self, name: str, base: str, *parts: str) -> None:
+        arguments = [part for part in parts if part != "Event"]
         self.lines += [
             "",
-            f"class {name}({base}):",
+            f"class {name}({base}[{', '.join(f'{name}_{part}' for part in arguments)}]):",
             *(f"    {part}: TypeAlias = {name}_{part}" for part in parts),
         ]
 

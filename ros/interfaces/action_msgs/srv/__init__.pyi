@@ -30,7 +30,7 @@ class CancelGoal_Event(Message):
     response: list[CancelGoal_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[CancelGoal_Request] = ..., response: list[CancelGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class CancelGoal(Service):
+class CancelGoal(Service[CancelGoal_Request, CancelGoal_Response]):
     Request: TypeAlias = CancelGoal_Request
     Response: TypeAlias = CancelGoal_Response
     Event: TypeAlias = CancelGoal_Event

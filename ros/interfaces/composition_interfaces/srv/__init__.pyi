@@ -31,7 +31,7 @@ class ListNodes_Event(Message):
     response: list[ListNodes_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListNodes_Request] = ..., response: list[ListNodes_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class ListNodes(Service):
+class ListNodes(Service[ListNodes_Request, ListNodes_Response]):
     Request: TypeAlias = ListNodes_Request
     Response: TypeAlias = ListNodes_Response
     Event: TypeAlias = ListNodes_Event
@@ -60,7 +60,7 @@ class LoadNode_Event(Message):
     response: list[LoadNode_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadNode_Request] = ..., response: list[LoadNode_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class LoadNode(Service):
+class LoadNode(Service[LoadNode_Request, LoadNode_Response]):
     Request: TypeAlias = LoadNode_Request
     Response: TypeAlias = LoadNode_Response
     Event: TypeAlias = LoadNode_Event
@@ -80,7 +80,7 @@ class UnloadNode_Event(Message):
     response: list[UnloadNode_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[UnloadNode_Request] = ..., response: list[UnloadNode_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class UnloadNode(Service):
+class UnloadNode(Service[UnloadNode_Request, UnloadNode_Response]):
     Request: TypeAlias = UnloadNode_Request
     Response: TypeAlias = UnloadNode_Response
     Event: TypeAlias = UnloadNode_Event

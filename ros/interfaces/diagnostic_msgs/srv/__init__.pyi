@@ -27,7 +27,7 @@ class AddDiagnostics_Event(Message):
     response: list[AddDiagnostics_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddDiagnostics_Request] = ..., response: list[AddDiagnostics_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class AddDiagnostics(Service):
+class AddDiagnostics(Service[AddDiagnostics_Request, AddDiagnostics_Response]):
     Request: TypeAlias = AddDiagnostics_Request
     Response: TypeAlias = AddDiagnostics_Response
     Event: TypeAlias = AddDiagnostics_Event
@@ -47,7 +47,7 @@ class SelfTest_Event(Message):
     response: list[SelfTest_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SelfTest_Request] = ..., response: list[SelfTest_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SelfTest(Service):
+class SelfTest(Service[SelfTest_Request, SelfTest_Response]):
     Request: TypeAlias = SelfTest_Request
     Response: TypeAlias = SelfTest_Response
     Event: TypeAlias = SelfTest_Event

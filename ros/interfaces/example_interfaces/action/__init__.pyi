@@ -54,7 +54,7 @@ class Fibonacci_SendGoal_Event(Message):
     response: list[Fibonacci_SendGoal_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_SendGoal_Request] = ..., response: list[Fibonacci_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Fibonacci_SendGoal(Service):
+class Fibonacci_SendGoal(Service[Fibonacci_SendGoal_Request, Fibonacci_SendGoal_Response]):
     Request: TypeAlias = Fibonacci_SendGoal_Request
     Response: TypeAlias = Fibonacci_SendGoal_Response
     Event: TypeAlias = Fibonacci_SendGoal_Event
@@ -74,12 +74,12 @@ class Fibonacci_GetResult_Event(Message):
     response: list[Fibonacci_GetResult_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_GetResult_Request] = ..., response: list[Fibonacci_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Fibonacci_GetResult(Service):
+class Fibonacci_GetResult(Service[Fibonacci_GetResult_Request, Fibonacci_GetResult_Response]):
     Request: TypeAlias = Fibonacci_GetResult_Request
     Response: TypeAlias = Fibonacci_GetResult_Response
     Event: TypeAlias = Fibonacci_GetResult_Event
 
-class Fibonacci(Action):
+class Fibonacci(Action[Fibonacci_Goal, Fibonacci_Result, Fibonacci_Feedback]):
     Goal: TypeAlias = Fibonacci_Goal
     Result: TypeAlias = Fibonacci_Result
     Feedback: TypeAlias = Fibonacci_Feedback

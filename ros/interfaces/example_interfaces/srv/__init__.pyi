@@ -27,7 +27,7 @@ class AddTwoInts_Event(Message):
     response: list[AddTwoInts_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddTwoInts_Request] = ..., response: list[AddTwoInts_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class AddTwoInts(Service):
+class AddTwoInts(Service[AddTwoInts_Request, AddTwoInts_Response]):
     Request: TypeAlias = AddTwoInts_Request
     Response: TypeAlias = AddTwoInts_Response
     Event: TypeAlias = AddTwoInts_Event
@@ -47,7 +47,7 @@ class SetBool_Event(Message):
     response: list[SetBool_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetBool(Service):
+class SetBool(Service[SetBool_Request, SetBool_Response]):
     Request: TypeAlias = SetBool_Request
     Response: TypeAlias = SetBool_Response
     Event: TypeAlias = SetBool_Event
@@ -66,7 +66,7 @@ class Trigger_Event(Message):
     response: list[Trigger_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Trigger(Service):
+class Trigger(Service[Trigger_Request, Trigger_Response]):
     Request: TypeAlias = Trigger_Request
     Response: TypeAlias = Trigger_Response
     Event: TypeAlias = Trigger_Event

@@ -28,7 +28,7 @@ class ChangeState_Event(Message):
     response: list[ChangeState_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ChangeState_Request] = ..., response: list[ChangeState_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class ChangeState(Service):
+class ChangeState(Service[ChangeState_Request, ChangeState_Response]):
     Request: TypeAlias = ChangeState_Request
     Response: TypeAlias = ChangeState_Response
     Event: TypeAlias = ChangeState_Event
@@ -46,7 +46,7 @@ class GetAvailableStates_Event(Message):
     response: list[GetAvailableStates_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableStates_Request] = ..., response: list[GetAvailableStates_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetAvailableStates(Service):
+class GetAvailableStates(Service[GetAvailableStates_Request, GetAvailableStates_Response]):
     Request: TypeAlias = GetAvailableStates_Request
     Response: TypeAlias = GetAvailableStates_Response
     Event: TypeAlias = GetAvailableStates_Event
@@ -64,7 +64,7 @@ class GetAvailableTransitions_Event(Message):
     response: list[GetAvailableTransitions_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableTransitions_Request] = ..., response: list[GetAvailableTransitions_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetAvailableTransitions(Service):
+class GetAvailableTransitions(Service[GetAvailableTransitions_Request, GetAvailableTransitions_Response]):
     Request: TypeAlias = GetAvailableTransitions_Request
     Response: TypeAlias = GetAvailableTransitions_Response
     Event: TypeAlias = GetAvailableTransitions_Event
@@ -82,7 +82,7 @@ class GetState_Event(Message):
     response: list[GetState_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetState_Request] = ..., response: list[GetState_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetState(Service):
+class GetState(Service[GetState_Request, GetState_Response]):
     Request: TypeAlias = GetState_Request
     Response: TypeAlias = GetState_Response
     Event: TypeAlias = GetState_Event

@@ -28,7 +28,7 @@ class GetMap_Event(Message):
     response: list[GetMap_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetMap_Request] = ..., response: list[GetMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetMap(Service):
+class GetMap(Service[GetMap_Request, GetMap_Response]):
     Request: TypeAlias = GetMap_Request
     Response: TypeAlias = GetMap_Response
     Event: TypeAlias = GetMap_Event
@@ -49,7 +49,7 @@ class GetPlan_Event(Message):
     response: list[GetPlan_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetPlan_Request] = ..., response: list[GetPlan_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetPlan(Service):
+class GetPlan(Service[GetPlan_Request, GetPlan_Response]):
     Request: TypeAlias = GetPlan_Request
     Response: TypeAlias = GetPlan_Response
     Event: TypeAlias = GetPlan_Event
@@ -74,7 +74,7 @@ class LoadMap_Event(Message):
     response: list[LoadMap_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadMap_Request] = ..., response: list[LoadMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class LoadMap(Service):
+class LoadMap(Service[LoadMap_Request, LoadMap_Response]):
     Request: TypeAlias = LoadMap_Request
     Response: TypeAlias = LoadMap_Response
     Event: TypeAlias = LoadMap_Event
@@ -94,7 +94,7 @@ class SetMap_Event(Message):
     response: list[SetMap_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetMap_Request] = ..., response: list[SetMap_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetMap(Service):
+class SetMap(Service[SetMap_Request, SetMap_Response]):
     Request: TypeAlias = SetMap_Request
     Response: TypeAlias = SetMap_Response
     Event: TypeAlias = SetMap_Event

@@ -33,7 +33,7 @@ class DescribeParameters_Event(Message):
     response: list[DescribeParameters_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[DescribeParameters_Request] = ..., response: list[DescribeParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class DescribeParameters(Service):
+class DescribeParameters(Service[DescribeParameters_Request, DescribeParameters_Response]):
     Request: TypeAlias = DescribeParameters_Request
     Response: TypeAlias = DescribeParameters_Response
     Event: TypeAlias = DescribeParameters_Event
@@ -52,7 +52,7 @@ class GetLoggerLevels_Event(Message):
     response: list[GetLoggerLevels_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetLoggerLevels_Request] = ..., response: list[GetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetLoggerLevels(Service):
+class GetLoggerLevels(Service[GetLoggerLevels_Request, GetLoggerLevels_Response]):
     Request: TypeAlias = GetLoggerLevels_Request
     Response: TypeAlias = GetLoggerLevels_Response
     Event: TypeAlias = GetLoggerLevels_Event
@@ -74,7 +74,7 @@ class GetParameterTypes_Event(Message):
     response: list[GetParameterTypes_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameterTypes_Request] = ..., response: list[GetParameterTypes_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetParameterTypes(Service):
+class GetParameterTypes(Service[GetParameterTypes_Request, GetParameterTypes_Response]):
     Request: TypeAlias = GetParameterTypes_Request
     Response: TypeAlias = GetParameterTypes_Response
     Event: TypeAlias = GetParameterTypes_Event
@@ -93,7 +93,7 @@ class GetParameters_Event(Message):
     response: list[GetParameters_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameters_Request] = ..., response: list[GetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetParameters(Service):
+class GetParameters(Service[GetParameters_Request, GetParameters_Response]):
     Request: TypeAlias = GetParameters_Request
     Response: TypeAlias = GetParameters_Response
     Event: TypeAlias = GetParameters_Event
@@ -114,7 +114,7 @@ class ListParameters_Event(Message):
     response: list[ListParameters_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListParameters_Request] = ..., response: list[ListParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class ListParameters(Service):
+class ListParameters(Service[ListParameters_Request, ListParameters_Response]):
     Request: TypeAlias = ListParameters_Request
     Response: TypeAlias = ListParameters_Response
     Event: TypeAlias = ListParameters_Event
@@ -133,7 +133,7 @@ class SetLoggerLevels_Event(Message):
     response: list[SetLoggerLevels_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetLoggerLevels_Request] = ..., response: list[SetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetLoggerLevels(Service):
+class SetLoggerLevels(Service[SetLoggerLevels_Request, SetLoggerLevels_Response]):
     Request: TypeAlias = SetLoggerLevels_Request
     Response: TypeAlias = SetLoggerLevels_Response
     Event: TypeAlias = SetLoggerLevels_Event
@@ -152,7 +152,7 @@ class SetParameters_Event(Message):
     response: list[SetParameters_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParameters_Request] = ..., response: list[SetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetParameters(Service):
+class SetParameters(Service[SetParameters_Request, SetParameters_Response]):
     Request: TypeAlias = SetParameters_Request
     Response: TypeAlias = SetParameters_Response
     Event: TypeAlias = SetParameters_Event
@@ -171,7 +171,7 @@ class SetParametersAtomically_Event(Message):
     response: list[SetParametersAtomically_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParametersAtomically_Request] = ..., response: list[SetParametersAtomically_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetParametersAtomically(Service):
+class SetParametersAtomically(Service[SetParametersAtomically_Request, SetParametersAtomically_Response]):
     Request: TypeAlias = SetParametersAtomically_Request
     Response: TypeAlias = SetParametersAtomically_Response
     Event: TypeAlias = SetParametersAtomically_Event

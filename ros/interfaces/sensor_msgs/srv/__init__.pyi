@@ -26,7 +26,7 @@ class SetCameraInfo_Event(Message):
     response: list[SetCameraInfo_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetCameraInfo_Request] = ..., response: list[SetCameraInfo_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetCameraInfo(Service):
+class SetCameraInfo(Service[SetCameraInfo_Request, SetCameraInfo_Response]):
     Request: TypeAlias = SetCameraInfo_Request
     Response: TypeAlias = SetCameraInfo_Response
     Event: TypeAlias = SetCameraInfo_Event

@@ -24,7 +24,7 @@ class Empty_Event(Message):
     response: list[Empty_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Empty_Request] = ..., response: list[Empty_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Empty(Service):
+class Empty(Service[Empty_Request, Empty_Response]):
     Request: TypeAlias = Empty_Request
     Response: TypeAlias = Empty_Response
     Event: TypeAlias = Empty_Event
@@ -44,7 +44,7 @@ class SetBool_Event(Message):
     response: list[SetBool_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetBool(Service):
+class SetBool(Service[SetBool_Request, SetBool_Response]):
     Request: TypeAlias = SetBool_Request
     Response: TypeAlias = SetBool_Response
     Event: TypeAlias = SetBool_Event
@@ -63,7 +63,7 @@ class Trigger_Event(Message):
     response: list[Trigger_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Trigger(Service):
+class Trigger(Service[Trigger_Request, Trigger_Response]):
     Request: TypeAlias = Trigger_Request
     Response: TypeAlias = Trigger_Response
     Event: TypeAlias = Trigger_Event

@@ -55,7 +55,7 @@ class LookupTransform_SendGoal_Event(Message):
     response: list[LookupTransform_SendGoal_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LookupTransform_SendGoal_Request] = ..., response: list[LookupTransform_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class LookupTransform_SendGoal(Service):
+class LookupTransform_SendGoal(Service[LookupTransform_SendGoal_Request, LookupTransform_SendGoal_Response]):
     Request: TypeAlias = LookupTransform_SendGoal_Request
     Response: TypeAlias = LookupTransform_SendGoal_Response
     Event: TypeAlias = LookupTransform_SendGoal_Event
@@ -75,12 +75,12 @@ class LookupTransform_GetResult_Event(Message):
     response: list[LookupTransform_GetResult_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LookupTransform_GetResult_Request] = ..., response: list[LookupTransform_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class LookupTransform_GetResult(Service):
+class LookupTransform_GetResult(Service[LookupTransform_GetResult_Request, LookupTransform_GetResult_Response]):
     Request: TypeAlias = LookupTransform_GetResult_Request
     Response: TypeAlias = LookupTransform_GetResult_Response
     Event: TypeAlias = LookupTransform_GetResult_Event
 
-class LookupTransform(Action):
+class LookupTransform(Action[LookupTransform_Goal, LookupTransform_Result, LookupTransform_Feedback]):
     Goal: TypeAlias = LookupTransform_Goal
     Result: TypeAlias = LookupTransform_Result
     Feedback: TypeAlias = LookupTransform_Feedback

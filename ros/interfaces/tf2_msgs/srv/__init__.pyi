@@ -23,7 +23,7 @@ class FrameGraph_Event(Message):
     response: list[FrameGraph_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[FrameGraph_Request] = ..., response: list[FrameGraph_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class FrameGraph(Service):
+class FrameGraph(Service[FrameGraph_Request, FrameGraph_Response]):
     Request: TypeAlias = FrameGraph_Request
     Response: TypeAlias = FrameGraph_Response
     Event: TypeAlias = FrameGraph_Event

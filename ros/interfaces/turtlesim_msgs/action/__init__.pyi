@@ -47,7 +47,7 @@ class RotateAbsolute_SendGoal_Event(Message):
     response: list[RotateAbsolute_SendGoal_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[RotateAbsolute_SendGoal_Request] = ..., response: list[RotateAbsolute_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class RotateAbsolute_SendGoal(Service):
+class RotateAbsolute_SendGoal(Service[RotateAbsolute_SendGoal_Request, RotateAbsolute_SendGoal_Response]):
     Request: TypeAlias = RotateAbsolute_SendGoal_Request
     Response: TypeAlias = RotateAbsolute_SendGoal_Response
     Event: TypeAlias = RotateAbsolute_SendGoal_Event
@@ -67,12 +67,12 @@ class RotateAbsolute_GetResult_Event(Message):
     response: list[RotateAbsolute_GetResult_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[RotateAbsolute_GetResult_Request] = ..., response: list[RotateAbsolute_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class RotateAbsolute_GetResult(Service):
+class RotateAbsolute_GetResult(Service[RotateAbsolute_GetResult_Request, RotateAbsolute_GetResult_Response]):
     Request: TypeAlias = RotateAbsolute_GetResult_Request
     Response: TypeAlias = RotateAbsolute_GetResult_Response
     Event: TypeAlias = RotateAbsolute_GetResult_Event
 
-class RotateAbsolute(Action):
+class RotateAbsolute(Action[RotateAbsolute_Goal, RotateAbsolute_Result, RotateAbsolute_Feedback]):
     Goal: TypeAlias = RotateAbsolute_Goal
     Result: TypeAlias = RotateAbsolute_Result
     Feedback: TypeAlias = RotateAbsolute_Feedback

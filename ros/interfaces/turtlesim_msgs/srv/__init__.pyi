@@ -27,7 +27,7 @@ class Kill_Event(Message):
     response: list[Kill_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Kill_Request] = ..., response: list[Kill_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Kill(Service):
+class Kill(Service[Kill_Request, Kill_Response]):
     Request: TypeAlias = Kill_Request
     Response: TypeAlias = Kill_Response
     Event: TypeAlias = Kill_Event
@@ -49,7 +49,7 @@ class SetPen_Event(Message):
     response: list[SetPen_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetPen_Request] = ..., response: list[SetPen_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class SetPen(Service):
+class SetPen(Service[SetPen_Request, SetPen_Response]):
     Request: TypeAlias = SetPen_Request
     Response: TypeAlias = SetPen_Response
     Event: TypeAlias = SetPen_Event
@@ -71,7 +71,7 @@ class Spawn_Event(Message):
     response: list[Spawn_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Spawn_Request] = ..., response: list[Spawn_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class Spawn(Service):
+class Spawn(Service[Spawn_Request, Spawn_Response]):
     Request: TypeAlias = Spawn_Request
     Response: TypeAlias = Spawn_Response
     Event: TypeAlias = Spawn_Event
@@ -91,7 +91,7 @@ class TeleportAbsolute_Event(Message):
     response: list[TeleportAbsolute_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportAbsolute_Request] = ..., response: list[TeleportAbsolute_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class TeleportAbsolute(Service):
+class TeleportAbsolute(Service[TeleportAbsolute_Request, TeleportAbsolute_Response]):
     Request: TypeAlias = TeleportAbsolute_Request
     Response: TypeAlias = TeleportAbsolute_Response
     Event: TypeAlias = TeleportAbsolute_Event
@@ -110,7 +110,7 @@ class TeleportRelative_Event(Message):
     response: list[TeleportRelative_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportRelative_Request] = ..., response: list[TeleportRelative_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class TeleportRelative(Service):
+class TeleportRelative(Service[TeleportRelative_Request, TeleportRelative_Response]):
     Request: TypeAlias = TeleportRelative_Request
     Response: TypeAlias = TeleportRelative_Response
     Event: TypeAlias = TeleportRelative_Event

@@ -31,7 +31,7 @@ class GetTypeDescription_Event(Message):
     response: list[GetTypeDescription_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetTypeDescription_Request] = ..., response: list[GetTypeDescription_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetTypeDescription(Service):
+class GetTypeDescription(Service[GetTypeDescription_Request, GetTypeDescription_Response]):
     Request: TypeAlias = GetTypeDescription_Request
     Response: TypeAlias = GetTypeDescription_Response
     Event: TypeAlias = GetTypeDescription_Event

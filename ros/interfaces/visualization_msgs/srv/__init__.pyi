@@ -25,7 +25,7 @@ class GetInteractiveMarkers_Event(Message):
     response: list[GetInteractiveMarkers_Response]
     def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetInteractiveMarkers_Request] = ..., response: list[GetInteractiveMarkers_Response] = ..., check_fields: bool = ...) -> None: ...
 
-class GetInteractiveMarkers(Service):
+class GetInteractiveMarkers(Service[GetInteractiveMarkers_Request, GetInteractiveMarkers_Response]):
     Request: TypeAlias = GetInteractiveMarkers_Request
     Response: TypeAlias = GetInteractiveMarkers_Response
     Event: TypeAlias = GetInteractiveMarkers_Event
