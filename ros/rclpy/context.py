@@ -28,7 +28,7 @@ __all__ = ["Context"]
 _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the given context"
 
 
-class Scheduler(Protocol):
+class _Scheduler(Protocol):
     """What a context knows of an executor."""
 
     def holds_up(self, service: str) -> bool:
@@ -52,7 +52,7 @@ class Context:
         self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
         self.waits: set[threading.Event] = set()
-        self._schedulers: weakref.WeakSet[Scheduler] = weakref.WeakSet()
+        self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()
 
     def init(
         self,
@@ -95,11 +95,11 @@ class Context:
             ):  # the first context's command line decides, as in ROS 2
                 self._arguments.configure_logging()
 
-    def note_scheduler(self, scheduler: Scheduler) -> None:
+    def note_scheduler(self, scheduler: _Scheduler) -> None:
         """Have :meth:`schedulers` name it while it exists."""
         self._schedulers.add(scheduler)
 
-    def schedulers(self) -> list[Scheduler]:
+    def schedulers(self) -> list[_Scheduler]:
         """Those of all executors of this context."""
         return list(self._schedulers)
 

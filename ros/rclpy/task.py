@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Future", "Task"]
 
 
-class TaskRunner(Protocol):
+class _TaskRunner(Protocol):
     """What runs done-callbacks: an executor."""
 
     def create_task(self, callback: Callable[..., Any], *args: Any) -> Any:
@@ -37,7 +37,7 @@ class Future(Generic[T]):
             the future.
     """
 
-    def __init__(self, *, executor: TaskRunner | None = None) -> None:
+    def __init__(self, *, executor: _TaskRunner | None = None) -> None:
         self._done = False
         self._cancelled = False
         self._result: T | None = None
@@ -46,7 +46,7 @@ class Future(Generic[T]):
         self._callbacks: list[Callable[[Future[T]], Any]] = []
         self._waiters: list[Callable[[], object]] = []
         self._lock = threading.Lock()
-        self._executor: weakref.ref[TaskRunner] | None = None
+        self._executor: weakref.ref[_TaskRunner] | None = None
         self._set_executor(executor)
 
     def __del__(self) -> None:
@@ -183,10 +183,10 @@ class Future(Generic[T]):
         self._add_waiter(done.set)
         return done.wait(timeout_sec)
 
-    def _get_executor(self) -> TaskRunner | None:
+    def _get_executor(self) -> _TaskRunner | None:
         return None if self._executor is None else self._executor()
 
-    def _set_executor(self, executor: TaskRunner | None) -> None:
+    def _set_executor(self, executor: _TaskRunner | None) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
 
 
@@ -203,7 +203,7 @@ class Task(Future[T]):
         handler: Callable[..., Any] | CoroutineType[Any, Any, Any],
         args: tuple[Any, ...] | list[Any] | None = None,
         kwargs: dict[str, Any] | None = None,
-        executor: TaskRunner | None = None,
+        executor: _TaskRunner | None = None,
     ) -> None:
         super().__init__(executor=executor)
         self._handler: Any = handler

@@ -113,7 +113,7 @@ class Entity:
         self._rank: tuple[int, int, int] = (0, 0, 0)
         self._destroyed = False
         self._on_destroy: Callable[[Entity], None] | None = None
-        self._owner: Owner | None = None
+        self._owner: _Owner | None = None
         if callback_group is not None:
             self.callback_group = callback_group
             callback_group.add_entity(self)
@@ -191,7 +191,7 @@ class Entity:
         return False
 
 
-class Owner(Protocol):
+class _Owner(Protocol):
     """What an entity is part of."""
 
     def _work_of(self, part: Entity) -> Work | None:
