@@ -48,7 +48,10 @@ _global_executor: Executor | None = None
 
 
 class InitContextManager:
-    """What :func:`init` returns: ``with rclpy.init(): …`` shuts the context down at the end of the block."""
+    """What :func:`init` returns.
+
+    ``with rclpy.init(): …`` shuts the context down at the end of the block.
+    """
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -103,7 +106,10 @@ def init(
 
 
 def get_global_executor() -> Executor:
-    """The executor that is used where none is given; it lives until the default context is shut down."""
+    """The executor that is used where none is given.
+
+    It lives until the default context is shut down.
+    """
     global _global_executor  # noqa: PLW0603 - there is one for the process
     from .executors import SingleThreadedExecutor
 

@@ -1,4 +1,7 @@
-"""The error classes that ROS 2 programs reach through ``rclpy._rclpy_pybind11``; here they have no C extension behind them."""
+"""The error classes that ROS 2 programs reach through ``rclpy._rclpy_pybind11``.
+
+Here they have no C extension behind them.
+"""
 
 from __future__ import annotations
 

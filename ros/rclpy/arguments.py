@@ -25,7 +25,10 @@ _END = "--"
 
 
 class _Option(NamedTuple):
-    """A flag with a value: what errors call the value, what they say when it is missing, and who takes it."""
+    """A flag that takes a value.
+
+    It has the value's name and the reason for error texts, and the function that takes the value.
+    """
 
     label: str
     missing: str
@@ -166,7 +169,10 @@ class Arguments:
             raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
 
     def followed_by(self, other: Arguments) -> Arguments:
-        """These arguments (of a node) before ``other`` (of the process): remap rules and parameters of these win."""
+        """These arguments (of a node) before ``other`` (of the process).
+
+        Remap rules and parameters of these win.
+        """
         both = Arguments()
         both.__dict__.update(self.__dict__)
         both._rules = self._rules + other._rules
@@ -292,7 +298,10 @@ class Arguments:
 
 
 def _matches(pattern: str, node_fqn: str) -> bool:
-    """Whether a node name of a parameter file means this node: ``/*`` is one token, ``/**`` any number of them."""
+    """Whether a node name of a parameter file means this node.
+
+    ``/*`` is one token, ``/**`` any number of them.
+    """
     if not pattern.startswith("/"):
         pattern = f"/{pattern}"
     if pattern in {"/**", node_fqn}:

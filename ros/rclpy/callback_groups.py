@@ -56,7 +56,10 @@ class ReentrantCallbackGroup(CallbackGroup):
 
 
 class MutuallyExclusiveCallbackGroup(CallbackGroup):
-    """Lets one callback run at a time; an ``async def`` callback counts as running until it has returned."""
+    """Lets one callback run at a time.
+
+    An ``async def`` callback counts as running until it has returned.
+    """
 
     def __init__(self) -> None:
         super().__init__()

@@ -28,7 +28,9 @@ __all__ = ["Client"]
 
 
 class Client(IntrospectedEndpoint, Generic[SrvT_co]):
-    """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`. Thread-safe.
+    """Calls a service; made by :meth:`Node.create_client <rclpy.node.Node.create_client>`.
+
+    Thread-safe.
 
     Responses are handed to their futures whatever the callback group is doing: a callback that
     awaits a response, or blocks for it in :meth:`call` while another thread spins, never waits for

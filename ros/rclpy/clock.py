@@ -162,7 +162,10 @@ class JumpHandle:
 
 
 class Clock:
-    """Tells the time of one clock type; ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`."""
+    """Tells the time of one clock type.
+
+    ``Clock(clock_type=ClockType.ROS_TIME)`` makes a :class:`ROSClock`.
+    """
 
     _clock_type: ClockType
     _jump_handles: list[JumpHandle]
@@ -255,7 +258,10 @@ class Clock:
             self._jump_handles.remove(handle)
 
     def _remaining_s(self, until_ns: int) -> float | None:
-        """Seconds until the clock shows ``until_ns`` by itself; None when only a message can move it."""
+        """Seconds until the clock shows ``until_ns`` by itself.
+
+        None when only a message can move it.
+        """
         return max(0, until_ns - self._now_ns()) / S_TO_NS
 
 

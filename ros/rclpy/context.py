@@ -37,7 +37,9 @@ class _Scheduler(Protocol):
 
 
 class Context:
-    """Participates in a domain between :meth:`init` and :meth:`shutdown`. Thread-safe; also a context manager.
+    """Participates in a domain between :meth:`init` and :meth:`shutdown`.
+
+    Thread-safe; also a context manager.
 
     A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or
     the end of the process, so that the program can still say goodbye; the one :meth:`shutdown` that
@@ -108,7 +110,11 @@ class Context:
         return self._valid
 
     def _is_open(self) -> bool:
-        """Whether endpoints work: a signal leaves them to the program's last words, until it calls :meth:`shutdown` itself."""
+        """Whether endpoints work.
+
+        After a signal they still do, until the program calls :meth:`shutdown`: it may send its last
+        messages.
+        """
         return self._valid or self.ended_by_signal
 
     def get_domain_id(self) -> int:
@@ -176,7 +182,11 @@ class Context:
         end()
 
     def _invalidate(self, *, by_signal: bool) -> Callable[[], None]:
-        """Mark it as shut down; what comes back tells all who wait for that, and is to be called without the lock."""
+        """Mark it as shut down.
+
+        Returns:
+            A function that wakes all waiting threads; call it without the lock.
+        """
         self._valid = False
         self.ended_by_signal = by_signal
         callbacks, self._callbacks = self._callbacks, []
@@ -193,7 +203,9 @@ class Context:
         return tell
 
     def _wait_for_graph(self, predicate: Callable[[], bool], timeout_ns: int | None) -> bool:
-        """Block until ``predicate()`` is true, looking again after each change of the graph; a shutdown ends the wait.
+        """Block until ``predicate()`` is true, looking again after each change of the graph.
+
+        A shutdown ends the wait.
 
         Returns:
             The last value of the predicate.
@@ -218,7 +230,9 @@ class Context:
                 self.waits.discard(changed)
 
     def on_shutdown(self, callback: Callable[[], None]) -> None:
-        """Call ``callback()`` once when it shuts down, at once when it has been already; methods are held weakly.
+        """Call ``callback()`` once when it shuts down, at once when it has been already.
+
+        Methods are held weakly.
 
         After a signal the callback runs on the thread that watches signals.
         """
@@ -246,7 +260,10 @@ class Context:
 
 
 def _reference(callback: Callable[[], None]) -> Callable[[], Callable[[], None] | None]:
-    """A weak reference to a method, so that a context keeps nobody alive; a strong one to a function."""
+    """A weak reference to a method, a strong one to a function.
+
+    So a context keeps no object alive.
+    """
     if hasattr(callback, "__self__") and hasattr(callback, "__func__"):
         return weakref.WeakMethod(callback)
     return lambda: callback

@@ -38,7 +38,10 @@ class Duration:
         return self._nanoseconds
 
     def to_msg(self) -> builtin_interfaces.msg.Duration:
-        """Convert to the message type; a negative span has negative seconds and non-negative nanoseconds."""
+        """Convert to the message type.
+
+        A negative span has negative seconds and non-negative nanoseconds.
+        """
         from builtin_interfaces.msg import Duration as DurationMsg
 
         seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)

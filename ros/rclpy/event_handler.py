@@ -1,4 +1,7 @@
-"""Events of an endpoint's QoS: what a program can be told of, and ROS 2's default warnings about endpoints that do not match."""
+"""Events of an endpoint's QoS.
+
+What a program can be told of, and ROS 2's default warnings about endpoints that do not match.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +65,10 @@ class QoSSubscriptionEventType(IntEnum):
 
 
 class QoSDeadlineRequestedInfo(NamedTuple):
-    """Messages did not come in time, or were not sent in time; counted in all and since the last event, as in the other infos."""
+    """Messages did not come in time, or were not sent in time.
+
+    Counted in all and since the last event, as in the other infos.
+    """
 
     total_count: int
     total_count_change: int
@@ -229,7 +235,9 @@ class _EventCallbacks:
 
 
 class SubscriptionEventCallbacks(_EventCallbacks):
-    """What is to be called at the events of a subscription; each callback gets the info of its event.
+    """What is to be called at the events of a subscription.
+
+    Each callback gets the info of its event.
 
     Args:
         deadline: No message came in time (:class:`QoSDeadlineRequestedInfo`).

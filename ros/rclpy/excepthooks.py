@@ -32,7 +32,10 @@ def install() -> None:
 
 
 def note_signal() -> None:
-    """A signal has come that shuts contexts down: what follows from it is no fault of the program."""
+    """A signal has come that shuts contexts down.
+
+    What follows from it is no fault of the program.
+    """
     global _signal_came  # noqa: PLW0603 - as above
     _signal_came = True
 
@@ -47,7 +50,10 @@ def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackT
 
 
 def _is_of_the_command_line(traceback: TracebackType | None) -> bool:
-    """Whether ``--ros-args`` could not be read: the text says all, and the program is not at fault."""
+    """Whether ``--ros-args`` could not be read.
+
+    The text says all, and the program is not at fault.
+    """
     while traceback is not None and traceback.tb_next is not None:
         traceback = traceback.tb_next
     return (

@@ -16,7 +16,10 @@ __all__ = ["GuardCondition"]
 
 
 class GuardCondition(Entity):
-    """Runs its callback on the executor after :meth:`trigger`; several triggers before it runs count as one."""
+    """Runs its callback on the executor after :meth:`trigger`.
+
+    Several triggers before it runs count as one.
+    """
 
     _ORDER = 2
 

@@ -11,7 +11,10 @@ __all__ = ["Handle"]
 
 
 class Handle:
-    """Gives what its owner has; a ``with`` block around it, as programs for ROS 2 write one, leaves the owner as it is."""
+    """Gives what its owner has.
+
+    A ``with`` block around it, as programs for ROS 2 write one, leaves the owner as it is.
+    """
 
     def __init__(self, owner: Any) -> None:
         self._owner = owner

@@ -10,7 +10,10 @@ _Error = TypeVar("_Error", bound=BaseException)
 
 
 def with_hint(error: _Error, hint: str) -> _Error:
-    """Attach ``hint`` (nothing if empty) and return the same error; tracebacks show it as a note on Python 3.11 and later."""
+    """Attach ``hint`` (nothing if empty) and return the same error.
+
+    Tracebacks show it as a note on Python 3.11 and later.
+    """
     error.hint = hint  # type: ignore[attr-defined]
     if hint and hasattr(error, "add_note"):
         error.add_note(hint)

@@ -71,7 +71,10 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """The level that decides about messages of a logger: its own, or the nearest ancestor's, or the default."""
+    """The level that decides about messages of a logger.
+
+    Its own, or the nearest ancestor's, or the default.
+    """
     return LoggingSeverity(log_levels.effective(name))
 
 
@@ -96,5 +99,8 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 
 def get_logging_directory() -> Path:
-    """Where log files are written: ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``."""
+    """Where log files are written.
+
+    ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
+    """
     return log_output.logging_directory()

@@ -178,7 +178,10 @@ class Node:
         return self.__core.full_name
 
     def get_clock(self) -> Clock:
-        """Its clock: ROS time, which follows ``/clock`` when the parameter ``use_sim_time`` is true."""
+        """Its clock.
+
+        ROS time, which follows ``/clock`` when the parameter ``use_sim_time`` is true.
+        """
         return self._clock
 
     def get_logger(self) -> RcutilsLogger:
@@ -197,7 +200,10 @@ class Node:
 
     @property
     def handle(self) -> Handle:
-        """Stands for the C object that it has in ROS 2; raises ``InvalidHandle`` after :meth:`destroy_node`."""
+        """Stands for the C object that it has in ROS 2.
+
+        Raises ``InvalidHandle`` after :meth:`destroy_node`.
+        """
         return Handle(self._rclpy_wire)
 
     def __enter__(self) -> Self:
@@ -474,7 +480,9 @@ class Node:
         )
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz; another thread has to spin the node.
+        """A rate whose ``sleep()`` keeps a loop at ``frequency`` Hz.
+
+        Another thread has to spin the node.
 
         Raises:
             ValueError: ``frequency`` is not positive.
@@ -752,7 +760,10 @@ class Node:
         return self.__graph.endpoint_infos("subscription", topic_name, no_mangle=no_mangle)
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node is there, at most ``timeout`` seconds (negative: no limit); whether it is."""
+        """Block until a node is there, at most ``timeout`` seconds (negative: no limit).
+
+        Whether it is.
+        """
         return self.__graph.wait_for_node(fully_qualified_node_name, timeout)
 
 

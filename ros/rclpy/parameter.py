@@ -175,7 +175,10 @@ def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue
 
 
 def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
-    """The value that a YAML text stands for; what is no value of a parameter is taken as a string."""
+    """The value that a YAML text stands for.
+
+    What is no value of a parameter is taken as a string.
+    """
     import yaml
 
     try:
@@ -186,7 +189,10 @@ def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
 
 
 def _value_from_yaml(value: Any, text: str) -> rcl_interfaces.msg.ParameterValue:
-    """A loaded YAML value; ``text`` stands in for what no parameter can hold (null, dates, mixed lists)."""
+    """A loaded YAML value.
+
+    ``text`` stands in for what no parameter can hold (null, dates, mixed lists).
+    """
     try:
         parameter = Parameter("", value=value)
     except TypeError:

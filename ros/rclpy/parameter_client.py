@@ -22,7 +22,9 @@ __all__ = ["AsyncParameterClient"]
 
 
 class AsyncParameterClient:
-    """Asks the parameter services of ``remote_node_name``. Each method returns a future of the service's response.
+    """Asks the parameter services of ``remote_node_name``.
+
+    Each method returns a future of the service's response.
 
     Args:
         node: The node that asks; an executor has to spin it.
@@ -173,7 +175,10 @@ class AsyncParameterClient:
         use_wildcard: bool = False,
         callback: Callable[[Future], None] | None = None,
     ) -> Future:
-        """Set what a YAML file says, one value after the other; see :func:`rclpy.parameter.parameter_dict_from_yaml_file`."""
+        """Set what a YAML file says, one value after the other.
+
+        See :func:`rclpy.parameter.parameter_dict_from_yaml_file`.
+        """
         return self.set_parameters(
             list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback
         )

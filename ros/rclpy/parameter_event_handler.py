@@ -20,7 +20,10 @@ __all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "Parameter
 
 
 class ParameterCallbackHandle:
-    """A callback for one parameter; :meth:`ParameterEventHandler.remove_parameter_callback` takes it."""
+    """A callback for one parameter.
+
+    :meth:`ParameterEventHandler.remove_parameter_callback` takes it.
+    """
 
     def __init__(
         self,
@@ -34,14 +37,19 @@ class ParameterCallbackHandle:
 
 
 class ParameterEventCallbackHandle:
-    """A callback for all events; :meth:`ParameterEventHandler.remove_parameter_event_callback` takes it."""
+    """A callback for all events.
+
+    :meth:`ParameterEventHandler.remove_parameter_event_callback` takes it.
+    """
 
     def __init__(self, callback: Callable[[ParameterEvent], None]) -> None:
         self.callback = callback
 
 
 class ParameterEventHandler:
-    """Listens to ``/parameter_events``. The newest callback is called first, on the executor of ``node``.
+    """Listens to ``/parameter_events``.
+
+    The newest callback is called first, on the executor of ``node``.
 
     Args:
         node: The node that subscribes.

@@ -33,7 +33,9 @@ _NO_LIMIT = Duration(seconds=-1)
 
 
 class Publisher(Generic[MsgT]):
-    """Sends messages to a topic; made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`. Thread-safe.
+    """Sends messages to a topic.
+
+    Made by :meth:`Node.create_publisher <rclpy.node.Node.create_publisher>`. Thread-safe.
 
     Attributes:
         msg_type: Class of its messages.

@@ -67,7 +67,9 @@ _BEST_AVAILABLE = Duration(nanoseconds=_INFINITE_NS - 1)
 
 
 class QoSProfile:
-    """The quality of service that a publisher offers or a subscription requests. All arguments are keywords; mutable.
+    """The quality of service that a publisher offers or a subscription requests.
+
+    All arguments are keywords; mutable.
 
     Args:
         history: Needs ``depth`` when it is KEEP_LAST; KEEP_LAST when omitted.

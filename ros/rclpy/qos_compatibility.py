@@ -1,4 +1,7 @@
-"""Which offered and requested profiles match, with ROS 2's reasons. Used by :func:`rclpy.qos.qos_check_compatible`."""
+"""Which offered and requested profiles match, with ROS 2's reasons.
+
+Used by :func:`rclpy.qos.qos_check_compatible`.
+"""
 
 from __future__ import annotations
 
@@ -101,7 +104,10 @@ def _open(
     weakest_offer: QoSPolicyEnum,
     strictest_request: QoSPolicyEnum,
 ) -> str:
-    """The warning for a policy that the middleware will settle; ``durabilty`` is ROS 2's own spelling."""
+    """The warning for a policy that the middleware will settle.
+
+    ``durabilty`` is ROS 2's own spelling.
+    """
     if _is_open(offered) and _is_open(requested):
         return f"Publisher {policy} is {_text(offered)} and subscription {policy} is {_text(requested)}"
     if _is_open(offered) and requested == strictest_request:

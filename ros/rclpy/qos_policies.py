@@ -1,4 +1,7 @@
-"""The policies of a quality of service and their values; ``rclpy.qos`` has them under their public names."""
+"""The policies of a quality of service and their values.
+
+``rclpy.qos`` has them under their public names.
+"""
 
 from __future__ import annotations
 

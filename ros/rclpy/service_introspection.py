@@ -1,4 +1,7 @@
-"""Watching a service: clients and servers publish what they send and receive on ``<service>/_service_event``."""
+"""Watching a service.
+
+Clients and servers publish what they send and receive on ``<service>/_service_event``.
+"""
 
 from __future__ import annotations
 

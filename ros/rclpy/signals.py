@@ -55,7 +55,10 @@ class SignalListener(Protocol):
     """What wants to know of signals: a context."""
 
     def on_signal(self, signum: int) -> None:
-        """Shut down. Called on the thread of the signals, more than once when a signal comes again."""
+        """Shut down.
+
+        Called on the thread of the signals, more than once when a signal comes again.
+        """
 
 
 #: Told of each signal; a context enters itself.
@@ -185,7 +188,10 @@ _mask_before_fork: set[int | signal.Signals] = set()
 
 
 def _before_fork() -> None:
-    """Hold signals back: one to the child must not come through the pipe that it has in common with its parent."""
+    """Hold signals back.
+
+    One to the child must not come through the pipe that it has in common with its parent.
+    """
     global _mask_before_fork  # noqa: PLW0603 - as above
     _mask_before_fork = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
 
@@ -203,7 +209,10 @@ def _after_fork_in_child() -> None:
 
 
 def _end() -> None:
-    """Python's own end puts the default of SIGINT back: the second signal of the same Ctrl-C would kill a process that ends well."""
+    """Python's own end puts the default of SIGINT back.
+
+    The second signal of the same Ctrl-C would kill a process that ends well.
+    """
     uninstall_signal_handlers()
     if _interrupted:
         signal.signal(signal.SIGINT, signal.SIG_IGN)

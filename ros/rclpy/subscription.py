@@ -28,7 +28,9 @@ MessageInfo = dict[str, Any]
 
 
 class Subscription(Entity, Generic[MsgT]):
-    """Receives the messages of a topic; made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
+    """Receives the messages of a topic.
+
+    Made by :meth:`Node.create_subscription <rclpy.node.Node.create_subscription>`.
 
     Attributes:
         msg_type: Class of its messages.

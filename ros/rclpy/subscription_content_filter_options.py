@@ -12,7 +12,10 @@ __all__ = ["ContentFilterOptions"]
 
 
 class ContentFilterOptions(NamedTuple):
-    """Which messages a subscription wants: a condition in SQL, such as ``data < %0``, and the values of its placeholders."""
+    """Which messages a subscription wants.
+
+    A condition in SQL, such as ``data < %0``, and the values of its placeholders.
+    """
 
     filter_expression: str
     expression_parameters: list[str]

@@ -170,7 +170,10 @@ class Future(Generic[T]):
                 warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=3)
 
     def _add_waiter(self, waiter: Callable[[], object]) -> None:
-        """Call ``waiter()`` in the finishing thread, at once when done; for wake-ups, which must be short and not raise."""
+        """Call ``waiter()`` in the finishing thread, at once when done.
+
+        For wake-ups, which must be short and not raise.
+        """
         with self._lock:
             if self._pending():
                 self._waiters.append(waiter)

@@ -25,7 +25,9 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Gives the time of ``/clock`` to the clocks that are attached; it is 0 until the first message.
+    """Gives the time of ``/clock`` to the clocks that are attached.
+
+    It is 0 until the first message.
 
     Args:
         node: The node whose parameter decides and who subscribes; more can be said by

@@ -112,7 +112,10 @@ class Timer(Entity):
         return self._jump_handle is not None and bool(self._clock.ros_time_is_active)  # type: ignore[attr-defined]
 
     def _delay_ns(self) -> int | None:
-        """Time on the monotonic clock until a look at the timer makes sense; None when something else will bring it up."""
+        """Time on the monotonic clock until a look at the timer makes sense.
+
+        None when something else will bring it up.
+        """
         if self._canceled:
             return None
         delay_ns = self._next_call_ns - self._now_ns()

@@ -62,7 +62,10 @@ class TopicEndpointInfo:
 
     @classmethod
     def from_wire(cls, endpoint: base.EndpointInfo) -> TopicEndpointInfo:
-        """Convert from what the middleware reports; an endpoint that no node claims gets ROS 2's names for that."""
+        """Convert from what the middleware reports.
+
+        An endpoint that no node claims gets ROS 2's names for that.
+        """
         node = endpoint.node
         return cls(
             node_name=node.name if node else "_NODE_NAME_UNKNOWN_",

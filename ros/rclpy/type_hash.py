@@ -26,7 +26,10 @@ class TypeHash:
 
     @classmethod
     def from_string(cls, text: str) -> TypeHash:
-        """Read ``RIHS01_<64 hex digits>``; anything else, such as an empty string, means that no hash is known."""
+        """Read ``RIHS01_<64 hex digits>``.
+
+        Anything else, such as an empty string, means that no hash is known.
+        """
         digits = text.removeprefix("RIHS01_")
         try:
             value = bytes.fromhex(digits)

@@ -50,12 +50,18 @@ def shutdown(*, context: Context | None = None) -> None:
 
 
 def try_shutdown(*, context: Context | None = None) -> None:
-    """Shut a context down (None: the default one) unless that has happened; never raises for that."""
+    """Shut a context down (None: the default one) unless that has happened.
+
+    Never raises for that.
+    """
     (get_default_context(shutting_down=True) if context is None else context).try_shutdown()
 
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:
-    """``args`` (None: ``sys.argv``) without its ``--ros-args`` blocks; the first entry, the program, stays."""
+    """``args`` (None: ``sys.argv``) without its ``--ros-args`` blocks.
+
+    The first entry, the program, stays.
+    """
     import sys
 
     from .arguments import Arguments

@@ -1,4 +1,7 @@
-"""The rules for topic and service names, for a name as typed: relative, private (``~``), with substitutions."""
+"""The rules for topic and service names, for a name as typed.
+
+Relative, private (``~``), with substitutions.
+"""
 
 from __future__ import annotations
 

@@ -137,7 +137,10 @@ class Waitable(Entity):
         raise NotImplementedError
 
     def add_to_wait_set(self, wait_set: WaitSet) -> None:
-        """Add to ``wait_set`` what it waits for. The waitables of this package have fixed parts instead."""
+        """Add to ``wait_set`` what it waits for.
+
+        The waitables of this package have fixed parts instead.
+        """
 
     def _work_of(self, part: Entity) -> Work | None:
         """What has to run when a part is ready."""

@@ -67,7 +67,10 @@ def wait_for_response(future: Future[T], call: Call, timeout_sec: float | None) 
 
 
 def _serve_responses(host: Host, future: Future[T], call: Call, deadline: float | None) -> None:
-    """In a callback: hand responses to their futures, and nothing else, until ``future`` is done."""
+    """Hand out responses, and run nothing else, until ``future`` is done.
+
+    For a callback of the executor's own thread.
+    """
     future._add_waiter(host.wake)
     patience: float | None = time.monotonic() + _PATIENCE_S
     with host.serving_responses(future):

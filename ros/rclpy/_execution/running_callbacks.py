@@ -8,7 +8,10 @@ __all__ = ["RunningCallbacks"]
 
 
 class RunningCallbacks:
-    """Counts the callbacks that run, thread by thread: ``with running: callback()``. Thread-safe."""
+    """Counts the callbacks that run, thread by thread: ``with running: callback()``.
+
+    Thread-safe.
+    """
 
     def __init__(self) -> None:
         self._counts: dict[int, int] = {}

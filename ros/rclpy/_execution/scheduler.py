@@ -221,7 +221,10 @@ class Scheduler:
     # Callback groups
 
     def _claim(self, entity: Entity) -> Work | None:
-        """Claim the entity's group and take its work; None if there is none or the group is busy."""
+        """Claim the entity's group and take its work.
+
+        None if there is none or the group is busy.
+        """
         if entity._host is None:
             return None  # destroyed, or moved to another executor meanwhile
         if not entity._GATED:

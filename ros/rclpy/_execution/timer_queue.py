@@ -36,7 +36,10 @@ class TimerQueue(Generic[T]):
         self._lock = threading.Lock()
 
     def schedule(self, timer: T, delay_ns: int | None) -> None:
-        """Have ``timer`` come due after ``delay_ns``; None: not until it is scheduled again. Replaces its former entry."""
+        """Have ``timer`` come due after ``delay_ns``; None: not until it is scheduled again.
+
+        Replaces its former entry.
+        """
         with self._lock:
             if delay_ns is None:
                 self._tickets.pop(timer, None)

@@ -1,4 +1,7 @@
-"""Declarations of parameters: what ``(name, value or type, descriptor)`` means, and what the command line makes of it."""
+"""Declarations of parameters.
+
+What ``(name, value or type, descriptor)`` means, and what the command line makes of it.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +76,10 @@ def _warn_of_name_alone(name: str) -> None:
 
 
 def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:
-    """The parameter that the command line gives; its empty list is one of the declared type, which YAML cannot tell."""
+    """The parameter that the command line gives.
+
+    Its empty list is one of the declared type, which YAML cannot tell.
+    """
     if value == [] and Parameter.Type(descriptor.type).name.endswith("_ARRAY"):
         return Parameter(name, Parameter.Type(descriptor.type), value)
     return Parameter(name, value=value)

@@ -1,4 +1,7 @@
-"""Whether a parameter's value agrees with its descriptor: type, read-only and range, with ROS 2's reasons."""
+"""Whether a parameter's value agrees with its descriptor.
+
+Type, read-only and range, with ROS 2's reasons.
+"""
 
 from __future__ import annotations
 

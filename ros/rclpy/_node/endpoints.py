@@ -1,4 +1,8 @@
-"""What a node owns: it makes publishers, subscriptions, clients, services, timers and guard conditions, keeps them, and closes them."""
+"""What a node owns.
+
+It makes publishers, subscriptions, clients, services, timers and guard conditions, keeps them, and
+closes them.
+"""
 
 from __future__ import annotations
 
@@ -310,7 +314,10 @@ class NodeEndpoints:
         self._disown(waitable)
 
     def keep(self, resource: Any) -> None:
-        """Destroy ``resource`` together with the node; it calls ``_on_destroy(itself)`` when it was destroyed before."""
+        """Destroy ``resource`` together with the node.
+
+        It calls ``_on_destroy(itself)`` when it was destroyed before.
+        """
         self._own(type(resource), resource)
 
     def before_leaving(self, call: Callable[[], None]) -> Callable[[], None]:

@@ -1,4 +1,7 @@
-"""The parameters of one node: declared, read, set, described, with callbacks and events. ``Node`` hands all of it on to here."""
+"""The parameters of one node: declared, read, set, described, with callbacks and events.
+
+``Node`` hands all of it on to here.
+"""
 
 from __future__ import annotations
 
@@ -429,13 +432,19 @@ class NodeParameters:
     def add_pre_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], list[Parameter]]
     ) -> None:
-        """Call ``callback(parameters)`` before parameters are set; what it returns is set instead."""
+        """Call ``callback(parameters)`` before parameters are set.
+
+        What it returns is set instead.
+        """
         self._pre_set_callbacks.insert(0, callback)
 
     def add_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
-        """Let ``callback(parameters)`` decide whether parameters are set or declared; it is asked before the older ones."""
+        """Let ``callback(parameters)`` decide whether parameters are set or declared.
+
+        It is asked before the older ones.
+        """
         self._on_set_callbacks.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:

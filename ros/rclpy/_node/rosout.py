@@ -1,4 +1,7 @@
-"""The ``/rosout`` publisher of a node: it sends the node's log records as ``rcl_interfaces/msg/Log``."""
+"""The ``/rosout`` publisher of a node.
+
+It sends the node's log records as ``rcl_interfaces/msg/Log``.
+"""
 
 from __future__ import annotations
 

@@ -34,7 +34,10 @@ _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
 
 
 class ClientGoalHandle:
-    """A goal that was sent: whether it was accepted, its state, and ways to cancel it and to get its result. Thread-safe."""
+    """A goal that was sent, with its state; it can be cancelled, and gives its result.
+
+    Thread-safe.
+    """
 
     def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
         self._action_client = action_client
@@ -72,7 +75,10 @@ class ClientGoalHandle:
         return self._status
 
     def cancel_goal(self) -> Any:
-        """Ask the server to cancel it, and block for the answer (``CancelGoal.Response``); another thread has to spin."""
+        """Ask the server to cancel it, and block for the answer (``CancelGoal.Response``).
+
+        Another thread has to spin.
+        """
         return self._action_client._cancel_goal(self)
 
     def cancel_goal_async(self) -> Future:
@@ -80,7 +86,10 @@ class ClientGoalHandle:
         return self._action_client._cancel_goal_async(self)
 
     def get_result(self) -> Any:
-        """Block until it is finished; the response has ``status`` and ``result``. Another thread has to spin."""
+        """Block until it is finished; the response has ``status`` and ``result``.
+
+        Another thread has to spin.
+        """
         return self._action_client._get_result(self)
 
     def get_result_async(self) -> Future:

@@ -1,4 +1,7 @@
-"""The events executor of ROS 2. All executors here are driven by events; this one is the single-threaded one under its name."""
+"""The events executor of ROS 2.
+
+All executors here are driven by events; this one is the single-threaded one under its name.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where ROS 2 programs find what is the C extension there: ``from rclpy.impl.implementation_singleton import rclpy_implementation``."""
+"""Where ROS 2 programs find what is the C extension there.
+
+``from rclpy.impl.implementation_singleton import rclpy_implementation``.
+"""
 
 from rclpy import _rclpy_pybind11 as rclpy_implementation
 

@@ -1,4 +1,8 @@
-"""The level of each logger: its own, or that of the nearest ancestor (``a`` is the parent of ``a.b``), or the default. Thread-safe."""
+"""The level of each logger. Thread-safe.
+
+A logger without a level inherits that of its nearest ancestor (``a`` is the parent of ``a.b``), else
+the default.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,10 @@ _effective: dict[str, int] = {}
 
 
 def set_level(name: str, level: int) -> None:
-    """Set the level of a logger; an empty name means the default of all loggers, UNSET makes it inherit again."""
+    """Set the level of a logger.
+
+    An empty name means the default of all loggers, UNSET makes it inherit again.
+    """
     with _lock:
         if level == LoggingSeverity.UNSET:
             _own.pop(name, None)

@@ -79,7 +79,10 @@ class _Console:
 
 
 class _File:
-    """The log file; it is opened for the first record, so that programs that log nothing leave nothing."""
+    """The log file.
+
+    It is opened for the first record, so that programs that log nothing leave nothing.
+    """
 
     def __init__(self, prefix: str | None) -> None:
         self._prefix = prefix
@@ -145,7 +148,9 @@ def configure(
     file: bool = True,
     file_prefix: str | None = None,
 ) -> None:
-    """Apply what the command line says, and read the environment anew. A context calls it when it starts.
+    """Apply what the command line says, and read the environment anew.
+
+    A context calls it when it starts.
 
     Args:
         levels: Logger name to severity; the empty name means those that neither have nor inherit
@@ -202,7 +207,10 @@ def remove_rosout_sink(name: str) -> None:
 
 
 def logging_directory() -> Path:
-    """The directory of log files: ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``."""
+    """The directory of log files.
+
+    It is ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
+    """
     from pathlib import Path
 
     return Path(_directory())

@@ -37,7 +37,10 @@ def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
 
 
 def _name_token(lexer: Lexer) -> None:
-    """What stands between two dots; slashes are part of it (``qos_overrides./chatter.publisher.depth``)."""
+    """What stands between two dots.
+
+    Slashes are part of it (``qos_overrides./chatter.publisher.depth``).
+    """
     found = lexer.peek()
     if found in (Lexeme.WILD_ONE, Lexeme.WILD_MULTI):
         raise RuleError(f"Wildcard '{lexer.accept()}' is not implemented")

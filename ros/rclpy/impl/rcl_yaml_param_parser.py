@@ -118,7 +118,10 @@ class _Parser:
         self._depth -= 1
 
     def _keys(self) -> Iterator[str]:
-        """The keys of the mapping that has begun; whoever iterates reads the value after each key."""
+        """The keys of the mapping that has begun.
+
+        The caller reads the value after each key.
+        """
         for event in self._events:
             if isinstance(event, yaml.MappingEndEvent):
                 return

@@ -68,7 +68,10 @@ class SimpleManagedEntity(ManagedEntity):
         *,
         when_not_enabled: Callable[..., Any] | None = None,
     ) -> Any:
-        """Decorator of a method that runs while the entity is enabled; else ``when_not_enabled`` runs, or nothing."""
+        """Decorator of a method that runs while the entity is enabled.
+
+        Otherwise ``when_not_enabled`` runs, or nothing.
+        """
 
         def decorate(method: Callable[..., Any]) -> Callable[..., Any]:
             @wraps(method)

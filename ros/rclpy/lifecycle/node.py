@@ -167,11 +167,17 @@ class LifecycleNodeMixin(ManagedEntity):
         return self.__forward("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called to activate; programs that override it call it as well, it enables the publishers."""
+        """Called to activate.
+
+        Programs that override it call it as well, it enables the publishers.
+        """
         return self.__forward("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Called to deactivate; programs that override it call it as well, it silences the publishers."""
+        """Called to deactivate.
+
+        Programs that override it call it as well, it silences the publishers.
+        """
         return self.__forward("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -223,7 +229,10 @@ class LifecycleNodeMixin(ManagedEntity):
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """A publisher that is silent while the node is not active; the arguments are those of ``create_publisher``."""
+        """A publisher that is silent while the node is not active.
+
+        The arguments are those of ``create_publisher``.
+        """
         if "publisher_class" in kwargs:
             raise TypeError(
                 "create_publisher() got an unexpected keyword argument 'publisher_class'"
