@@ -141,7 +141,9 @@ class Arguments:
 
     @classmethod
     def parse_global(cls, argv: Sequence[str]) -> Arguments:
-        """Read the command line of a process: as :meth:`parse`, with the log line and the error that ``rclpy.init`` shows.
+        """Read the command line of a process.
+
+        As :meth:`parse`, with the log line and the error that ``rclpy.init`` shows.
 
         Raises:
             RCLError: A rule is malformed.

@@ -250,7 +250,8 @@ class SubscriptionEventCallbacks(_EventCallbacks):
     """
 
     _WARNING = (
-        "New publisher discovered on topic '{}', offering incompatible QoS. No messages will be received from it. "
+        "New publisher discovered on topic '{}', offering incompatible QoS. No messages will be "
+        "received from it. "
         "Last incompatible policy: {}"
     )
 
@@ -296,7 +297,8 @@ class PublisherEventCallbacks(_EventCallbacks):
     """
 
     _WARNING = (
-        "New subscription discovered on topic '{}', requesting incompatible QoS. No messages will be sent to it. "
+        "New subscription discovered on topic '{}', requesting incompatible QoS. No messages will "
+        "be sent to it. "
         "Last incompatible policy: {}"
     )
 

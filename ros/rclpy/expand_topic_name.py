@@ -8,7 +8,9 @@ __all__ = ["expand_topic_name"]
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """Expand a topic or service name: ``~/x`` becomes ``/ns/node/x``, ``x`` becomes ``/ns/x``, ``{node}`` and ``{ns}`` are filled in.
+    """Expand a topic or service name.
+
+    ``~/x`` becomes ``/ns/node/x``, ``x`` becomes ``/ns/x``, ``{node}`` and ``{ns}`` are filled in.
 
     Raises:
         ValueError: One of the three breaks the rules.

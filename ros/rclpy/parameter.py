@@ -236,7 +236,8 @@ def parameter_dict_from_yaml_file(
     for node in nodes:
         if node not in content:
             raise RuntimeError(
-                f"Param file does not contain parameters for {node},only for nodes: {list(content)} "
+                f"Param file does not contain parameters for {node},only for nodes: "
+                f"{list(content)} "
             )
     if use_wildcard and "/**" in content:
         nodes.insert(0, "/**")

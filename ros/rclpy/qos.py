@@ -174,7 +174,8 @@ class QoSProfile:
             import warnings
 
             warnings.warn(
-                "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. This will be interpreted as SYSTEM_DEFAULT",
+                "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. This "
+                "will be interpreted as SYSTEM_DEFAULT",
                 stacklevel=3,
             )
         self._depth = value

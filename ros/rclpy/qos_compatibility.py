@@ -109,7 +109,10 @@ def _open(
     ``durabilty`` is ROS 2's own spelling.
     """
     if _is_open(offered) and _is_open(requested):
-        return f"Publisher {policy} is {_text(offered)} and subscription {policy} is {_text(requested)}"
+        return (
+            f"Publisher {policy} is {_text(offered)} and subscription {policy} is "
+            f"{_text(requested)}"
+        )
     if _is_open(offered) and requested == strictest_request:
         return f"{_text(requested).capitalize()} subscription, but publisher is {_text(offered)}"
     if offered == weakest_offer and _is_open(requested):

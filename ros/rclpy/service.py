@@ -64,7 +64,8 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         self._check_usable()
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(
-                f"The callback of service '{self._wire.service}' has to return its second argument, "
+                f"The callback of service '{self._wire.service}' has to return its second "
+                "argument, "
                 f"or another {self.srv_type.__name__}.Response; it returned {described(response)}"
             )
         self._wire.send_response(header, serialize(response))

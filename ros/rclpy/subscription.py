@@ -104,7 +104,9 @@ class Subscription(Entity, Generic[MsgT]):
     def take_message(
         self, _msg_type: Any = None, _raw: bool | None = None
     ) -> tuple[Any, MessageInfo] | None:
-        """For waitables and programs that look by themselves: the next message and its info, or None; CdrError when it is malformed.
+        """For waitables and programs that look by themselves.
+
+        The next message and its info, or None; CdrError when it is malformed.
 
         ROS 2's handles want to be told class and rawness, which ours know.
         """

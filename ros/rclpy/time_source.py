@@ -72,7 +72,8 @@ class TimeSource:
             self.ros_time_is_active = parameter.value
         elif parameter.type_ is not Parameter.Type.NOT_SET:
             node.get_logger().error(
-                f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {parameter.type_!r} should be bool"
+                f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {parameter.type_!r} should be "
+                "bool"
             )
         node.add_on_set_parameters_callback(self._decide_on_parameters)
 

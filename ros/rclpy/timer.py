@@ -192,7 +192,10 @@ class Timer(Entity):
 
 
 def _missing_callback() -> None:
-    hint = "A timer has no callback. Pass the function itself (self.tick), not what it returns (self.tick())"
+    hint = (
+        "A timer has no callback. Pass the function itself (self.tick), not what it returns "
+        "(self.tick())"
+    )
     raise with_hint(TypeError("'NoneType' object is not callable"), hint)
 
 
@@ -220,7 +223,8 @@ class Rate:
         host = self._timer._serving_host()
         if host is not None and host.is_spun_by_this_thread():
             raise RuntimeError(
-                "Rate cannot sleep in a callback of the executor that serves its timer: it would never wake up"
+                "Rate cannot sleep in a callback of the executor that serves its timer: it would "
+                "never wake up"
             )
         with self._ticked:
             seen = self._ticks

@@ -34,7 +34,8 @@ def read_declaration(
 
     if not 1 <= len(declaration) <= 3:
         raise TypeError(
-            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; expecting length between 1 and 3"
+            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; "
+            "expecting length between 1 and 3"
         )
     name, value, descriptor = (*declaration, None, None)[:3]
     if not isinstance(name, str):
@@ -43,7 +44,8 @@ def read_declaration(
         descriptor = ParameterDescriptor()
     if not isinstance(descriptor, ParameterDescriptor):
         raise TypeError(
-            f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor."
+            f"Third element {descriptor} at index {index} in parameters list is not a "
+            "ParameterDescriptor."
         )
     if len(declaration) == 1:
         _warn_of_name_alone(name)
@@ -67,7 +69,8 @@ def _warn_of_name_alone(name: str) -> None:
     import warnings
 
     warnings.warn(
-        f"when declaring parameter named '{name}', declaring a parameter only providing its name is deprecated. You have to either:\n"
+        f"when declaring parameter named '{name}', declaring a parameter only providing its name "
+        "is deprecated. You have to either:\n"
         '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
         "\t- Pass a name and a parameter type.\n"
         "\t- Pass a name and a descriptor with `dynamic_typing=True",

@@ -82,7 +82,10 @@ def _is_close(one: float, other: float) -> bool:
 
 
 def _out_of_range(parameter: Parameter, low: float, high: float) -> str:
-    return f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: {parameter.value}"
+    return (
+        f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: "
+        f"{parameter.value}"
+    )
 
 
 def _off_step(parameter: Parameter, low: float, high: float, step: float) -> str:

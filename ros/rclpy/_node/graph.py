@@ -103,7 +103,8 @@ class NodeGraph:
         ):
             fqn = names.fully_qualified_node_name(node_name, node_namespace)
             raise NodeNameNonExistentError(
-                f"Failed to get names and types: cannot get names and types for nonexistent node: {fqn}"
+                "Failed to get names and types: cannot get names and types for nonexistent node: "
+                f"{fqn}"
             )
         found: dict[str, set[str]] = {}
         for endpoint in self._graph.endpoints():

@@ -35,7 +35,10 @@ if TYPE_CHECKING:
 
 __all__ = ["NodeParameters"]
 
-_EMPTY_LIST = "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying the original parameters list."
+_EMPTY_LIST = (
+    "parameter list cannot be empty, this might be due to pre_set_parameters_callback modifying "
+    "the original parameters list."
+)
 
 
 class NodeParameters:
@@ -326,7 +329,8 @@ class NodeParameters:
             result = callback(parameter_list)
             if result is None:
                 raise TypeError(
-                    f"{callback!r} decides about parameters: it has to return a SetParametersResult, but returned None"
+                    f"{callback!r} decides about parameters: it has to return a "
+                    "SetParametersResult, but returned None"
                 )
             if not result.successful:
                 return result.reason or "refused by a callback, which gave no reason"

@@ -52,7 +52,10 @@ class ClientGoalHandle:
         return hash(bytes(self._goal_id.uuid))
 
     def __repr__(self) -> str:
-        return f"ClientGoalHandle <id={bytes(self._goal_id.uuid).hex()}, accepted={self.accepted}, status={self.status}>"
+        return (
+            f"ClientGoalHandle <id={bytes(self._goal_id.uuid).hex()}, accepted={self.accepted}, "
+            f"status={self.status}>"
+        )
 
     @property
     def goal_id(self) -> Any:
@@ -216,7 +219,10 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             TypeError: ``goal`` is not a ``Goal`` of the action.
         """
         if not isinstance(goal, self._action_type.Goal):
-            hint = f"A goal of action '{self._action_name}' is a {self._action_type.__name__}.Goal(), not {described(goal)}"
+            hint = (
+                f"A goal of action '{self._action_name}' is a "
+                f"{self._action_type.__name__}.Goal(), not {described(goal)}"
+            )
             raise with_hint(TypeError(), hint)
         request = self._action_type.Impl.SendGoalService.Request(
             goal=goal, goal_id=goal_uuid or _random_uuid()

@@ -52,6 +52,7 @@ def next_state(state: int, event: GoalEvent) -> int:
     following = _TRANSITIONS.get((state, event))
     if following is None:
         raise RCLError(
-            f"Failed to update goal state: goal_handle attempted invalid transition from state {state_name(state)} with event {event.name}"
+            "Failed to update goal state: goal_handle attempted invalid transition from state "
+            f"{state_name(state)} with event {event.name}"
         )
     return following

@@ -381,7 +381,10 @@ class ActionServer(Waitable):
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         if not isinstance(feedback, self._action_type.Feedback):
-            hint = f"Feedback of action '{self._action_name}' is a {self._action_type.__name__}.Feedback(), not {described(feedback)}"
+            hint = (
+                f"Feedback of action '{self._action_name}' is a "
+                f"{self._action_type.__name__}.Feedback(), not {described(feedback)}"
+            )
             raise with_hint(TypeError(), hint)
         if not self._destroyed:
             self._feedback_publisher.publish(

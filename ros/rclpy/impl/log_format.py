@@ -58,7 +58,10 @@ class LineFormat:
     def line(self, record: LogRecord) -> str:
         """The text of ``record``, without a newline at its end."""
         if self._is_default:
-            return f"[{_SEVERITY_NAMES[record.severity]}] [{_time(record)}] [{record.name}]: {record.message}"
+            return (
+                f"[{_SEVERITY_NAMES[record.severity]}] [{_time(record)}] [{record.name}]: "
+                f"{record.message}"
+            )
         return "".join(part if isinstance(part, str) else part(record) for part in self._parts)
 
 

@@ -1,6 +1,7 @@
 """The level of each logger. Thread-safe.
 
-A logger without a level inherits that of its nearest ancestor (``a`` is the parent of ``a.b``), else
+A logger without a level inherits that of its nearest ancestor (``a`` is the parent of ``a.b``),
+else
 the default.
 """
 

@@ -1,4 +1,6 @@
-"""Where log records go: the console, a file, and ``/rosout`` through the sink of the node that owns the logger.
+"""Where log records go.
+
+The console, a file, and ``/rosout`` through the sink of the node that owns the logger.
 
 Thread-safe: a record is one write to each place, so lines of several threads and processes do not
 mix.
@@ -109,7 +111,8 @@ class _File:
             self._failed = True
             _write_line(
                 _STDERR_FD,
-                f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be written.",
+                f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be "
+                "written.",
             )
 
     def close(self) -> None:
@@ -182,9 +185,12 @@ def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
     """Hand the records of logger ``name`` and of its children to ``sink``, on the thread that logs."""
     if name in _rosout_sinks:
         text = (
-            f"Publisher already registered for node name: '{name}'. If this is due to multiple nodes with the same name then all logs for "
-            f"the logger named '{name}' will go out over the existing publisher. As soon as any node with that name is destructed it will "
-            "unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
+            f"Publisher already registered for node name: '{name}'. If this is due to multiple "
+            "nodes with the same name then all logs for "
+            f"the logger named '{name}' will go out over the existing publisher. As soon as any "
+            "node with that name is destructed it will "
+            "unregister the publisher, preventing any further logs for that name from being "
+            "published on the rosout topic."
         )
         emit(
             LogRecord(

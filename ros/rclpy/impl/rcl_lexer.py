@@ -77,7 +77,8 @@ class Lexer:
             return self.accept()
         if found in (Lexeme.NONE, Lexeme.EOF):
             raise RuleError(
-                f"Expected lexeme type ({wanted.value}) not found, search ended at index {self.index}"
+                f"Expected lexeme type ({wanted.value}) not found, search ended at index "
+                f"{self.index}"
             )
         raise RuleError(
             f"Expected lexeme type {wanted.value}, got {found.value} at index {self.index}"

@@ -1,4 +1,6 @@
-"""Parameter values in YAML, by the strict typing rules of ROS 2: no aliases, no mixed sequences, no nulls.
+"""Parameter values in YAML, by the strict typing rules of ROS 2.
+
+No aliases, no mixed sequences, no nulls.
 
 A plain scalar is a bool, else an integer, else a float, else a string; a quoted one is always a
 string.
@@ -153,7 +155,8 @@ class _Parser:
                 )
             else:
                 raise RuleError(
-                    f"Sequences can only be values and not keys in params. Error at line {self._line}\n"
+                    "Sequences can only be values and not keys in params. Error at line "
+                    f"{self._line}\n"
                 )
 
     def _parameters(self, parameters: dict[str, ParameterValue], prefix: str) -> None:
@@ -177,7 +180,10 @@ class _Parser:
                 raise RuleError(f"Sequences can only hold plain values. Error at line {self._line}")
             value = self._scalar(item)
             if values and type(value) is not type(values[0]):
-                text = f"Value type '{_TYPE_NAMES[type(value)]}' do not belong at line_num {self._line}"
+                text = (
+                    f"Value type '{_TYPE_NAMES[type(value)]}' do not belong at line_num "
+                    f"{self._line}"
+                )
                 raise RuleError(f"Sequence should be of same type. {text}")
             values.append(value)
         raise AssertionError("a sequence ends with its end event")

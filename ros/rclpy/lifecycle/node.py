@@ -134,12 +134,14 @@ class LifecycleNodeMixin(ManagedEntity):
             import traceback
 
             complain(
-                f"Caught exception in callback for transition {state.label}: {error}\n{traceback.format_exc()}"
+                f"Caught exception in callback for transition {state.label}: "
+                f"{error}\n{traceback.format_exc()}"
             )
             return TransitionCallbackReturn.ERROR
         if not isinstance(outcome, TransitionCallbackReturn):
             complain(
-                f"The callback for transition {state.label} has to return a TransitionCallbackReturn, not {outcome!r}"
+                f"The callback for transition {state.label} has to return a "
+                f"TransitionCallbackReturn, not {outcome!r}"
             )
             return TransitionCallbackReturn.ERROR
         return outcome

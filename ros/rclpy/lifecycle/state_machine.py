@@ -150,7 +150,8 @@ class StateMachine:
                 for transition in self.available_transitions
             )
             raise RCLError(
-                f"Failed to trigger lifecycle state machine transition: no transition matching {wanted} found for current state "
+                "Failed to trigger lifecycle state machine transition: no transition matching "
+                f"{wanted} found for current state "
                 f"{self.current_state.label}; there are: {possible or 'none'}"
             )
         return found[0]
