@@ -11,6 +11,7 @@
 #include "../core/intake.hpp"
 #include "../core/sink.hpp"
 #include "buffer.hpp"
+#include "gil.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -38,7 +39,7 @@ class IntakeObject final : public Sink {
   }
 
   void serve() {
-    if (core.take_expected()) on_expected_();
+    if (core.take_expected()) call_on_expected();
     if (!core.take_news()) return;
     const nb::tuple fed = buffers_;
     for (const nb::handle buffer : fed) nb::cast<BufferObject&>(buffer).call_listeners();
@@ -49,6 +50,13 @@ class IntakeObject final : public Sink {
   void forget_callback() { on_expected_ = nb::none(); }
 
  private:
+  void call_on_expected() {
+    const nb::object callback = on_expected_;
+    PyObject* result = taking_gil([&callback] { return PyObject_CallNoArgs(callback.ptr()); });
+    if (result == nullptr) throw nb::python_error();
+    Py_DECREF(result);
+  }
+
   nb::tuple buffers_;  // keeps those alive that the core fills
   nb::object on_expected_;
 };

@@ -6,6 +6,7 @@ They import nothing of the tests: `scripts/smoke` runs them on installed wheels 
 from __future__ import annotations
 
 import itertools
+import os
 import struct
 import sys
 import threading
@@ -81,7 +82,7 @@ def spin():
     from rclpy.duration import Duration
 
     rclpy.init()
-    node = rclpy.create_node("exits")
+    node = rclpy.create_node(f"exits_{os.getpid()}")  # others like it run at the same time
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer, node)
     asked = threading.Event()
