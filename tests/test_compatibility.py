@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import functools
-import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -68,8 +67,6 @@ a float32 out of range is sent as infinity
   msg/test_cdr.py test_a_wrong_value_is_named
 an unknown keyword raises `AssertionError` only where assertions are on
   test_compatibility.py test_an_unknown_keyword_is_an_error_without_assertions_too
-`from geometry_msgs.msg._twist import Twist` works
-  test_compatibility.py test_there_is_no_module_for_a_single_message
 
 error texts end in `, at ./src/rcl/arguments.c:380`
   rclpy/test_arguments.py test_golden_errors
@@ -312,11 +309,6 @@ def test_the_tests_are_there(file, name):
 
 
 # What no other room tests
-
-
-def test_there_is_no_module_for_a_single_message():
-    with pytest.raises(ModuleNotFoundError, match="_twist"):
-        importlib.import_module("geometry_msgs.msg._twist")
 
 
 def run(*command):
