@@ -211,6 +211,8 @@ bad `--ros-args` abort with 250
   ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
 nothing but the error line follows an unknown name
   ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
+debug lines show `OnProcessExit` and `OnProcessIO` for what a process registers for itself
+  ros2cli/test_golden_cli.py test_commands_without_nodes
 an error in a launch file does not say where
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find

@@ -58,19 +58,3 @@ def test_a_node_has_a_mutually_exclusive_default_group(node):
     assert group.has_entity(timer)
     assert other.callback_group is node.default_callback_group
     assert isinstance(node.default_callback_group, MutuallyExclusiveCallbackGroup)
-
-
-def test_what_becomes_free_while_it_is_being_paused_is_resumed(node, executor, monkeypatch):
-    """A callback of the group ends on another thread just before the paused one is listed."""
-    busy, waiting = (node.create_timer(1000.0, lambda: None) for _ in range(2))
-    group = waiting.callback_group
-    assert group.beginning_execution(busy)
-    pause = waiting._pause
-
-    def pause_as_the_group_becomes_free(executor):
-        pause(executor)
-        group.ending_execution(busy)
-
-    monkeypatch.setattr(waiting, "_pause", pause_as_the_group_becomes_free)
-    executor._pause(waiting)
-    assert waiting not in executor._paused

@@ -26,6 +26,7 @@ OWN_HELP = "the descriptions of the verbs are ours, and so are the commands"
 OWN_PACKAGES = "it shows what is installed: other packages, no components of C++, another licence"
 INTERPRETER = "scripts run on our interpreter, whatever their first line says"
 DOCTOR = "it prints findings with remedies"
+DEBUG_NAMES = "debug lines name the class of a handler, which is another one here"
 
 #: Cases that deviate on purpose. All others have to agree.
 DEVIATIONS = {
@@ -35,6 +36,7 @@ DEVIATIONS = {
     **dict.fromkeys((500, 503), OWN_HELP),
     **dict.fromkeys((551, 587, 737), OWN_PACKAGES),
     731: INTERPRETER,
+    145: DEBUG_NAMES,
     **dict.fromkeys((710, 713), DOCTOR),
     **dict.fromkeys((160, 223, 269, 316, 317, 322), CLEAN_END),
     **dict.fromkeys((194, 326), PYTHON_NODE),
