@@ -213,7 +213,7 @@ _MASKS = [
     (r"\(choose from .*\)", "(choose from THESE)"),
     (r", at /\S+/\w+\.c:\d+", ""),
     (r"static_transform_publisher_\w+", "static_transform_publisher_N"),
-    (r"\b\d{19}\b", "NANOSECONDS"),
+    (r"(?<![\d.])\d{19}\b", "NANOSECONDS"),
     (r"(?m)^([rgb]): \d+$", r"\1: N"),  # what the sensor sees depends on the way of the turtle
 ]
 # Values that depend on the moment: positions, rates, progress of actions, the order of log lines of several processes.
