@@ -252,6 +252,21 @@ def install(extras: Sequence[str], *, only_extras: bool) -> None:
             str(LEARNING),
             *groups,
         )
+        clear_build_files()
+
+
+def clear_build_files() -> None:
+    """Remove what CMake wrote beside the C++ sources.
+
+    scikit-build-core builds an editable installation in the source folder; each build starts anew.
+    """
+    made = (".cmake", ".ninja_*", ".skbuild-*", "CMake*", "cmake_install.cmake", "*.ninja", "*.a")
+    for pattern in made:
+        for path in (ROOT / "native").glob(pattern):
+            if path.is_dir():
+                shutil.rmtree(path)
+            elif path.name != "CMakeLists.txt":
+                path.unlink()
 
 
 def pip(*arguments: str) -> None:

@@ -20,7 +20,7 @@ IN_CIRCLES = {
     "rclpy": 8,
     "rosbag2_py": 2,
     "turtlewire.msg": 3,
-    "turtlewire.tf": 10,
+    "turtlewire.tf": 3,
     "turtlewire.wire": 8,
 }
 #: Need what is not installed where the tests run: colcon, a terminal.

@@ -20,7 +20,7 @@ Status ask(SharedBuffer& shared, const FullRequest& request, Found* found, Failu
 
 BufferObject::BufferObject(std::optional<Stamp> cache_time_ns)
     : shared(cache_time_ns.value_or(kForever)) {
-  if (shared.buffer.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
+  if (shared.keep() < 0) throw nb::value_error("cache_time_ns must not be negative");
 }
 
 BufferObject::~BufferObject() {
@@ -36,14 +36,13 @@ BufferObject::KnownPath& BufferObject::place_of(PyObject* target, PyObject* sour
   return known_paths_[(a * 3 ^ b ^ b >> 8) % known_paths_.size()];
 }
 
-// Call with the lock held.
-const Path* BufferObject::known_path(PyObject* target, PyObject* source) {
+const Path* BufferObject::known_path(Tree& tree, PyObject* target, PyObject* source) {
   KnownPath& known = place_of(target, source);
-  if (known.target != target || known.source != source || known.epoch != shared.buffer.path_epoch())
+  if (known.target != target || known.source != source || known.epoch != tree.path_epoch())
     return nullptr;
-  if (!shared.buffer.is_current(*known.path)) [[unlikely]] {
-    known.path = &shared.buffer.path(known.path->target, known.path->source);
-    known.epoch = shared.buffer.path_epoch();
+  if (!tree.is_current(*known.path)) [[unlikely]] {
+    known.path = &tree.path(known.path->target, known.path->source);
+    known.epoch = tree.path_epoch();
   }
   return known.path;
 }
@@ -52,15 +51,15 @@ void BufferObject::remember_path(PyObject* target, PyObject* source, std::string
                                  std::string_view source_name) {
   KnownPath old;
   {
-    const std::scoped_lock lock(shared.mutex);
+    const SharedBuffer::Access access(shared);
     FrameId target_id = 0, source_id = 0;
-    if (target_name == source_name || shared.buffer.resolve(target_name, target_id) != Status::ok ||
-        shared.buffer.resolve(source_name, source_id) != Status::ok) {
+    if (target_name == source_name || access->resolve(target_name, target_id) != Status::ok ||
+        access->resolve(source_name, source_id) != Status::ok) {
       return;
     }
-    const Path* path = &shared.buffer.path(target_id, source_id);
+    const Path* path = &access->path(target_id, source_id);
     old = std::exchange(place_of(target, source),
-                        {Py_NewRef(target), Py_NewRef(source), path, shared.buffer.path_epoch()});
+                        {Py_NewRef(target), Py_NewRef(source), path, access->path_epoch()});
   }
   Py_XDECREF(old.target);
   Py_XDECREF(old.source);
@@ -81,11 +80,11 @@ bool BufferObject::answer(const Request& request, Stamp timeout, Failure& failur
 bool BufferObject::lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
                           Found& found) {
   {
-    const std::scoped_lock lock(shared.mutex);
-    const Path* path = known_path(target, source);
+    const SharedBuffer::Access access(shared);
+    const Path* path = known_path(*access, target, source);
     found.stamp = t;
-    if (path != nullptr && shared.buffer.lookup(*path, found.stamp, found.target_from_source,
-                                                nullptr) == Status::ok) [[likely]] {
+    if (path != nullptr && access->lookup(*path, found.stamp, found.target_from_source, nullptr) ==
+                               Status::ok) [[likely]] {
       return true;
     }
   }
@@ -124,9 +123,9 @@ bool BufferObject::lookup(PyObject* target, Stamp target_time, PyObject* source,
 }
 
 bool BufferObject::certainly_can_transform(PyObject* target, PyObject* source, Stamp t) {
-  const std::scoped_lock lock(shared.mutex);
-  const Path* path = known_path(target, source);
-  return path != nullptr && shared.buffer.can_transform(*path, t, nullptr) == Status::ok;
+  const SharedBuffer::Access access(shared);
+  const Path* path = known_path(*access, target, source);
+  return path != nullptr && access->can_transform(*path, t, nullptr) == Status::ok;
 }
 
 bool BufferObject::can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
@@ -156,10 +155,9 @@ std::string BufferObject::set(std::string_view parent, std::string_view child, S
                               const Pose& pose, std::string_view authority, bool is_static) {
   Verdict verdict;
   {
-    const std::scoped_lock lock(shared.mutex);
-    verdict =
-        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(authority), is_static);
-    if (verdict == Verdict::accepted) shared.wake_waiters();
+    const SharedBuffer::Access access(shared);
+    verdict = access->set(parent, child, stamp, pose, access->sender(authority), is_static);
+    if (verdict == Verdict::accepted) access.wake_waiters();
   }
   return verdict == Verdict::accepted
              ? ""
@@ -167,8 +165,8 @@ std::string BufferObject::set(std::string_view parent, std::string_view child, S
 }
 
 void BufferObject::refuse_message(std::string_view fault, std::string_view authority) {
-  const std::scoped_lock lock(shared.mutex);
-  shared.buffer.refuse_message(fault, shared.buffer.sender(authority));
+  const SharedBuffer::Access access(shared);
+  access->refuse_message(fault, access->sender(authority));
 }
 
 void BufferObject::call_listeners() {
@@ -185,14 +183,14 @@ void BufferObject::call_listeners() {
 
 void BufferObject::listeners_changed() {
   const std::size_t count = listeners.size();
-  const std::scoped_lock lock(shared.mutex);
-  shared.listeners = count;
+  const SharedBuffer::Access access(shared);
+  access.set_listeners(count);
 }
 
 void BufferObject::wake() {
-  const std::scoped_lock lock(shared.mutex);
+  const SharedBuffer::Access access(shared);
   ++interrupts;
-  shared.wake_waiters();
+  access.wake_waiters();
 }
 
 }  // namespace turtlewire::python

@@ -59,7 +59,7 @@ class BufferObject {
   };
 
   KnownPath& place_of(PyObject* target, PyObject* source);
-  const Path* known_path(PyObject* target, PyObject* source);
+  const Path* known_path(Tree& tree, PyObject* target, PyObject* source);
   void remember_path(PyObject* target, PyObject* source, std::string_view target_name,
                      std::string_view source_name);
   bool lookup_by_name(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found);

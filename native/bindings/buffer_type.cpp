@@ -236,9 +236,9 @@ Stamp latest_common_time(BufferObject& self, std::string_view target, std::strin
 nb::list frame_strings(BufferObject& self) {
   std::vector<std::string> names;
   {
-    const std::scoped_lock lock(self.shared.mutex);
-    const Names& frames = self.shared.buffer.frames();
-    for (const FrameId id : self.shared.buffer.known_frames()) names.emplace_back(frames[id]);
+    const SharedBuffer::Access access(self.shared);
+    const Names& frames = access->frames();
+    for (const FrameId id : access->known_frames()) names.emplace_back(frames[id]);
   }
   nb::list list;
   for (const std::string& name : names) list.append(name);
@@ -247,8 +247,8 @@ nb::list frame_strings(BufferObject& self) {
 
 template <typename Make>
 std::string locked(BufferObject& self, Make make) {
-  const std::scoped_lock lock(self.shared.mutex);
-  return make(self.shared.buffer);
+  const SharedBuffer::Access access(self.shared);
+  return make(*access);
 }
 
 nb::object add_change_listener(nb::handle self, nb::callable listener) {
@@ -405,8 +405,8 @@ void add_buffer_type(nb::module_& module) {
       .def_prop_ro(
           "cache_time_ns",
           [](BufferObject& self) -> std::optional<Stamp> {
-            if (self.shared.buffer.keep() == kForever) return std::nullopt;
-            return self.shared.buffer.keep();
+            if (self.shared.keep() == kForever) return std::nullopt;
+            return self.shared.keep();
           },
           "How long samples are kept; None: forever.")
       .def("latest_common_time", &latest_common_time, "target_frame"_a, "source_frame"_a,
@@ -415,8 +415,8 @@ void add_buffer_type(nb::module_& module) {
       .def(
           "clear",
           [](BufferObject& self) {
-            const std::scoped_lock lock(self.shared.mutex);
-            self.shared.buffer.clear();
+            const SharedBuffer::Access access(self.shared);
+            access->clear();
           },
           "Forgets all samples. Frame names and static transforms stay, as in tf2.")
       .def("frame_strings", &frame_strings,
@@ -424,21 +424,21 @@ void add_buffer_type(nb::module_& module) {
       .def(
           "frame_exists",
           [](BufferObject& self, std::string_view frame) {
-            const std::scoped_lock lock(self.shared.mutex);
-            const auto known = self.shared.buffer.frames().find(frame);
-            return known.has_value() && self.shared.buffer.is_known(*known);
+            const SharedBuffer::Access access(self.shared);
+            const auto known = access->frames().find(frame);
+            return known.has_value() && access->is_known(*known);
           },
           "frame"_a, "Whether the frame was ever heard of.")
       .def(
           "all_frames_as_string",
           [](BufferObject& self) {
-            return locked(self, [](const Buffer& b) { return b.frames_as_string(); });
+            return locked(self, [](const Tree& b) { return b.frames_as_string(); });
           },
           "tf2's list of frames and parents, one line each.")
       .def(
           "all_frames_as_yaml",
           [](BufferObject& self, double now) {
-            return locked(self, [now](const Buffer& b) { return b.frames_as_yaml(now); });
+            return locked(self, [now](const Tree& b) { return b.frames_as_yaml(now); });
           },
           "now"_a = 0.0,
           "tf2's YAML of frames, parents, senders, rates and ages; `now` in seconds adds the "
@@ -446,7 +446,7 @@ void add_buffer_type(nb::module_& module) {
       .def(
           "all_frames_as_dot",
           [](BufferObject& self, double now) {
-            return locked(self, [now](const Buffer& b) { return b.frames_as_dot(now); });
+            return locked(self, [now](const Tree& b) { return b.frames_as_dot(now); });
           },
           "now"_a = 0.0, "tf2's Graphviz text of the tree; `now` in seconds adds ages.")
       .def(

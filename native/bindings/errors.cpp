@@ -56,30 +56,26 @@ Class class_of(Status status, Question question) {
   }
 }
 
-PyObject* unknown_frame_details(const Failure& f, PyObject* buffer) {
-  PyObject* frame = text_of(f.name);
-  PyObject* details = frame != nullptr ? PyTuple_Pack(2, frame, buffer) : nullptr;
-  Py_XDECREF(frame);
-  return details;
-}
-
-// What the properties of the exception show; the order is documented there. Null without an error:
-// nothing to tell.
+// The attributes of the exception, by the names that turtlewire.errors gives them. Null without an
+// error: there are none.
 PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
   switch (f.status) {
     case Status::unknown_frame:
-      return unknown_frame_details(f, buffer);
+      return Py_BuildValue("{sNsO}", "frame", text_of(f.name), "buffer", buffer);
     case Status::not_connected:
       if (question == Question::latest_common_time) return nullptr;
-      return Py_BuildValue("(NNNN)", text_of(f.target), text_of(f.source), text_of(f.target_root),
+      return Py_BuildValue("{sNsNsNsN}", "target_frame", text_of(f.target), "source_frame",
+                           text_of(f.source), "target_root", text_of(f.target_root), "source_root",
                            text_of(f.source_root));
     case Status::no_data:
     case Status::future:
     case Status::past:
-      return Py_BuildValue("(NNNNLLLO)", text_of(f.target), text_of(f.source),
-                           text_of(f.link_parent), text_of(f.link_child),
-                           static_cast<long long>(f.requested), static_cast<long long>(f.oldest),
-                           static_cast<long long>(f.newest), f.emptied ? Py_False : Py_True);
+      return Py_BuildValue(
+          "{sNsNsNsNsLsLsLsO}", "target_frame", text_of(f.target), "source_frame",
+          text_of(f.source), "parent_frame", text_of(f.link_parent), "child_frame",
+          text_of(f.link_child), "requested_ns", static_cast<long long>(f.requested), "oldest_ns",
+          static_cast<long long>(f.oldest), "newest_ns", static_cast<long long>(f.newest),
+          "has_data", f.emptied ? Py_False : Py_True);
     default:
       return nullptr;
   }

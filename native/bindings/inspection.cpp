@@ -27,13 +27,13 @@ nb::str text(std::string_view value) { return nb::str(value.data(), value.size()
 }
 
 // Both names as frames; raises if one is none. Call with the lock held.
-bool resolve_both(const Buffer& buffer, std::string_view target, std::string_view source,
+bool resolve_both(const Tree& tree, std::string_view target, std::string_view source,
                   FrameId& target_id, FrameId& source_id, Failure& failure) {
-  failure.status = buffer.resolve(target, target_id);
+  failure.status = tree.resolve(target, target_id);
   failure.name = target;
   if (failure.status != Status::ok) return false;
   failure.argument = Argument::source;
-  failure.status = buffer.resolve(source, source_id);
+  failure.status = tree.resolve(source, source_id);
   failure.name = source;
   return failure.status == Status::ok;
 }
@@ -44,13 +44,13 @@ nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str sou
   Found found{t, {}};
   Failure failure;
   {
-    const std::scoped_lock lock(self.shared.mutex);
+    const SharedBuffer::Access access(self.shared);
     FrameId target_id = 0, source_id = 0;
-    const Buffer& buffer = self.shared.buffer;
-    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+    const Tree& tree = *access;
+    if (resolve_both(tree, target.c_str(), source.c_str(), target_id, source_id, failure) &&
         target_id != source_id) {
-      failure.status = buffer.lookup(target_id, source_id, Rule{.t = t, .beyond = limit},
-                                     found.target_from_source, nullptr, &failure);
+      failure.status = tree.lookup(target_id, source_id, Rule{.t = t, .beyond = limit},
+                                   found.target_from_source, nullptr, &failure);
     }
   }
   if (failure.status != Status::ok) raise_failure(self, failure);
@@ -66,18 +66,18 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
   std::vector<FrameId> used;
   std::vector<std::pair<std::string, Stamp>> stamps;
   {
-    const std::scoped_lock lock(self.shared.mutex);
+    const SharedBuffer::Access access(self.shared);
     FrameId target_id = 0, source_id = 0;
-    const Buffer& buffer = self.shared.buffer;
-    if (resolve_both(buffer, target.c_str(), source.c_str(), target_id, source_id, failure) &&
+    const Tree& tree = *access;
+    if (resolve_both(tree, target.c_str(), source.c_str(), target_id, source_id, failure) &&
         target_id != source_id) {
       const Rule rule{.t = now, .newest = true, .max_age = max_age};
       failure.status =
-          buffer.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
+          tree.lookup(target_id, source_id, rule, found.target_from_source, &used, &failure);
     }
     for (const FrameId frame : used) {
-      const Link& link = buffer.link(frame);
-      if (!link.is_static()) stamps.emplace_back(buffer.frames()[frame], link.newest());
+      const Link& link = tree.link(frame);
+      if (!link.is_static()) stamps.emplace_back(tree.frames()[frame], link.newest());
     }
   }
   if (failure.status != Status::ok) raise_failure(self, failure);
@@ -90,23 +90,22 @@ nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stam
 }
 
 bool remove_frame(BufferObject& self, std::string_view child) {
-  const std::scoped_lock lock(self.shared.mutex);
+  const SharedBuffer::Access access(self.shared);
   FrameId id = 0;
-  return self.shared.buffer.resolve(child, id) == Status::ok &&
-         !self.shared.buffer.remove({&id, 1}).empty();
+  return access->resolve(child, id) == Status::ok && !access->remove({&id, 1}).empty();
 }
 
 nb::list remove_stale(BufferObject& self, Stamp before) {
   std::vector<std::string> removed;
   {
-    const std::scoped_lock lock(self.shared.mutex);
-    Buffer& buffer = self.shared.buffer;
+    const SharedBuffer::Access access(self.shared);
+    Tree& tree = *access;
     std::vector<FrameId> stale;
-    for (const FrameId frame : buffer.known_frames()) {
-      const Link& link = buffer.link(frame);
+    for (const FrameId frame : tree.known_frames()) {
+      const Link& link = tree.link(frame);
       if (link.kind() == LinkKind::dynamic_link && link.newest() < before) stale.push_back(frame);
     }
-    removed = buffer.remove(stale);
+    removed = tree.remove(stale);
   }
   nb::list names;
   for (const std::string& name : removed) names.append(text(name));
@@ -128,11 +127,11 @@ struct LinkDescription {
 nb::list describe_links(BufferObject& self, std::size_t most) {
   std::vector<LinkDescription> links;
   {
-    const std::scoped_lock lock(self.shared.mutex);
-    const Buffer& buffer = self.shared.buffer;
-    const auto name = [&](FrameId id) { return std::string(buffer.frames()[id]); };
-    for (const FrameId frame : buffer.known_frames()) {
-      const Link& link = buffer.link(frame);
+    const SharedBuffer::Access access(self.shared);
+    const Tree& tree = *access;
+    const auto name = [&](FrameId id) { return std::string(tree.frames()[id]); };
+    for (const FrameId frame : tree.known_frames()) {
+      const Link& link = tree.link(frame);
       if (link.kind() == LinkKind::none) continue;
       if (links.size() == most) break;
       links.push_back({name(frame),
@@ -145,7 +144,7 @@ nb::list describe_links(BufferObject& self, std::size_t most) {
                        link.samples().bytes(),
                        {}});
       for (const Sender& sender : link.senders()) {
-        links.back().senders.emplace_back(buffer.sender_name(sender.id), name(sender.parent),
+        links.back().senders.emplace_back(tree.sender_name(sender.id), name(sender.parent),
                                           sender.samples, sender.newest);
       }
     }
@@ -169,8 +168,8 @@ nb::dict describe_refusals(BufferObject& self) {
       "nan_value", "old_data",       "reserved_name",  "bad_name"};
   std::map<std::string, RefusalRecord, std::less<>> records;
   {
-    const std::scoped_lock lock(self.shared.mutex);
-    records = self.shared.buffer.refusals().by_child();
+    const SharedBuffer::Access access(self.shared);
+    records = access->refusals().by_child();
   }
   nb::dict all;
   for (const auto& [child, record] : records) {
@@ -194,16 +193,16 @@ nb::tuple describe_malformed(BufferObject& self) {
   MalformedMessages malformed;
   std::string sender;
   {
-    const std::scoped_lock lock(self.shared.mutex);
-    malformed = self.shared.buffer.refusals().malformed();
-    if (malformed.count > 0) sender = self.shared.buffer.sender_name(malformed.source);
+    const SharedBuffer::Access access(self.shared);
+    malformed = access->refusals().malformed();
+    if (malformed.count > 0) sender = access->sender_name(malformed.source);
   }
   return nb::make_tuple(malformed.count, text(malformed.last), text(sender));
 }
 
 void rename_sender(BufferObject& self, std::string_view name, std::string_view shown) {
-  const std::scoped_lock lock(self.shared.mutex);
-  self.shared.buffer.rename_sender(name, shown);
+  const SharedBuffer::Access access(self.shared);
+  access->rename_sender(name, shown);
 }
 
 // ---------------------------------------------------------------- whole histories
@@ -214,13 +213,13 @@ struct Run {
   std::vector<Pose> poses;
 };
 
-std::vector<Run> runs_of(const Buffer& buffer, const Link& link) {
+std::vector<Run> runs_of(const Tree& tree, const Link& link) {
   std::vector<Run> runs;
   if (link.is_static())
-    return {{std::string(buffer.frames()[link.parent()]), {0}, {link.static_pose()}}};
+    return {{std::string(tree.frames()[link.parent()]), {0}, {link.static_pose()}}};
   for (std::size_t i = 0; i < link.samples().size(); ++i) {
     const Sample& sample = link.samples()[i];
-    const std::string_view parent = buffer.frames()[sample.parent];
+    const std::string_view parent = tree.frames()[sample.parent];
     if (runs.empty() || runs.back().parent != parent) runs.push_back({std::string(parent), {}, {}});
     runs.back().stamps.push_back(link.samples().stamp(i));
     runs.back().poses.push_back(sample.pose);
@@ -232,12 +231,11 @@ nb::list samples(BufferObject& self, std::string_view child) {
   std::vector<Run> runs;
   Failure failure;
   {
-    const std::scoped_lock lock(self.shared.mutex);
+    const SharedBuffer::Access access(self.shared);
     FrameId id = 0;
-    failure.status = self.shared.buffer.resolve(child, id);
+    failure.status = access->resolve(child, id);
     failure.name = child;
-    if (failure.status == Status::ok)
-      runs = runs_of(self.shared.buffer, self.shared.buffer.link(id));
+    if (failure.status == Status::ok) runs = runs_of(*access, access->link(id));
   }
   if (failure.status != Status::ok) raise_failure(self, failure);
   nb::list list;
@@ -266,15 +264,15 @@ std::size_t set_transforms(BufferObject& self, std::string_view parent, std::str
   std::size_t accepted = 0;
   {
     const Unlocked unlocked;
-    const std::scoped_lock lock(self.shared.mutex);
-    const SourceId sender = self.shared.buffer.sender(authority);
+    const SharedBuffer::Access access(self.shared);
+    const SourceId sender = access->sender(authority);
     for (std::size_t i = 0; i < stamps.shape(0); ++i) {
       const double* v = rows.data() + 7 * i;
       const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-      accepted += self.shared.buffer.set(parent, child, stamps.data()[i], pose, sender, false) ==
-                  Verdict::accepted;
+      accepted +=
+          access->set(parent, child, stamps.data()[i], pose, sender, false) == Verdict::accepted;
     }
-    if (accepted > 0) self.shared.wake_waiters();
+    if (accepted > 0) access.wake_waiters();
   }
   if (accepted > 0) self.call_listeners();
   return accepted;
@@ -344,8 +342,8 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
       .def(
           "_fault",
           [](BufferObject& self) {
-            const std::scoped_lock lock(self.shared.mutex);
-            return self.shared.buffer.fault();
+            const SharedBuffer::Access access(self.shared);
+            return access->fault();
           },
           "What is wrong with the buffer's own state; for tests.");
 }

@@ -23,18 +23,17 @@ void prefetch(const void* address) {
 BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source)
     : shared_(shared), target_(target), source_(source) {}
 
-// Null if a name is unknown.
-const Path* BatchLookup::path() {
-  if (source_id_ == 0 || epoch_ != shared_.buffer.path_epoch()) {
-    unresolved_ = shared_.buffer.resolve(target_, target_id_);
-    if (unresolved_ == Status::ok) unresolved_ = shared_.buffer.resolve(source_, source_id_);
+const Path* BatchLookup::path(Tree& tree) {
+  if (source_id_ == 0 || epoch_ != tree.path_epoch()) {
+    unresolved_ = tree.resolve(target_, target_id_);
+    if (unresolved_ == Status::ok) unresolved_ = tree.resolve(source_, source_id_);
     if (unresolved_ != Status::ok) {
       source_id_ = 0;
       return nullptr;
     }
   }
-  const Path& path = shared_.buffer.path(target_id_, source_id_);
-  epoch_ = shared_.buffer.path_epoch();
+  const Path& path = tree.path(target_id_, source_id_);
+  epoch_ = tree.path_epoch();
   if (path.version != version_) {
     up_hints_.assign(path.up.size(), 0);
     down_hints_.assign(path.down.size(), 0);
@@ -44,10 +43,10 @@ const Path* BatchLookup::path() {
 }
 
 Stamp BatchLookup::latest() {
-  const std::scoped_lock lock(shared_.mutex);
+  const SharedBuffer::Access access(shared_);
   Stamp t = 0;
-  if (target_ != source_ && path() != nullptr)
-    shared_.buffer.latest_common_time(target_id_, source_id_, t, nullptr);
+  if (target_ != source_ && path(*access) != nullptr)
+    access->latest_common_time(target_id_, source_id_, t, nullptr);
   return t;
 }
 
@@ -57,30 +56,30 @@ void BatchLookup::block(std::span<const Stamp> stamps, Lanes& poses, Status* sta
     poses.fill({});
     return;
   }
-  const std::scoped_lock lock(shared_.mutex);
-  const Path* known = path();
+  const SharedBuffer::Access access(shared_);
+  const Path* known = path(*access);
   if (known == nullptr) {
     std::fill_n(statuses, stamps.size(), unresolved_);
     poses.fill(kNoPose);
   } else if (stamps.size() < kScalarBelow || !known->direct) {
-    scalar_block(*known, stamps, poses, statuses);
+    scalar_block(*access, *known, stamps, poses, statuses);
   } else {
-    direct_block(*known, stamps, poses, statuses);
+    direct_block(*access, *known, stamps, poses, statuses);
   }
 }
 
-void BatchLookup::scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
-                               Status* statuses) {
+void BatchLookup::scalar_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps,
+                               Lanes& poses, Status* statuses) {
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     Stamp t = stamps[i];
     Pose pose;
-    statuses[i] = shared_.buffer.lookup(path, t, pose, nullptr);
+    statuses[i] = tree.lookup(path, t, pose, nullptr);
     poses.set(i, statuses[i] == Status::ok ? pose : kNoPose);
   }
 }
 
-void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
-                               Status* statuses) {
+void BatchLookup::direct_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps,
+                               Lanes& poses, Status* statuses) {
   Stamp times[kLanes];
   bool missing[kLanes] = {};
   const Stamp latest = turtlewire::latest_common_time(path);
@@ -98,8 +97,8 @@ void BatchLookup::direct_block(const Path& path, std::span<const Stamp> stamps, 
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (!missing[i]) continue;
     Pose unused;
-    statuses[i] = shared_.buffer.lookup(path, times[i], unused,
-                                        nullptr);  // tf2's order decides which link it blames
+    statuses[i] = tree.lookup(path, times[i], unused,
+                              nullptr);  // tf2's order decides which link it blames
     poses.set(i, kNoPose);
   }
 }
@@ -166,7 +165,7 @@ namespace {
 // root_from_frame of all frames at one time, each link read once.
 class Forest {
  public:
-  Forest(const Buffer& buffer, Stamp t) : buffer_(buffer), t_(t), nodes_(buffer.frames().size()) {}
+  Forest(const Tree& tree, Stamp t) : tree_(tree), t_(t), nodes_(tree.frames().size()) {}
 
   // False if some link above the frame has no pose at the time, or the frames loop.
   bool root_from(FrameId frame, FrameId& root, Pose& pose) {
@@ -174,7 +173,7 @@ class Forest {
     while (nodes_[frame].state == State::unseen) {
       nodes_[frame].state = State::open;
       line_.push_back(frame);
-      const Link& link = buffer_.link(frame);
+      const Link& link = tree_.link(frame);
       if (link.kind() == LinkKind::none) {
         nodes_[frame] = {State::known, frame, {}};
         line_.pop_back();
@@ -207,7 +206,7 @@ class Forest {
     Reading link;
   };
 
-  const Buffer& buffer_;
+  const Tree& tree_;
   Stamp t_;
   std::vector<Node> nodes_;
   std::vector<FrameId> line_;
@@ -218,29 +217,29 @@ class Forest {
 Status lookup_all(SharedBuffer& shared, std::string_view target, Stamp t,
                   std::vector<FramePose>& found, Failure& failure) {
   found.clear();
-  const std::scoped_lock lock(shared.mutex);
-  Buffer& buffer = shared.buffer;
+  const SharedBuffer::Access access(shared);
+  Tree& tree = *access;
   FrameId target_id = 0, target_root = 0, root = 0;
-  if (const Status status = buffer.resolve(target, target_id); status != Status::ok) {
+  if (const Status status = tree.resolve(target, target_id); status != Status::ok) {
     failure.status = status;
     failure.name = target;
     return status;
   }
-  Forest forest(buffer, t);
+  Forest forest(tree, t);
   Pose root_from_target, root_from_frame;
   const bool at_once = t != 0 && forest.root_from(target_id, target_root, root_from_target);
-  for (const FrameId frame : buffer.known_frames()) {
+  for (const FrameId frame : tree.known_frames()) {
     Pose pose;
     Stamp stamp = t;
     if (frame == target_id) {
-      if (t == 0) stamp = buffer.newest(frame);
+      if (t == 0) stamp = tree.newest(frame);
     } else if (at_once && forest.root_from(frame, root, root_from_frame) && root == target_root) {
       pose = between(root_from_target, root_from_frame);
       pose.rotation = canonical(pose.rotation);
-    } else if (buffer.lookup(buffer.path(target_id, frame), stamp, pose, nullptr) != Status::ok) {
+    } else if (tree.lookup(tree.path(target_id, frame), stamp, pose, nullptr) != Status::ok) {
       continue;
     }
-    found.push_back({std::string(buffer.frames()[frame]), stamp, pose});
+    found.push_back({std::string(tree.frames()[frame]), stamp, pose});
   }
   return Status::ok;
 }

@@ -28,10 +28,10 @@ class BatchLookup {
   // The places of a dynamic link's last hits: for stamps that come in order.
   using Hints = std::vector<std::size_t>;
 
-  const Path* path();  // call with the lock held
-  void scalar_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+  const Path* path(Tree& tree);  // null if a name is unknown
+  void scalar_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
                     Status* statuses);
-  void direct_block(const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+  void direct_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
                     Status* statuses);
   void arm(const std::vector<Step>& steps, const Stamp* stamps, Hints& hints, bool* missing,
            Lanes& result);

@@ -1,7 +1,7 @@
 // What must be true of a buffer at any time; tests ask after every operation.
 #include <cmath>
 
-#include "buffer.hpp"
+#include "tree.hpp"
 
 namespace turtlewire {
 
@@ -30,7 +30,7 @@ std::string Link::fault() const {
   return "";
 }
 
-std::string Buffer::fault() const {
+std::string Tree::fault() const {
   if (links_.size() != frames_.size() || is_known_.size() != frames_.size())
     return "frames without a link";
   for (const FrameId frame : known_frames_) {

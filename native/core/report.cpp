@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "buffer.hpp"
+#include "tree.hpp"
 
 namespace turtlewire {
 namespace {
@@ -21,13 +21,13 @@ double rate(const Link& link) {
 
 }  // namespace
 
-std::string Buffer::name(FrameId id) const { return std::string(frames_[id]); }
+std::string Tree::name(FrameId id) const { return std::string(frames_[id]); }
 
-std::string Buffer::sender_of(FrameId child) const {
+std::string Tree::sender_of(FrameId child) const {
   return std::string(senders_[links_[child]->sender()]);
 }
 
-std::string Buffer::frames_as_string() const {
+std::string Tree::frames_as_string() const {
   std::string text;
   for (const FrameId id : known_frames_) {
     const Link& link = *links_[id];
@@ -37,7 +37,7 @@ std::string Buffer::frames_as_string() const {
   return text;
 }
 
-std::string Buffer::frames_as_yaml(double now) const {
+std::string Tree::frames_as_yaml(double now) const {
   if (known_frames_.empty()) return "[]";
   std::string text;
   for (const FrameId id : known_frames_) {
@@ -55,7 +55,7 @@ std::string Buffer::frames_as_yaml(double now) const {
   return text;
 }
 
-std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const {
+std::string Tree::dot_edge(FrameId child, const Link& link, double now) const {
   std::string text("\"");
   text.append(frames_[link.parent()])
       .append("\" -> \"")
@@ -70,7 +70,7 @@ std::string Buffer::dot_edge(FrameId child, const Link& link, double now) const 
   return text;
 }
 
-std::string Buffer::frames_as_dot(double now) const {
+std::string Tree::frames_as_dot(double now) const {
   std::string text = "digraph G {\n";
   if (known_frames_.empty()) text += "\"no tf data recieved\"";
   for (const FrameId id : known_frames_) {

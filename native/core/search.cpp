@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "buffer.hpp"
+#include "tree.hpp"
 
 namespace turtlewire {
 namespace {
@@ -26,8 +26,7 @@ void leave_difference(std::vector<FrameId>& up, const std::vector<FrameId>& down
 
 // ---------------------------------------------------------------- questions
 
-Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source,
-                      Failure* failure) const {
+Status Tree::lookup(const Path& path, Stamp& t, Pose& target_from_source, Failure* failure) const {
   if (path.direct) [[likely]] {
     const Stamp at = t != 0 ? t : turtlewire::latest_common_time(path);
     if (follow(path, at, target_from_source)) [[likely]] {
@@ -39,7 +38,7 @@ Status Buffer::lookup(const Path& path, Stamp& t, Pose& target_from_source,
   return walk(path.target, path.source, t, &target_from_source, failure);
 }
 
-Status Buffer::can_transform(const Path& path, Stamp t, Failure* failure) const {
+Status Tree::can_transform(const Path& path, Stamp t, Failure* failure) const {
   if (path.direct && covers(path, t != 0 ? t : turtlewire::latest_common_time(path)))
     return Status::ok;
   return walk(path.target, path.source, t, nullptr, failure);
@@ -47,8 +46,7 @@ Status Buffer::can_transform(const Path& path, Stamp t, Failure* failure) const 
 
 // By the newest parent of each link, whatever the time; the frames of one line ask for each link's
 // newest stamp, and a stamp of 0 counts as static.
-Status Buffer::latest_common_time(FrameId target, FrameId source, Stamp& t,
-                                  Failure* failure) const {
+Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failure* failure) const {
   t = 0;
   if (target == source) {
     t = newest(source);
@@ -102,8 +100,8 @@ Reading Rule::read(const Link& link) const {
 }
 
 // One step upwards after another, from a start frame; remembers why it could not go on.
-struct Buffer::Climb {
-  const Buffer& buffer;
+struct Tree::Climb {
+  const Tree& buffer;
   const Rule& rule;
   FrameId frame;
   Pose top_from_start{};
@@ -123,8 +121,8 @@ struct Buffer::Climb {
   }
 };
 
-Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
-                    Failure* failure) const {
+Status Tree::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_source,
+                  Failure* failure) const {
   if (t == 0) {
     if (const Status status = latest_common_time(target, source, t, failure); status != Status::ok)
       return status;
@@ -132,16 +130,16 @@ Status Buffer::walk(FrameId target, FrameId source, Stamp& t, Pose* target_from_
   return climb(target, source, Rule{.t = t}, target_from_source, nullptr, failure);
 }
 
-Status Buffer::lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source,
-                      std::vector<FrameId>* used, Failure* failure) const {
+Status Tree::lookup(FrameId target, FrameId source, const Rule& rule, Pose& target_from_source,
+                    std::vector<FrameId>* used, Failure* failure) const {
   return climb(target, source, rule, &target_from_source, used, failure);
 }
 
 // tf2's own order of steps, which decides what happens with links that do not reach: those above
 // the meeting point do not hurt, the target's complaint comes before the source's, and the parents
 // are those of the time asked for.
-Status Buffer::climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
-                     std::vector<FrameId>* used, Failure* failure) const {
+Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* target_from_source,
+                   std::vector<FrameId>* used, Failure* failure) const {
   Reading reading;
   Climb up{*this, rule, source};
   for (int depth = 0; !up.at_root() && up.read(reading);) {
@@ -174,7 +172,7 @@ Status Buffer::climb(FrameId target, FrameId source, const Rule& rule, Pose* tar
   return Status::ok;
 }
 
-Status Buffer::fail_loop(Failure* failure) const {
+Status Tree::fail_loop(Failure* failure) const {
   if (failure != nullptr) {
     failure->status = Status::loop;
     failure->frames = frames_as_string();
@@ -182,7 +180,7 @@ Status Buffer::fail_loop(Failure* failure) const {
   return Status::loop;
 }
 
-Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure) const {
+Status Tree::fail_connection(FrameId target, FrameId source, Failure* failure) const {
   if (failure != nullptr) {
     failure->status = Status::not_connected;
     failure->target = name(target);
@@ -193,8 +191,8 @@ Status Buffer::fail_connection(FrameId target, FrameId source, Failure* failure)
   return Status::not_connected;
 }
 
-Status Buffer::fail_reading(const Climb& climb, FrameId target, FrameId source,
-                            Failure* failure) const {
+Status Tree::fail_reading(const Climb& climb, FrameId target, FrameId source,
+                          Failure* failure) const {
   const Status status = climb.stopped == ReadStatus::future ? Status::future
                         : climb.stopped == ReadStatus::past ? Status::past
                                                             : Status::no_data;

@@ -4,12 +4,12 @@ namespace turtlewire {
 
 Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::string_view authority,
                         bool is_static) {
-  const std::scoped_lock lock(mutex);
-  const SourceId sender = buffer.sender(authority);
-  Added added{0, listeners > 0};
+  const std::scoped_lock lock(mutex_);
+  const SourceId sender = tree_.sender(authority);
+  Added added{0, listeners_ > 0};
   for (const ReceivedTransform& r : transforms) {
     added.accepted +=
-        buffer.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
+        tree_.set(r.parent, r.child, r.stamp, r.pose(), sender, is_static) == Verdict::accepted;
   }
   if (added.accepted > 0) wake_waiters();
   return added;
@@ -17,7 +17,7 @@ Added SharedBuffer::add(std::span<const ReceivedTransform> transforms, std::stri
 
 Status SharedBuffer::resolve(std::string_view name, Argument argument, FrameId& id,
                              Failure& failure) const {
-  const Status status = buffer.resolve(name, id);
+  const Status status = tree_.resolve(name, id);
   if (status != Status::ok) {
     failure.status = status;
     failure.argument = argument;
@@ -31,16 +31,15 @@ Status SharedBuffer::find(const Request& request, Found& found, Failure& failure
   FrameId target = 0, source = 0;
   found = {request.t, {}};
   if (request.target == request.source) {
-    if (request.t == 0 && buffer.resolve(request.source, source) == Status::ok)
-      found.stamp = buffer.newest(source);
+    if (request.t == 0 && tree_.resolve(request.source, source) == Status::ok)
+      found.stamp = tree_.newest(source);
     return Status::ok;
   }
   Status status = resolve(request.target, Argument::target, target, failure);
   if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
   if (status != Status::ok) return status;
   failure.latest = request.t == 0;
-  return buffer.lookup(buffer.path(target, source), found.stamp, found.target_from_source,
-                       &failure);
+  return tree_.lookup(tree_.path(target, source), found.stamp, found.target_from_source, &failure);
 }
 
 Status SharedBuffer::test(const Request& request, Failure& failure) {
@@ -50,16 +49,16 @@ Status SharedBuffer::test(const Request& request, Failure& failure) {
   if (status == Status::ok) status = resolve(request.source, Argument::source, source, failure);
   if (status != Status::ok) return status;
   failure.latest = request.t == 0;
-  return buffer.can_transform(buffer.path(target, source), request.t, &failure);
+  return tree_.can_transform(tree_.path(target, source), request.t, &failure);
 }
 
 Status SharedBuffer::lookup(const Request& request, Found& found, Failure& failure) {
-  const std::scoped_lock lock(mutex);
+  const std::scoped_lock lock(mutex_);
   return find(request, found, failure);
 }
 
 Status SharedBuffer::lookup(const FullRequest& r, Found& found, Failure& failure) {
-  const std::scoped_lock lock(mutex);
+  const std::scoped_lock lock(mutex_);
   FrameId id = 0;
   Status status = resolve(r.target, Argument::target, id, failure);
   if (status == Status::ok) status = resolve(r.source, Argument::source, id, failure);
@@ -75,12 +74,12 @@ Status SharedBuffer::lookup(const FullRequest& r, Found& found, Failure& failure
 }
 
 Status SharedBuffer::can_transform(const Request& request, Failure& failure) {
-  const std::scoped_lock lock(mutex);
+  const std::scoped_lock lock(mutex_);
   return test(request, failure);
 }
 
 Status SharedBuffer::can_transform(const FullRequest& r, Failure& failure) {
-  const std::scoped_lock lock(mutex);
+  const std::scoped_lock lock(mutex_);
   FrameId id = 0;
   Status status = resolve(r.target, Argument::target, id, failure);
   if (status == Status::ok) status = resolve(r.source, Argument::source, id, failure);
@@ -92,11 +91,11 @@ Status SharedBuffer::can_transform(const FullRequest& r, Failure& failure) {
 
 Status SharedBuffer::latest_common_time(std::string_view target, std::string_view source, Stamp& t,
                                         Failure& failure) {
-  const std::scoped_lock lock(mutex);
+  const std::scoped_lock lock(mutex_);
   FrameId target_id = 0, source_id = 0;
   Status status = resolve(target, Argument::target, target_id, failure);
   if (status == Status::ok) status = resolve(source, Argument::source, source_id, failure);
-  if (status == Status::ok) status = buffer.latest_common_time(target_id, source_id, t, &failure);
+  if (status == Status::ok) status = tree_.latest_common_time(target_id, source_id, t, &failure);
   return status;
 }
 
@@ -108,7 +107,7 @@ bool SharedBuffer::worth_waiting(const Failure& failure) const {
     case Status::no_data:
     case Status::past:
       return failure.latest || failure.emptied ||
-             failure.requested >= earlier(failure.newest, buffer.keep());
+             failure.requested >= earlier(failure.newest, tree_.keep());
     default:
       return true;
   }

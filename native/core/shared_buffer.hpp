@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "buffer.hpp"
 #include "fork.hpp"
 #include "tf_message.hpp"
+#include "tree.hpp"
 
 namespace turtlewire {
 
@@ -51,21 +51,30 @@ struct Added {
   bool listened_to = false;  // somebody is to be told of it
 };
 
-// Each method takes the lock for itself; those who do several things at once use `mutex` and
-// `buffer` themselves.
+// Each method takes the lock for itself; Access is for several steps at once.
 class SharedBuffer final : public ForkAware {
  public:
-  explicit SharedBuffer(Stamp keep) : buffer(keep) {}
+  explicit SharedBuffer(Stamp keep) : tree_(keep) {}
 
-  std::mutex mutex;  // guards the three below
-  Buffer buffer;
-  std::vector<Waiter*> waiters;
-  std::size_t listeners = 0;  // how many want to be told of new data, by whoever adds it
+  // The tree, locked for as long as this lives.
+  class Access {
+   public:
+    explicit Access(SharedBuffer& shared) : shared_(shared), lock_(shared.mutex_) {}
 
-  // Call with the lock held, after data came in.
-  void wake_waiters() noexcept {
-    for (Waiter* waiter : waiters) waiter->wake();
-  }
+    Tree* operator->() const { return &shared_.tree_; }
+    Tree& operator*() const { return shared_.tree_; }
+
+    // To be called after data came in.
+    void wake_waiters() const noexcept { shared_.wake_waiters(); }
+    // How many want to be told of new data by the thread that adds it.
+    void set_listeners(std::size_t count) const { shared_.listeners_ = count; }
+
+   private:
+    SharedBuffer& shared_;
+    const std::scoped_lock<std::mutex> lock_;
+  };
+
+  Stamp keep() const { return tree_.keep(); }
 
   // Adds the transforms of one message and wakes who waits.
   Added add(std::span<const ReceivedTransform> transforms, std::string_view authority,
@@ -82,18 +91,27 @@ class SharedBuffer final : public ForkAware {
   // has left the cache.
   bool worth_waiting(const Failure& failure) const;
 
-  void before_fork() override { mutex.lock(); }
+  void before_fork() override { mutex_.lock(); }
   // The child has none of the other threads.
   void after_fork(bool is_child) noexcept override {
-    if (is_child) std::erase_if(waiters, [](const Waiter* waiter) { return !waiter->is_mine(); });
-    mutex.unlock();
+    if (is_child) std::erase_if(waiters_, [](const Waiter* waiter) { return !waiter->is_mine(); });
+    mutex_.unlock();
   }
 
  private:
+  friend class Waiting;
+
+  void wake_waiters() noexcept {
+    for (Waiter* waiter : waiters_) waiter->wake();
+  }
   Status resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const;
   Status find(const Request& request, Found& found, Failure& failure);
   Status test(const Request& request, Failure& failure);
 
+  std::mutex mutex_;  // guards the three below
+  Tree tree_;
+  std::vector<Waiter*> waiters_;
+  std::size_t listeners_ = 0;
   const ForkRegistration registration_{*this, Order::inner};
 };
 
@@ -101,14 +119,14 @@ class SharedBuffer final : public ForkAware {
 class Waiting {
  public:
   Waiting(SharedBuffer& shared, Waiter& waiter) : shared_(shared), waiter_(&waiter) {
-    const std::scoped_lock lock(shared_.mutex);
-    shared_.waiters.push_back(waiter_);
+    const std::scoped_lock lock(shared_.mutex_);
+    shared_.waiters_.push_back(waiter_);
   }
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
   ~Waiting() {
-    const std::scoped_lock lock(shared_.mutex);
-    std::erase(shared_.waiters, waiter_);
+    const std::scoped_lock lock(shared_.mutex_);
+    std::erase(shared_.waiters_, waiter_);
   }
 
  private:

@@ -156,17 +156,20 @@ void test_random_operations() {
         if (kind == 0) pose.translation.x = INFINITY;
         if (kind == 1) pose.rotation.w = NAN;
         const Stamp stamp = static_cast<Stamp>(below(random, 2) ? i * 5 : below(random, 1500));
-        shared.buffer.set(parent, child, stamp, pose, shared.buffer.sender(kind % 2 ? "x" : "y"),
-                          kind % 10 == 0);
+        const SharedBuffer::Access access(shared);
+        access->set(parent, child, stamp, pose, access->sender(kind % 2 ? "x" : "y"),
+                    kind % 10 == 0);
       } else if (kind < 95) {
         ask_everything(shared, random, frames, true);
       } else if (kind < 97) {
-        shared.buffer.clear();
+        SharedBuffer::Access(shared)->clear();
       } else {
         FrameId id = 0;
-        if (shared.buffer.resolve(child, id) == Status::ok) shared.buffer.remove({&id, 1});
+        const SharedBuffer::Access access(shared);
+        if (access->resolve(child, id) == Status::ok) access->remove({&id, 1});
       }
-      check(shared.buffer.fault().empty(), "invariants: " + shared.buffer.fault());
+      const std::string fault = SharedBuffer::Access(shared)->fault();
+      check(fault.empty(), "invariants: " + fault);
     }
   }
 }
@@ -198,7 +201,7 @@ void test_search() {
 }
 
 void test_memory() {
-  Buffer buffer(10'000'000'000);
+  Tree buffer(10'000'000'000);
   const SourceId me = buffer.sender("me");
   for (Stamp i = 1; i <= 25'000; ++i) buffer.set("a", "b", i * 1'000'000, Pose{}, me, false);
   const Samples& samples = buffer.link(1).samples();
@@ -242,8 +245,8 @@ void test_threads() {
         ask_everything(shared, random, 8, false);
         Failure failure;
         lookup_all(shared, "f1", 0, all, failure);
-        const std::scoped_lock lock(shared.mutex);
-        check(!shared.buffer.frames_as_yaml(1.0).empty(), "yaml");
+        const SharedBuffer::Access access(shared);
+        check(!access->frames_as_yaml(1.0).empty(), "yaml");
       }
     });
   }
@@ -259,12 +262,12 @@ void test_threads() {
   });
   Random random(9);
   for (Stamp t = 1; t <= last; ++t) {
-    const std::scoped_lock lock(shared.mutex);
-    const SourceId me = shared.buffer.sender("me");
-    shared.buffer.set("f0", "f1", t, random_pose(random), me, false);
-    shared.buffer.set("f1", "f2", 0, Pose{}, me, true);
-    shared.buffer.set(t % 100 < 50 ? "f2" : "f1", "f3", t, random_pose(random), me, false);
-    shared.wake_waiters();
+    const SharedBuffer::Access access(shared);
+    const SourceId me = access->sender("me");
+    access->set("f0", "f1", t, random_pose(random), me, false);
+    access->set("f1", "f2", 0, Pose{}, me, true);
+    access->set(t % 100 < 50 ? "f2" : "f1", "f3", t, random_pose(random), me, false);
+    access.wake_waiters();
   }
   threads.back().join();
   threads.pop_back();
@@ -317,11 +320,11 @@ std::size_t ingest(SharedBuffer& shared, const std::vector<unsigned char>& bytes
   const std::string fault = message.decode(exact.data(), exact.size());
   malformed = !fault.empty();
   std::size_t accepted = 0;
-  const SourceId me = shared.buffer.sender("me");
-  if (malformed) shared.buffer.refuse_message(fault, me);
+  const SharedBuffer::Access access(shared);
+  const SourceId me = access->sender("me");
+  if (malformed) access->refuse_message(fault, me);
   for (const ReceivedTransform& r : message.transforms()) {
-    accepted +=
-        shared.buffer.set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
+    accepted += access->set(r.parent, r.child, r.stamp, r.pose(), me, false) == Verdict::accepted;
   }
   return accepted;
 }
@@ -353,24 +356,25 @@ void test_malformed_messages(std::size_t rounds) {
         "10,000 transforms in one message");
   check(ingest(whole, odd.bytes, malformed) == 1 && !malformed,
         "the good one among the odd ones is kept");
-  check(whole.buffer.refusals().by_child().size() == 4, "each refusal is counted");
+  check(SharedBuffer::Access(whole)->refusals().by_child().size() == 4, "each refusal is counted");
   std::size_t rejected = 0, counted = 0;
   auto shared = std::make_unique<SharedBuffer>(10'000'000'000);
   for (std::size_t i = 0; i < rounds; ++i) {
     ingest(*shared, mutated(below(random, 10) != 0 ? small.bytes : odd.bytes, random), malformed);
     rejected += malformed;
     if (i % 10'000 == 9999) {
-      check(shared->buffer.fault().empty(),
-            "invariants after mutated messages: " + shared->buffer.fault());
+      const std::string fault = SharedBuffer::Access(*shared)->fault();
+      check(fault.empty(), "invariants after mutated messages: " + fault);
       check(ingest(*shared, small.bytes, malformed) <= 2 && !malformed,
             "a good message is taken among bad ones");
-      check(!shared->buffer.refusals().malformed().last.empty(), "what is malformed is explained");
-      counted += shared->buffer.refusals().malformed().count;
+      check(!SharedBuffer::Access(*shared)->refusals().malformed().last.empty(),
+            "what is malformed is explained");
+      counted += SharedBuffer::Access(*shared)->refusals().malformed().count;
       shared = std::make_unique<SharedBuffer>(10'000'000'000);
     }
   }
   std::printf("mutated messages: %zu, of which %zu malformed\n", rounds, rejected);
-  counted += shared->buffer.refusals().malformed().count;
+  counted += SharedBuffer::Access(*shared)->refusals().malformed().count;
   check(rejected > rounds / 10, "many mutations are malformed");
   check(counted == rejected, "each malformed message is counted");
 }
@@ -397,9 +401,8 @@ void test_intake() {
   Intake intake(false, 3);
   const auto newest = [](SharedBuffer& buffer) {
     FrameId base = 0;
-    return buffer.buffer.resolve("base", base) == Status::ok
-               ? buffer.buffer.newest(base) / 1'000'000'000
-               : 0;
+    const SharedBuffer::Access access(buffer);
+    return access->resolve("base", base) == Status::ok ? access->newest(base) / 1'000'000'000 : 0;
   };
   intake.feed({&shared, &other});
   check(intake.receive(7, 1, message_at(1)),
@@ -414,13 +417,13 @@ void test_intake() {
   check(take_rest(intake).empty() && newest(shared) == 3, "and needs him no more when it is due");
   check(!intake.receive(7, 4, message_at(4)) && newest(shared) == 4, "then it is stored at once");
   check(newest(other) == 4, "in all buffers");
-  check(shared.buffer.sender_name(1) == "/talker", "in the publisher's name");
+  check(SharedBuffer::Access(shared)->sender_name(1) == "/talker", "in the publisher's name");
   check(intake.receive(7, 5, {}) && take_rest(intake) == std::vector<Stamp>{5},
         "what is malformed is kept back");
   for (Stamp sent = 6; sent < 11; ++sent) intake.receive(8, sent, message_at(9));
   check(take_rest(intake) == std::vector<Stamp>{8, 9, 10}, "only the newest ones are kept back");
   check(!intake.take_news(), "no news while nobody listens");
-  shared.listeners = 1;
+  SharedBuffer::Access(shared).set_listeners(1);
   check(intake.receive(7, 11, message_at(11)) && intake.take_news() && !intake.take_news(),
         "news for a listener");
   intake.feed({});
@@ -484,11 +487,11 @@ void test_intake_threads() {
   for (std::thread& thread : threads) thread.join();
   for (const char* frame : {"f0", "f1", "f2"}) {
     FrameId id = 0;
-    check(first.buffer.resolve(frame, id) == Status::ok &&
-              first.buffer.link(id).length() == kMessages,
+    const SharedBuffer::Access access(first);
+    check(access->resolve(frame, id) == Status::ok && access->link(id).length() == kMessages,
           "all arrived");
   }
-  check(first.buffer.refusals().by_child().empty(), "in order");
+  check(SharedBuffer::Access(first)->refusals().by_child().empty(), "in order");
 }
 
 }  // namespace

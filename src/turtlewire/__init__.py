@@ -9,15 +9,31 @@ if TYPE_CHECKING:
     from turtlewire.tf.buffer import Transform as Transform
     from turtlewire.tf.status import LookupStatus as LookupStatus
 
-__all__ = ["Buffer", "LookupStatus", "Transform"]
+    __version__: str
+
+__all__ = ["Buffer", "LookupStatus", "Transform", "__version__"]
 
 
 def __getattr__(name: str) -> object:
     # The core is loaded when it is first used: `import turtlewire.msg` and its like stay light.
     if name not in __all__:
         raise AttributeError(f"module 'turtlewire' has no attribute {name!r}")
-    from turtlewire.tf import buffer, status
-
-    value: object = getattr(status if name == "LookupStatus" else buffer, name)
+    value = _version() if name == "__version__" else _of_the_buffer(name)
     globals()[name] = value
     return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("turtlewire")
+
+
+def _of_the_buffer(name: str) -> object:
+    from turtlewire.tf import buffer, status
+
+    return getattr(status if name == "LookupStatus" else buffer, name)

@@ -7,15 +7,14 @@
     ├── CdrError                      malformed CDR bytes, or a value that its field cannot hold
     ├── InterfaceError                an unknown or unreadable .msg/.srv/.action definition
     ├── WireError                     the middleware refused something, or is missing
-    └── TransformException            (the tree of ROS 2's tf2; also reachable as tf2_py.X and
-    tf2_ros.X)
+    └── TransformException            (the tree of ROS 2's tf2; also in tf2_py and tf2_ros)
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
         ├── ExtrapolationException    the time asked for is outside of the data of a link
         │   ├── BackwardExtrapolationException   it is older than the oldest
         │   ├── ForwardExtrapolationException    it is newer than the newest
-        │   └── NoDataForExtrapolationException  the link has no data, or a single sample of another
-        time ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
+        │   └── NoDataForExtrapolationException  the link has no data, or one sample of another time
+        ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
 ``str(error)`` is the text that ROS 2 defines, where it defines one. What helps beyond it is in
@@ -25,7 +24,10 @@ Python 3.11 and later.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 __all__ = [
     "BackwardExtrapolationException",
@@ -79,14 +81,19 @@ class WireError(TurtlewireError, RuntimeError):
     """The middleware refused an operation, or cannot be loaded on this platform."""
 
 
+def _detail(name: str, default: object) -> Any:
+    """A property that shows one of the details."""
+    return property(lambda self: self._details.get(name, default))
+
+
 class TransformException(TurtlewireError):
     """Base of the errors of a transform lookup; catching it catches all of them.
 
     The hint is made when it is first asked for: a lookup may fail often, and be expected to.
     """
 
-    # What the buffer knows of the failure, set by it; each subclass says what its items are.
-    _details: tuple[Any, ...] = ()
+    # The attributes by name, as the buffer sets them; empty for an error that no buffer raised.
+    _details: Mapping[str, Any] = {}
 
     def _make_hint(self) -> str:
         return ""
@@ -121,7 +128,7 @@ class TransformException(TurtlewireError):
         state = {"_hint": self.hint, "_details": self._picklable_details()}
         return (type(self), self.args, state)
 
-    def _picklable_details(self) -> tuple[Any, ...]:
+    def _picklable_details(self) -> Mapping[str, Any]:
         return self._details
 
 
@@ -136,19 +143,21 @@ class ConnectivityException(TransformException):
         source_root: The root of the source's tree.
     """
 
-    # (target frame, source frame, target's root, source's root)
-
-    target_frame = property(lambda self: self._details[0] if self._details else "")
-    source_frame = property(lambda self: self._details[1] if self._details else "")
-    target_root = property(lambda self: self._details[2] if self._details else "")
-    source_root = property(lambda self: self._details[3] if self._details else "")
+    target_frame = _detail("target_frame", "")
+    source_frame = _detail("source_frame", "")
+    target_root = _detail("target_root", "")
+    source_root = _detail("source_root", "")
 
     def _make_hint(self) -> str:
-        target, source, target_root, source_root = self._details
-        if target_root == source_root:
-            return f"'{target}' and '{source}' belong to one tree now, rooted at '{target_root}', but not at the time asked for."
+        target, source = f"'{self.target_frame}'", f"'{self.source_frame}'"
+        if self.target_root == self.source_root:
+            return (
+                f"{target} and {source} belong to one tree now, rooted at '{self.target_root}', "
+                "but not at the time asked for."
+            )
         return (
-            f"'{target}' belongs to the tree of root '{target_root}', '{source}' to that of '{source_root}'. "
+            f"{target} belongs to the tree of root '{self.target_root}', "
+            f"{source} to that of '{self.source_root}'. "
             "Somebody must publish a transform that joins the two."
         )
 
@@ -160,14 +169,12 @@ class LookupException(TransformException):
         frame: The name; empty if unknown.
     """
 
-    # (frame, something with frame_strings(), which names those that exist)
-
-    frame = property(lambda self: self._details[0] if self._details else "")
+    frame = _detail("frame", "")
 
     def _make_hint(self) -> str:
         import difflib
 
-        frame, buffer = self._details
+        frame, buffer = self.frame, self._details["buffer"]
         names = buffer.frame_strings() if buffer is not None else []
         if not names:
             return "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill this buffer?"
@@ -177,8 +184,8 @@ class LookupException(TransformException):
         some = ", ".join(map(repr, names[:10]))
         return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
 
-    def _picklable_details(self) -> tuple[Any, ...]:
-        return (self.frame, None) if self._details else ()
+    def _picklable_details(self) -> Mapping[str, Any]:
+        return {**self._details, "buffer": None} if self._details else {}
 
 
 class ExtrapolationException(TransformException):
@@ -196,16 +203,13 @@ class ExtrapolationException(TransformException):
         newest_ns: The time of the newest data of the link; 0 without data.
     """
 
-    # (target frame, source frame, parent frame, child frame, requested, oldest, newest, whether the
-    # link has data)
-
-    target_frame = property(lambda self: self._details[0] if self._details else "")
-    source_frame = property(lambda self: self._details[1] if self._details else "")
-    parent_frame = property(lambda self: self._details[2] if self._details else "")
-    child_frame = property(lambda self: self._details[3] if self._details else "")
-    requested_ns = property(lambda self: self._details[4] if self._details else 0)
-    oldest_ns = property(lambda self: self._details[5] if self._details else 0)
-    newest_ns = property(lambda self: self._details[6] if self._details else 0)
+    target_frame = _detail("target_frame", "")
+    source_frame = _detail("source_frame", "")
+    parent_frame = _detail("parent_frame", "")
+    child_frame = _detail("child_frame", "")
+    requested_ns = _detail("requested_ns", 0)
+    oldest_ns = _detail("oldest_ns", 0)
+    newest_ns = _detail("newest_ns", 0)
 
     def _link(self) -> str:
         return f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
@@ -235,7 +239,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
     """A link has no data at all, or a single sample of another time."""
 
     def _make_hint(self) -> str:
-        if not self._details[7]:
+        if not self._details["has_data"]:
             return f"Nothing is known of the transform of '{self.child_frame}' since the buffer was cleared."
         gap = (self.requested_ns - self.newest_ns) / 1e9
         side = "older" if gap > 0 else "younger"

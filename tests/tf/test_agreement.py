@@ -210,7 +210,7 @@ class TestLaws:
         )
 
         def angle(p: Any, q: Any) -> float:
-            x, y, z, w = plain.poses.multiply(plain.poses.conjugate(p.rotation), q.rotation)
+            x, y, z, w = plain.pose.multiply(plain.pose.conjugate(p.rotation), q.rotation)
             return 2 * math.atan2(math.hypot(x, y, z), abs(w))
 
         assert angle(begin, middle) == pytest.approx(angle(begin, end) * part / 1000, abs=1e-7)

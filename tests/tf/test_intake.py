@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -258,3 +259,17 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
     finally:
         stop.set()
         thread.join()
+
+
+def test_a_name_that_the_graph_learns_meanwhile_is_told_as_well():
+    """It may come on the graph's thread, between looking it up and telling the intake."""
+    gid, told = b"\x01" * 16, []
+    feed = SimpleNamespace(_publishers={gid: gid.hex()})
+
+    class Intake:
+        def name(self, known, name):
+            told.append(name)
+            feed._publishers[known] = "/talker"
+
+    listener._Feed._tell_name(feed, Intake(), gid)
+    assert told == [gid.hex(), "/talker"]

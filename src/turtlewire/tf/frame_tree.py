@@ -5,12 +5,13 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.tf import inspection
+from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.links import HasLinks, LinkInfo
+
 
 __all__ = ["FrameTree", "Link", "read_frame_tree"]
 
@@ -71,12 +72,12 @@ class FrameTree:
                 self.children[link.parent].append(link.child)
 
 
-def read_frame_tree(buffer: Buffer, most: int = sys.maxsize) -> FrameTree:
+def read_frame_tree(buffer: HasLinks, most: int = sys.maxsize) -> FrameTree:
     """The tree of a buffer as it is now; of its first ``most`` links."""
-    return FrameTree(_link(info) for info in inspection.links(buffer, most) if info.samples)
+    return FrameTree(_link(info) for info in links(buffer, most) if info.samples)
 
 
-def _link(info: inspection.LinkInfo) -> Link:
+def _link(info: LinkInfo) -> Link:
     length = (info.newest_ns - info.oldest_ns) / 1e9
     rate_hz = info.samples / max(length, _SHORTEST)
     broadcaster = info.senders[-1].name if info.senders else "no recorded authority"

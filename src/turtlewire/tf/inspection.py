@@ -5,8 +5,9 @@ Also saves a buffer to a file and loads it again.
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtlewire.tf.links import LinkInfo, Sender, links
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -36,42 +37,6 @@ _MOST_UNPACKED = 200
 _ALWAYS_UNPACKED = 1_000_000  # bytes; files with a few static transforms
 
 
-class Sender(NamedTuple):
-    """Who has sent samples of a link, with which parent."""
-
-    name: str
-    parent_frame: str
-    samples: int
-    newest_ns: int
-
-
-class LinkInfo(NamedTuple):
-    """One link of the tree: how a child frame lies in its parent."""
-
-    child_frame: str
-    parent_frame: str
-    static: bool
-    samples: int
-    oldest_ns: int
-    newest_ns: int
-    parent_changes: int
-    """How often the parent changes in the samples kept."""
-    memory_bytes: int
-    """Of the samples, with the room kept for more; 0 on the plain core."""
-    senders: tuple[Sender, ...]
-    """The last one to send is the last one here."""
-
-    @property
-    def rate_hz(self) -> float:
-        """Mean rate of the samples kept; 0 for a static link or a single sample."""
-        span = self.newest_ns - self.oldest_ns
-        return (self.samples - 1) * 1e9 / span if span else 0.0
-
-    def age_ns(self, now_ns: int) -> int:
-        """How old the newest sample is; 0 for a static link."""
-        return 0 if self.static else now_ns - self.newest_ns
-
-
 class Refused(NamedTuple):
     """What was refused of one child frame."""
 
@@ -98,22 +63,6 @@ class Conflict(NamedTuple):
     """``two publishers`` or ``two parents``."""
     child_frame: str
     text: str
-
-
-def links(buffer: Buffer, most: int = sys.maxsize) -> list[LinkInfo]:
-    """The first ``most`` links, in the order in which their frames were first heard of."""
-    return [LinkInfo(*row[:8], _senders(row[8])) for row in buffer._describe_links(most)]
-
-
-def _senders(rows: list[tuple[str, str, int, int]]) -> tuple[Sender, ...]:
-    """One for each name and parent: a sender that got its name late has several rows."""
-    merged: dict[tuple[str, str], Sender] = {}
-    for name, parent, samples, newest in rows:
-        known = merged.pop((name, parent), Sender(name, parent, 0, newest))
-        merged[name, parent] = Sender(
-            name, parent, known.samples + samples, max(known.newest_ns, newest)
-        )
-    return tuple(merged.values())
 
 
 def refusals(buffer: Buffer) -> dict[str, Refused]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from turtlewire.tf.arrays import HasPose
-    from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.links import HasLinks
 
     class Stamped(HasPose, Protocol):
         """A Transform of either core."""
@@ -50,7 +50,7 @@ _MARGIN = 34.0
 _AZIMUTH, _ELEVATION = math.radians(-125.0), math.radians(28.0)
 
 
-def buffer_svg(buffer: Buffer) -> str:
+def buffer_svg(buffer: HasLinks) -> str:
     """The tree of a buffer as an SVG document; of a large tree only the links that came first."""
     tree = read_frame_tree(buffer, _MOST_LINKS)
     frames = len(buffer.frame_strings())

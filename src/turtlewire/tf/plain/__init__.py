@@ -1,8 +1,9 @@
-"""The buffer in plain Python: the same answers as the compiled core, for machines without a compiler, and for reading.
+"""The buffer in plain Python, for machines without a compiler, and for reading.
 
-``poses`` is the arithmetic, ``links`` one link's history, ``tree`` the search between two frames,
-``texts`` tf2's words, ``cdr`` the bytes of a TFMessage, ``buffer`` the public class with its lock
-and its waiting.
+It gives the same answers as the compiled core, whose files have the same names: ``pose`` is the
+arithmetic, ``link`` one link's history, ``tree`` the search between two frames, ``failure`` and
+``report`` tf2's words, ``refusals`` what was not taken, ``tf_message`` the bytes of a TFMessage,
+``buffer`` the public class with its lock and its waiting.
 """
 
 from __future__ import annotations

@@ -7,7 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf.plain.checks import LIMIT, check_frames, nanoseconds, numbers
-from turtlewire.tf.plain.poses import (
+from turtlewire.tf.plain.failure import Failure
+from turtlewire.tf.plain.pose import (
     IDENTITY,
     Pose,
     Quaternion,
@@ -17,7 +18,6 @@ from turtlewire.tf.plain.poses import (
     multiply,
     rotate,
 )
-from turtlewire.tf.plain.texts import Failure
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:

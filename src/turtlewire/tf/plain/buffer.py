@@ -10,19 +10,18 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import CdrError, TransformException
-from turtlewire.tf.plain import batch, forks, inspection
-from turtlewire.tf.plain.cdr import decode_tf_message
+from turtlewire.tf.plain import batch, fork, inspection
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
-from turtlewire.tf.plain.poses import Pose, Quaternion, Vector, canonical, compose
-from turtlewire.tf.plain.texts import (
+from turtlewire.tf.plain.failure import (
     ERRORS,
     Failure,
     Question,
-    frames_as_dot,
-    frames_as_string,
-    frames_as_yaml,
-    refusal,
+    Refusal,
+    Verdict,
 )
+from turtlewire.tf.plain.pose import Pose, Quaternion, Vector, canonical, compose
+from turtlewire.tf.plain.report import frames_as_dot, frames_as_string, frames_as_yaml
+from turtlewire.tf.plain.tf_message import decode_tf_message
 from turtlewire.tf.plain.transform import Transform
 from turtlewire.tf.plain.tree import NO_PARENT, Tree
 from turtlewire.tf.status import LookupStatus
@@ -52,7 +51,7 @@ class Buffer:
         self._tree = Tree(keep)
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
-        forks.guard(self._changed)
+        fork.guard(self._changed)
 
     @property
     def cache_time_ns(self) -> int | None:
@@ -101,10 +100,10 @@ class Buffer:
             verdict = self._tree.set(
                 parent_frame, child_frame, stamp_ns, pose, authority, static=static
             )
-            if not verdict:
+            if verdict is Verdict.ACCEPTED:
                 self._changed.notify_all()
-        if verdict:
-            return refusal(verdict, child_frame, stamp_ns, pose, authority)
+        if verdict is not Verdict.ACCEPTED:
+            return Refusal(verdict, child_frame, stamp_ns, pose, authority).explain()
         self._call_listeners()
         return ""
 
@@ -123,11 +122,8 @@ class Buffer:
         except CdrError as error:
             with self._changed:
                 fault = str(error).removeprefix("not a TFMessage: ")
-                self._tree.malformed = (
-                    self._tree.malformed[0] + 1,
-                    fault,
-                    self._tree.shown_senders.get(authority, authority),
-                )
+                sender = self._tree.shown_senders.get(authority, authority)
+                self._tree.refusals.add_malformed(fault, sender)
             raise
         accepted = 0
         with self._changed:
@@ -135,11 +131,13 @@ class Buffer:
                 try:
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
-                    self._tree.refuse(
-                        "name", child.decode(errors="replace"), stamp, pose, authority
+                    shown = child.decode(errors="replace")
+                    self._tree.refusals.add(
+                        Refusal(Verdict.BAD_NAME, shown, stamp, pose, authority)
                     )
                     continue
-                accepted += not self._tree.set(*names, stamp, pose, authority, static=static)
+                verdict = self._tree.set(*names, stamp, pose, authority, static=static)
+                accepted += verdict is Verdict.ACCEPTED
             if accepted:
                 self._changed.notify_all()
         if accepted:
@@ -285,7 +283,7 @@ class Buffer:
         """The tree of frames as SVG, for notebooks."""
         from turtlewire.tf.notebook import buffer_svg
 
-        return buffer_svg(self)  # type: ignore[arg-type] # the twin has the methods of the compiled one
+        return buffer_svg(self)
 
     def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
         """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
@@ -362,11 +360,9 @@ class Buffer:
 
     def _error(self, failure: Failure) -> TransformException:
         error = ERRORS[failure.status](str(failure))
-        error._details = (
-            (*failure.details, self)
-            if failure.status == LookupStatus.UNKNOWN_FRAME
-            else failure.details
-        )
+        error._details = failure.details
+        if failure.status == LookupStatus.UNKNOWN_FRAME:
+            error._details = {**failure.details, "buffer": self}
         return error
 
     def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from itertools import groupby, islice
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from turtlewire.tf.plain.checks import check_frames, nanoseconds
-from turtlewire.tf.plain.texts import refusal
+from turtlewire.tf.plain.failure import Verdict
 from turtlewire.tf.plain.transform import Transform
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.tf.links import LinkRow
     from turtlewire.tf.plain.buffer import Buffer
 
 
@@ -129,9 +130,11 @@ def set_transforms(
     with self._changed:
         for stamp, row in zip(times, rows.tolist(), strict=True):
             x, y, z, qx, qy, qz, qw = row
-            accepted += not self._tree.set(
-                parent_frame, child_frame, stamp, (x, y, z, qx, qy, qz, qw), authority, static=False
+            pose = (x, y, z, qx, qy, qz, qw)
+            verdict = self._tree.set(
+                parent_frame, child_frame, stamp, pose, authority, static=False
             )
+            accepted += verdict is Verdict.ACCEPTED
         if accepted:
             self._changed.notify_all()
     if accepted:
@@ -139,7 +142,7 @@ def set_transforms(
     return accepted
 
 
-def describe_links(self: Buffer, most: int) -> list[tuple[Any, ...]]:
+def describe_links(self: Buffer, most: int) -> list[LinkRow]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return [
@@ -162,15 +165,18 @@ def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return {
-            child: (dict(record.counts), refusal(*record.last))
-            for child, record in self._tree.refusals.items()
+            child: (
+                {verdict.value: count for verdict, count in record.counts.items()},
+                record.last.explain(),
+            )
+            for child, record in self._tree.refusals.by_child.items()
         }
 
 
 def describe_malformed(self: Buffer) -> tuple[int, str, str]:
     """For turtlewire.tf.inspection."""
     with self._changed:
-        return self._tree.malformed
+        return self._tree.refusals.malformed
 
 
 def rename_sender(self: Buffer, name: str, shown: str) -> None:

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import TYPE_CHECKING, TypeAlias
 
-from turtlewire.tf.plain.links import Link, Sample, is_nan
-from turtlewire.tf.plain.poses import IDENTITY, Pose, between, canonical, compose, through_matrix
-from turtlewire.tf.plain.texts import (
+from turtlewire.tf.plain.failure import (
     Failure,
     Question,
+    Refusal,
+    Verdict,
     connection_failure,
-    frames_as_string,
     loop_failure,
     name_failure,
     time_failure,
 )
+from turtlewire.tf.plain.link import Link, Sample, is_nan
+from turtlewire.tf.plain.pose import IDENTITY, Pose, between, canonical, compose, through_matrix
+from turtlewire.tf.plain.refusals import Refusals
+from turtlewire.tf.plain.report import frames_as_string
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
@@ -25,29 +27,9 @@ MAX_GRAPH_DEPTH = 1000
 """tf2 takes more hops for a loop."""
 
 NO_PARENT = "NO_PARENT"
-_MOST_REFUSED = 1000
-
-VERDICT_NAMES = {
-    "self": "self_transform",
-    "no child": "no_child_frame",
-    "no parent": "no_parent_frame",
-    "nan": "nan_value",
-    "old": "old_data",
-    "reserved": "reserved_name",
-    "name": "bad_name",
-}
-"""How refusals are counted, by the keys of texts.refusal."""
 
 Reader: TypeAlias = "Callable[[Link], Sample | LookupStatus]"
 _LONGEST_NAME = 4096
-
-
-class Refusals:
-    """What was refused of one child frame: how often for which reason, and what texts.refusal needs to tell of the last."""
-
-    def __init__(self) -> None:
-        self.counts: Counter[str] = Counter()
-        self.last: tuple[str, str, int, Pose, str] = ("", "", 0, IDENTITY, "")
 
 
 class Tree:
@@ -57,39 +39,29 @@ class Tree:
         self.keep = keep
         self.frames: dict[str, None] = {}  # a set in order of arrival
         self.links: dict[str, Link] = {}
-        self.refusals: dict[str, Refusals] = {}  # by child frame
-        self.malformed = (0, "", "")  # messages; what was wrong with the last one, and who sent it
+        self.refusals = Refusals()
         self.shown_senders: dict[str, str] = {}
 
     def set(
         self, parent: str, child: str, stamp: int, pose: Pose, authority: str, *, static: bool
-    ) -> str:
-        """Add a sample. Returns the key of a refusal's text (see texts.refusal), or an empty string."""
+    ) -> Verdict:
+        """Add a sample."""
         parent, child = parent.removeprefix("/"), child.removeprefix("/")
         authority = self.shown_senders.get(authority, authority)
         verdict = self._insert(parent, child, stamp, pose, static=static)
-        if verdict:
-            self.refuse(verdict, child, stamp, pose, authority)
-        else:
+        if verdict is Verdict.ACCEPTED:
             self.links[child].count_sender(authority, parent, stamp)
+        else:
+            self.refusals.add(Refusal(verdict, child, stamp, pose, authority))
         return verdict
 
-    def refuse(self, verdict: str, child: str, stamp: int, pose: Pose, authority: str) -> None:
-        """Count a sample that is not taken, by the key of the refusal's text."""
-        known = (
-            child if child in self.refusals or len(self.refusals) < _MOST_REFUSED else "(others)"
-        )
-        record = self.refusals.setdefault(known, Refusals())
-        record.counts[VERDICT_NAMES[verdict]] += 1
-        record.last = (verdict, child, stamp, pose, authority)
-
-    def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> str:
-        fault = _name_fault(parent, child)
-        if fault:
-            return fault
+    def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> Verdict:
+        verdict = _judge_names(parent, child)
+        if verdict is not Verdict.ACCEPTED:
+            return verdict
         stored = (*pose[:3], *through_matrix(pose[3:]))
         if is_nan(stored):
-            return "nan"
+            return Verdict.NAN_VALUE
         self.frames.setdefault(child)
         self.frames.setdefault(parent)
         link = self.links.get(child)
@@ -99,13 +71,13 @@ class Tree:
             if known is not None:
                 link.senders = known.senders
             self.links[child] = link
-        return "" if link.insert(stamp, Sample(parent, stored), self.keep) else "old"
+        fits = link.insert(stamp, Sample(parent, stored), self.keep)
+        return Verdict.ACCEPTED if fits else Verdict.OLD_DATA
 
     def rename_sender(self, name: str, shown: str) -> None:
         """Show another name for a sender, now and later."""
         self.shown_senders[name] = shown
-        count, fault, sender = self.malformed
-        self.malformed = (count, fault, shown if sender == name else sender)
+        self.refusals.rename_sender(name, shown)
         for link in self.links.values():
             link.rename_sender(name, shown)
 
@@ -256,19 +228,19 @@ def _earliest(stamps: list[int]) -> int:
     return min((stamp for stamp in stamps if stamp != 0), default=0)
 
 
-def _name_fault(parent: str, child: str) -> str:
+def _judge_names(parent: str, child: str) -> Verdict:
     if child == parent:
-        return "self"
+        return Verdict.SELF_TRANSFORM
     if not child:
-        return "no child"
+        return Verdict.NO_CHILD_FRAME
     if not parent:
-        return "no parent"
+        return Verdict.NO_PARENT_FRAME
     if NO_PARENT in {child, parent}:
-        return "reserved"
+        return Verdict.RESERVED_NAME
     for name in (child, parent):
         if "\0" in name or len(name.encode()) > _LONGEST_NAME:
-            return "name"
-    return ""
+            return Verdict.BAD_NAME
+    return Verdict.ACCEPTED
 
 
-__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "VERDICT_NAMES", "Failure", "Reader", "Refusals", "Tree"]
+__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "Failure", "Reader", "Tree"]

@@ -32,9 +32,9 @@ struct Rule {
   Reading read(const Link& link) const;
 };
 
-class Buffer {
+class Tree {
  public:
-  explicit Buffer(Stamp keep);
+  explicit Tree(Stamp keep);
 
   Stamp keep() const { return keep_; }
 

@@ -1,4 +1,4 @@
-#include "buffer.hpp"
+#include "tree.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,12 +26,12 @@ std::string_view without_slash(std::string_view name) {
 
 // ---------------------------------------------------------------- in
 
-Buffer::Buffer(Stamp keep) : keep_(keep) {
+Tree::Tree(Stamp keep) : keep_(keep) {
   links_.push_back(std::make_unique<Link>(arena_));
   last_link_ = links_.front().get();
 }
 
-FrameId Buffer::frame(std::string_view name) {
+FrameId Tree::frame(std::string_view name) {
   const FrameId id = frames_.intern(name);
   if (links_.size() < frames_.size()) {
     links_.push_back(std::make_unique<Link>(arena_));
@@ -42,12 +42,12 @@ FrameId Buffer::frame(std::string_view name) {
   return id;
 }
 
-FrameId Buffer::predicted(FrameId id, std::string_view name) const {
+FrameId Tree::predicted(FrameId id, std::string_view name) const {
   return id != 0 && frames_[id] == name ? id : 0;
 }
 
-Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
-                    SourceId source, bool is_static) {
+Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,
+                  SourceId source, bool is_static) {
   parent = without_slash(parent);
   child = without_slash(child);
   FrameId child_id = predicted(last_link_->follower, child);
@@ -85,13 +85,13 @@ Verdict Buffer::set(std::string_view parent, std::string_view child, Stamp stamp
   return Verdict::accepted;
 }
 
-Verdict Buffer::refuse(Verdict verdict, std::string_view parent, std::string_view child,
-                       Stamp stamp, const Pose& pose, SourceId source) {
+Verdict Tree::refuse(Verdict verdict, std::string_view parent, std::string_view child, Stamp stamp,
+                     const Pose& pose, SourceId source) {
   refusals_.add({verdict, parent, child, senders_[source], stamp, pose});
   return verdict;
 }
 
-std::vector<std::string> Buffer::remove(std::span<const FrameId> children) {
+std::vector<std::string> Tree::remove(std::span<const FrameId> children) {
   std::vector<std::string> names;
   std::vector<FrameId> concerned;
   for (const FrameId child : children) {
@@ -110,7 +110,7 @@ std::vector<std::string> Buffer::remove(std::span<const FrameId> children) {
 
 // Forgets those of the frames that are neither child nor parent of a link. The name of a forgotten
 // frame is freed unless it is still shown as the parent that a sender gave.
-void Buffer::forget(std::vector<FrameId> frames) {
+void Tree::forget(std::vector<FrameId> frames) {
   std::vector<bool> is_parent(links_.size()), is_shown(links_.size());
   for (const auto& link : links_) {
     link->for_parents([&](FrameId parent) { is_parent[parent] = true; });
@@ -128,14 +128,14 @@ void Buffer::forget(std::vector<FrameId> frames) {
   ++version_;
 }
 
-void Buffer::clear() {
+void Tree::clear() {
   for (const auto& link : links_) link->clear();
   ++version_;
 }
 
 // ---------------------------------------------------------------- names
 
-Status Buffer::resolve(std::string_view name, FrameId& id) const {
+Status Tree::resolve(std::string_view name, FrameId& id) const {
   if (name.empty()) return Status::empty_name;
   if (name.front() == '/') return Status::slash_name;
   const auto known = frames_.find(name);
@@ -145,7 +145,7 @@ Status Buffer::resolve(std::string_view name, FrameId& id) const {
 }
 
 // The top of the frame's present tree; some frame of the loop, should there be one.
-FrameId Buffer::root(FrameId frame) const {
+FrameId Tree::root(FrameId frame) const {
   for (int depth = 0; links_[frame]->has_data() && depth < kMaxGraphDepth; ++depth)
     frame = links_[frame]->parent();
   return frame;
@@ -153,12 +153,12 @@ FrameId Buffer::root(FrameId frame) const {
 
 // ---------------------------------------------------------------- paths
 
-void Buffer::drop_paths() {
+void Tree::drop_paths() {
   paths_.clear();
   ++path_epoch_;
 }
 
-const Path& Buffer::path(FrameId target, FrameId source) {
+const Path& Tree::path(FrameId target, FrameId source) {
   if (paths_.size() >= kMostPaths) drop_paths();
   auto& known = paths_[static_cast<std::uint64_t>(target) << 32 | source];
   if (!known) {
@@ -172,7 +172,7 @@ const Path& Buffer::path(FrameId target, FrameId source) {
 
 // The frames from `frame` to its root. False if a walk up this line can end otherwise than at the
 // root.
-bool Buffer::ancestors(FrameId frame, std::vector<FrameId>& line) const {
+bool Tree::ancestors(FrameId frame, std::vector<FrameId>& line) const {
   for (;; frame = links_[frame]->parent()) {
     line.push_back(frame);
     const Link& link = *links_[frame];
@@ -183,7 +183,7 @@ bool Buffer::ancestors(FrameId frame, std::vector<FrameId>& line) const {
   }
 }
 
-void Buffer::add_step(std::vector<Step>& arm, const Link& link) const {
+void Tree::add_step(std::vector<Step>& arm, const Link& link) const {
   if (!link.is_static()) {
     arm.push_back({&link, {}});
   } else if (!arm.empty() && arm.back().link == nullptr) {
@@ -193,7 +193,7 @@ void Buffer::add_step(std::vector<Step>& arm, const Link& link) const {
   }
 }
 
-void Buffer::build(Path& path) const {
+void Tree::build(Path& path) const {
   path.version = version_;
   path.up.clear();
   path.down.clear();

@@ -1,0 +1,183 @@
+"""Why a question has no answer, and why a transform was refused, in tf2's words."""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+from turtlewire import errors
+from turtlewire.tf.status import LookupStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from turtlewire.tf.plain.link import Link
+    from turtlewire.tf.plain.pose import Pose
+
+Question: TypeAlias = Literal["lookupTransform", "canTransform", "get_latest_common_time"]
+
+
+def seconds(stamp: int) -> float:
+    """As tf2 turns times and durations into seconds; its texts show the rounding."""
+    whole, rest = divmod(stamp, 1_000_000_000)
+    return whole + 1e-9 * rest
+
+
+class Failure(Exception):
+    """A question has no answer; the buffer turns it into a TransformException.
+
+    Attributes:
+        status: What is wrong, as batches tell it.
+        details: The attributes of the exception by name; see turtlewire.errors.
+        hopeless: Whether more data cannot help.
+    """
+
+    def __init__(
+        self,
+        text: str,
+        status: LookupStatus,
+        details: Mapping[str, Any] | None = None,
+        *,
+        hopeless: bool = False,
+    ) -> None:
+        super().__init__(text)
+        self.status = status
+        self.details = details or {}
+        self.hopeless = hopeless
+
+
+ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
+    LookupStatus.EMPTY_NAME: errors.InvalidArgumentException,
+    LookupStatus.SLASH_NAME: errors.InvalidArgumentException,
+    LookupStatus.UNKNOWN_FRAME: errors.LookupException,
+    LookupStatus.NOT_CONNECTED: errors.ConnectivityException,
+    LookupStatus.LOOP: errors.LookupException,
+    LookupStatus.NO_DATA: errors.NoDataForExtrapolationException,
+    LookupStatus.FUTURE: errors.ForwardExtrapolationException,
+    LookupStatus.PAST: errors.BackwardExtrapolationException,
+}
+
+
+def name_failure(status: LookupStatus, name: str, question: Question, argument: str) -> Failure:
+    """A frame id that cannot be asked for."""
+    why = {
+        LookupStatus.EMPTY_NAME: "cannot be empty",
+        LookupStatus.SLASH_NAME: "cannot start with a '/'",
+    }.get(status, "")
+    where = question if question == "get_latest_common_time" else f"{question} argument {argument}"
+    if question == "canTransform":
+        why = f"in tf2 frame_ids {why}" if why else "frame does not exist"
+        text = f'Invalid frame ID "{name}" passed to {where} - {why}'
+    elif status == LookupStatus.UNKNOWN_FRAME:
+        text = f'"{name}" passed to {where} does not exist. '
+    else:
+        text = f'Invalid argument "{name}" passed to {where} - in tf2 frame_ids {why}'
+    return Failure(text, status, {"frame": name}, hopeless=status != LookupStatus.UNKNOWN_FRAME)
+
+
+def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
+    """Two frames of different trees."""
+    return Failure(
+        f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."
+        "Tf has two or more unconnected trees.",
+        LookupStatus.NOT_CONNECTED,
+        {
+            "target_frame": target,
+            "source_frame": source,
+            "target_root": target_root,
+            "source_root": source_root,
+        },
+    )
+
+
+def loop_failure(frames: str) -> Failure:
+    """A walk that does not end."""
+    return Failure(
+        f"The tf tree is invalid because it contains a loop.\n{frames}\n", LookupStatus.LOOP
+    )
+
+
+def time_failure(
+    status: LookupStatus, child: str, link: Link, stamp: int, target: str, source: str, keep: int
+) -> Failure:
+    """A link whose data does not reach a time."""
+    asked, oldest, newest = (f"{seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
+    if status == LookupStatus.FUTURE:
+        text = f"Lookup would require extrapolation into the future.  Requested time {asked} but the latest data is at time {newest}"
+    elif status == LookupStatus.PAST:
+        text = f"Lookup would require extrapolation into the past.  Requested time {asked} but the earliest data is at time {oldest}"
+    elif link.has_data:
+        text = f"Lookup would require extrapolation at time {asked}, but only time {newest} is in the buffer"
+    else:
+        text = ""
+    return Failure(
+        f"{text}, when looking up transform from frame [{source}] to frame [{target}]",
+        status,
+        {
+            "target_frame": target,
+            "source_frame": source,
+            "parent_frame": link.parent,
+            "child_frame": child,
+            "requested_ns": stamp,
+            "oldest_ns": link.oldest,
+            "newest_ns": link.newest,
+            "has_data": link.has_data,
+        },
+        hopeless=status != LookupStatus.FUTURE and link.has_data and stamp < link.newest - keep,
+    )
+
+
+def _values(pose: Pose) -> str:
+    numbers = [
+        "-nan" if math.isnan(value) and math.copysign(1.0, value) < 0.0 else f"{value:.6f}"
+        for value in pose
+    ]
+    return f"({' '.join(numbers[:3])}) ({' '.join(numbers[3:])})"
+
+
+class Verdict(Enum):
+    """What became of a transform that was sent; the values are the names in statistics."""
+
+    ACCEPTED = "accepted"
+    SELF_TRANSFORM = "self_transform"
+    NO_CHILD_FRAME = "no_child_frame"
+    NO_PARENT_FRAME = "no_parent_frame"
+    NAN_VALUE = "nan_value"
+    OLD_DATA = "old_data"
+    RESERVED_NAME = "reserved_name"
+    BAD_NAME = "bad_name"
+
+
+class Refusal(NamedTuple):
+    """A transform that was not taken."""
+
+    verdict: Verdict
+    child: str
+    stamp: int
+    pose: Pose
+    authority: str
+
+    def explain(self) -> str:
+        """tf2's text for its own reasons, ours for the reasons that only we have."""
+        child, authority = self.child, self.authority
+        ignoring = f'Ignoring transform from authority "{authority}"'
+        return {
+            Verdict.ACCEPTED: "",
+            Verdict.SELF_TRANSFORM: f"TF_SELF_TRANSFORM: {ignoring} with frame_id and  "
+            f'child_frame_id "{child}" because they are the same',
+            Verdict.NO_CHILD_FRAME: f"TF_NO_CHILD_FRAME_ID: {ignoring} "
+            "because child_frame_id not set ",
+            Verdict.NO_PARENT_FRAME: f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"'
+            f'  from authority "{authority}" because frame_id not set',
+            Verdict.NAN_VALUE: f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" '
+            f'from authority "{authority}" because of a nan value in the transform '
+            f"{_values(self.pose)}",
+            Verdict.OLD_DATA: f"TF_OLD_DATA ignoring data from the past for frame {child} "
+            f"at time {seconds(self.stamp):.6f} according to authority {authority}\n"
+            "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained",
+            Verdict.RESERVED_NAME: f'{ignoring}: "NO_PARENT" is the name tf2 keeps '
+            "for the absence of a parent",
+            Verdict.BAD_NAME: f"{ignoring}: a frame id must be UTF-8 text without NUL, "
+            "of at most 4096 bytes",
+        }[self.verdict]

@@ -1,0 +1,66 @@
+"""The texts in which tf2 describes its whole tree."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.tf.plain.failure import seconds
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from turtlewire.tf.plain.link import Link
+
+
+def _rate(link: Link) -> float:
+    return link.length / max(seconds(link.newest - link.oldest), 0.0001)
+
+
+def frames_as_string(links: Mapping[str, Link]) -> str:
+    """tf2's list of frames and parents."""
+    return "".join(
+        f"Frame {child} exists with parent {link.parent}.\n" for child, link in links.items()
+    )
+
+
+def frames_as_yaml(links: Mapping[str, Link], now: float, *, empty: bool) -> str:
+    """tf2's YAML; ``now`` in seconds adds the delay."""
+    if empty:
+        return "[]"
+    text = []
+    for child, link in links.items():
+        if not link.has_data:
+            continue
+        text.append(
+            f"{child}: \n  parent: '{link.parent}'\n  broadcaster: '{link.sender}'\n  rate: {_rate(link):.3f}\n"
+            f"  most_recent_transform: {seconds(link.newest):.6f}\n  oldest_transform: {seconds(link.oldest):.6f}\n"
+        )
+        if now > 0.0:
+            text.append(f"  transform_delay: {now - seconds(link.newest):.3f}\n")
+        text.append(f"  buffer_length: {seconds(link.newest - link.oldest):.3f}\n")
+    return "".join(text)
+
+
+def frames_as_dot(frames: list[str], links: Mapping[str, Link], now: float) -> str:
+    """tf2's Graphviz text; ``now`` in seconds adds ages."""
+    text = ["digraph G {\n"]
+    if not frames:
+        text.append('"no tf data recieved"')
+    for child, link in links.items():
+        age = f"( {now - seconds(link.newest):.3f} sec old)" if now > 0.0 else ""
+        text.append(
+            f'"{link.parent}" -> "{child}"[label="Broadcaster: {link.sender}\\nAverage rate: {_rate(link):.3f} Hz\\n'
+            f"Most recent transform: {seconds(link.newest):.6f} {age}\\n"
+            f'Buffer length: {seconds(link.newest - link.oldest):.3f} sec\\n"];\n'
+        )
+    for frame in frames:
+        if frame in links and links[frame].has_data:
+            continue
+        text.append(
+            'edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+        )
+        if now > 0.0:
+            text.append(f'"Recorded at time: {now:.6f}"[ shape=plaintext ] ;\n')
+        text.append(f'}}->"{frame}";\n')
+    text.append("}")
+    return "".join(text)
