@@ -5,6 +5,7 @@ They import nothing of the tests: `scripts/smoke` runs them on installed wheels 
 
 from __future__ import annotations
 
+import atexit
 import itertools
 import os
 import struct
@@ -14,6 +15,8 @@ import time
 
 NO_MOVE = (0.0, 0.0, 0.0)
 NO_TURN = (0.0, 0.0, 0.0, 1.0)
+KEPT = []
+"""What the threads use until the program ends."""
 
 
 def in_daemons(action, threads=2):
@@ -55,6 +58,38 @@ def intake():
     from turtlewire._native import Intake
 
     in_daemons(Intake(False, 0, lambda: None).take)
+
+
+def expected_message():
+    """A message that is waited for: native code calls Python on the wire's thread."""
+    from turtlewire import Buffer, msg, wire
+    from turtlewire._native import Intake
+    from turtlewire.tf.listener import QOS, TYPE_NAME
+    from turtlewire.wire.base import TypeId
+
+    called = threading.Event()
+
+    def never_end():
+        called.set()
+        while True:
+            sum(range(2000))
+
+    intake = Intake(False, 0, never_end)
+    buffer = Buffer()
+    intake.feed((buffer,))
+    intake.expect()
+    context = wire.open_context(middleware="rmw_cyclonedds_cpp")
+    atexit.unregister(context.close)  # which would wait for the thread
+    node = context.create_node(f"exits_{os.getpid()}")
+    type_id = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+    publisher = node.create_publisher("/tf", type_id, QOS)
+    subscription = node.create_subscription(
+        "/tf", type_id, QOS, lambda _, info: intake.name(info.publisher_gid, "me"), intake
+    )
+    cdr = msg.serialize(msg.get_message(TYPE_NAME)())
+    while not called.wait(0.01):
+        publisher.publish(cdr)
+    KEPT.append((context, node, publisher, subscription, buffer))
 
 
 def change_listener():
@@ -105,7 +140,8 @@ def spin_and_shutdown():
 
 
 KINDS = {
-    kind.__name__: kind for kind in (wait, batch, intake, change_listener, spin, spin_and_shutdown)
+    kind.__name__: kind
+    for kind in (wait, batch, intake, expected_message, change_listener, spin, spin_and_shutdown)
 }
 
 if __name__ == "__main__":

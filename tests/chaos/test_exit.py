@@ -13,7 +13,7 @@ import pytest
 
 PROGRAM = Path(__file__).with_name("exits.py")
 KINDS = (
-    ["wait", "batch", "intake", "change_listener", "spin", "spin_and_shutdown"]
+    ["wait", "batch", "intake", "expected_message", "change_listener", "spin", "spin_and_shutdown"]
     if importlib.util.find_spec("turtlewire._native")
     else ["wait", "batch", "change_listener", "spin", "spin_and_shutdown"]
 )
