@@ -33,7 +33,7 @@ DEBUG_NAMES = "debug lines name the class of a handler, which is another one her
 DEVIATIONS = {
     **dict.fromkeys((161, 163, 164, 166, 167, 169, 170, 172), CPP),
     **dict.fromkeys((175, 176, 332, 629, 719, 722), NO_DAEMON),
-    68: VERB_USAGE,
+    **dict.fromkeys((68, 331), VERB_USAGE),
     **dict.fromkeys((500, 503), OWN_HELP),
     **dict.fromkeys((551, 587, 737), OWN_PACKAGES),
     731: INTERPRETER,
