@@ -148,7 +148,8 @@ def example(name: str, number: float):
 def test_messages_go_both_ways(program: Path, vendor: str, context: Context, name: str):
     node = context.create_node("ours")
     publisher = node.create_publisher(f"/to_{vendor}/{name}", type_id(name), LIVE)
-    subscription = node.create_subscription(f"/from_{vendor}/{name}", type_id(name), LIVE)
+    # Latched: the peer may answer before its writer has heard of our reader.
+    subscription = node.create_subscription(f"/from_{vendor}/{name}", type_id(name), LATCHED)
     with running(program, context):
         assert context.graph.wait_for(
             lambda: publisher.subscription_count() == 1 and subscription.publisher_count() == 1,
