@@ -12,7 +12,8 @@ from turtlewire.errors import BagError
 if TYPE_CHECKING:
     from typing import Any
 
-    from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
+    from rosbag2_py._metadata import TopicMetadata
+    from rosbag2_py._storage import ConverterOptions, StorageOptions
 
 __all__ = [
     "SequentialCompressionWriter",
