@@ -1,6 +1,6 @@
 # The compiled core; use it through turtlewire.Buffer. The module itself has the docstrings.
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
@@ -153,6 +153,7 @@ class Buffer:
     def samples(
         self, child_frame: str
     ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]: ...
+    def stamps(self, child_frame: str) -> NDArray[np.int64]: ...
     def set_transforms(
         self,
         parent_frame: str,
@@ -168,6 +169,19 @@ class Buffer:
     def _describe_malformed(self) -> tuple[int, str, str]: ...
     def _rename_sender(self, name: str, shown: str) -> None: ...
     def _fault(self) -> str: ...
+
+class RecordWalk:
+    def __init__(self, start_ns: int, end_ns: int) -> None: ...
+    def walk(
+        self,
+        buffer: Buffer,
+        records: bytes | memoryview,
+        channels: Mapping[int, tuple[str, bool]],
+    ) -> int: ...
+    @property
+    def messages(self) -> int: ...
+    @property
+    def jumps(self) -> list[tuple[int, str, int]]: ...
 
 class MessageLookup:
     def __init__(self, buffer: Buffer, example: Any) -> None: ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.tf import datetimes
 from turtlewire.tf.plain.checks import LIMIT, nanoseconds
 
 if TYPE_CHECKING:
@@ -15,18 +16,20 @@ def times_of(stamps: int | ArrayLike) -> tuple[list[int], bool]:
     """The stamps, and whether a single one was given instead of an array."""
     import numpy as np
 
-    if isinstance(stamps, (int, np.integer)):
+    if isinstance(stamps, (int, np.integer, np.datetime64)) or hasattr(stamps, "to_datetime64"):
         return nanoseconds(stamps=stamps), True
     return stamp_list(stamps), False
 
 
 def stamp_list(stamps: ArrayLike) -> list[int]:
-    """The stamps of a one-dimensional array of integers, in nanoseconds."""
+    """The stamps of a one-dimensional array of integers or ``datetime64``, in nanoseconds."""
     import numpy as np
 
     array = np.asarray(stamps)
     if array.ndim != 1:
         raise ValueError("stamps must be one-dimensional")
+    if array.dtype.kind == "M":
+        return datetimes.nanoseconds_array(array).tolist()
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError("stamps must be integers (nanoseconds)")
     times = [int(stamp) for stamp in array]

@@ -55,6 +55,7 @@ class Buffer(SharedTree):
     remove_frame = inspection.remove_frame
     remove_stale = inspection.remove_stale
     samples = inspection.samples
+    stamps = inspection.stamps
     set_transforms = inspection.set_transforms
     _describe_links = inspection.describe_links
     _describe_refusals = inspection.describe_refusals

@@ -82,6 +82,17 @@ def remove_stale(self: SharedTree, before_ns: int) -> list[str]:
         return self._tree.remove(stale)
 
 
+def stamps(self: SharedTree, child_frame: str) -> NDArray[np.int64]:
+    """The times of a frame's samples in nanoseconds, oldest first; none for a static transform."""
+    import numpy as np
+
+    check_frames(child_frame=child_frame)
+    with self._changed:
+        self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
+        link = self._tree.links.get(child_frame)
+        return np.array([] if link is None or link.fixed else link.stamps, dtype=np.int64)
+
+
 def samples(
     self: SharedTree, child_frame: str
 ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
