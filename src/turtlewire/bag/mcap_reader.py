@@ -118,7 +118,7 @@ class McapFile:
         return self.messages_in(bytes(self.records(chunk)), chunk, wanted)
 
     def messages_in(
-        self, records: bytes | memoryview, chunk: ChunkIndex, wanted: Container[int] | None = None
+        self, records: bytes, chunk: ChunkIndex, wanted: Container[int] | None = None
     ) -> Iterator[tuple[int, int, int, bytes]]:
         """The same of a chunk's records, as `records` returns them."""
         unpack, unpack_message = OPCODE_AND_LENGTH.unpack_from, _MESSAGE.unpack_from

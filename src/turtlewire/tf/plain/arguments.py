@@ -29,7 +29,7 @@ def stamp_list(stamps: ArrayLike) -> list[int]:
     if array.ndim != 1:
         raise ValueError("stamps must be one-dimensional")
     if array.dtype.kind == "M":
-        return datetimes.nanoseconds_array(array).tolist()
+        return [int(stamp) for stamp in datetimes.nanoseconds_array(array)]
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError("stamps must be integers (nanoseconds)")
     times = [int(stamp) for stamp in array]
