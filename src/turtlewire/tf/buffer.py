@@ -15,6 +15,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from turtlewire.tf.surface import equip
+
 __all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
 
 _UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
@@ -51,3 +53,5 @@ if TYPE_CHECKING or CORE == "native":
     from turtlewire._native import Buffer, RecordWalk, Transform
 else:
     from turtlewire.tf.plain import Buffer, RecordWalk, Transform
+
+equip(Buffer, Transform)
