@@ -39,15 +39,26 @@ std::int64_t walk(RecordWalk& self, BufferObject& buffer, nb::handle records,
   return damage == RecordWalk::kNoDamage ? -1 : static_cast<std::int64_t>(damage);
 }
 
+nb::object text(const std::string& name) {
+  PyObject* decoded =
+      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "replace");
+  if (decoded == nullptr) throw nb::python_error();
+  return nb::steal(decoded);
+}
+
 nb::list jumps(const RecordWalk& self) {
   nb::list list;
-  for (const JumpBack& jump : self.jumps()) {
-    PyObject* child = PyUnicode_DecodeUTF8(jump.child.data(),
-                                           static_cast<Py_ssize_t>(jump.child.size()), "replace");
-    if (child == nullptr) throw nb::python_error();
-    list.append(nb::make_tuple(jump.log_time, nb::steal(child), jump.by));
-  }
+  for (const JumpBack& jump : self.jumps())
+    list.append(nb::make_tuple(jump.log_time, text(jump.child), jump.by));
   return list;
+}
+
+nb::dict steps_back(const RecordWalk& self) {
+  nb::dict steps;
+  for (const auto& [child, clock] : self.clocks()) {
+    if (clock.back > 0) steps[text(child)] = clock.back;
+  }
+  return steps;
 }
 
 }  // namespace
@@ -75,7 +86,10 @@ void add_record_walk_type(nb::module_& module) {
       .def_prop_ro("messages", &RecordWalk::messages, "How many messages were taken.")
       .def_prop_ro("jumps", &jumps,
                    "Where stamps fall back by more than a second: log time, the child frame of the "
-                   "message's first transform, and by how much, in nanoseconds.");
+                   "message's first transform, and by how much, in nanoseconds.")
+      .def_prop_ro("steps_back", &steps_back,
+                   "The largest step back of the stamps of such a frame, in nanoseconds, if there "
+                   "is one.");
 }
 
 }  // namespace turtlewire::python

@@ -93,14 +93,19 @@ void RecordWalk::take(Tree& tree, const Record& record, const TfChannel& channel
 }
 
 void RecordWalk::note_stamp(std::uint64_t log_time, const ReceivedTransform& first) {
-  auto known = newest_.find(first.child);
-  if (known == newest_.end()) {
-    newest_.emplace(first.child, first.stamp);
-  } else if (first.stamp < known->second - kJump) {
-    jumps_.push_back({log_time, std::string(first.child), known->second - first.stamp});
-    known->second = first.stamp;
+  auto known = clocks_.find(first.child);
+  if (known == clocks_.end()) {
+    clocks_.emplace(first.child, Clock{first.stamp, 0});
+    return;
+  }
+  Clock& clock = known->second;
+  const Stamp back = clock.newest - first.stamp;
+  clock.back = std::max(clock.back, back);
+  if (back > kJump) {
+    jumps_.push_back({log_time, std::string(first.child), back});
+    clock.newest = first.stamp;
   } else {
-    known->second = std::max(known->second, first.stamp);
+    clock.newest = std::max(clock.newest, first.stamp);
   }
 }
 

@@ -46,6 +46,13 @@ class RecordWalk {
   std::uint64_t messages() const { return messages_; }
   const std::vector<JumpBack>& jumps() const { return jumps_; }
 
+  // The newest stamp of a frame since its last jump, and the largest step back from it.
+  struct Clock {
+    Stamp newest, back;
+  };
+  // Of each frame that was the first of a message.
+  const auto& clocks() const { return clocks_; }
+
  private:
   struct Record;
   struct Hash : std::hash<std::string_view> {
@@ -59,8 +66,7 @@ class RecordWalk {
   std::uint64_t first_, last_;
   std::uint64_t messages_ = 0;
   std::vector<JumpBack> jumps_;
-  // The newest stamp of each frame that was the first of a message, since its last jump.
-  std::unordered_map<std::string, Stamp, Hash, std::equal_to<>> newest_;
+  std::unordered_map<std::string, Clock, Hash, std::equal_to<>> clocks_;
   TfMessage message_;
 };
 

@@ -15,6 +15,7 @@ module              what it holds
 `reader`            `Bag`, `open_bag`: messages in order of time over all files; `reindex`
 `transforms`        `load_transforms`: the TF of a bag in a buffer
 `transform_report`  `TransformReport`: its links, and what is wrong with them
+`trajectories`      `load_trajectory`: odometry and poses of a topic
 `progress`          a line that shows how far something is
 `message`           `BagMessage`
 `writer`            `BagWriter`
@@ -36,6 +37,7 @@ from __future__ import annotations
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
 from turtlewire.bag.reader import Bag, open_bag, reindex
+from turtlewire.bag.trajectories import load_trajectory, pose_topics
 from turtlewire.bag.transform_report import Jump, TransformReport
 from turtlewire.bag.transforms import load_transforms
 from turtlewire.bag.writer import BagWriter
@@ -49,7 +51,9 @@ __all__ = [
     "Jump",
     "TopicInfo",
     "TransformReport",
+    "load_trajectory",
     "load_transforms",
     "open_bag",
+    "pose_topics",
     "reindex",
 ]

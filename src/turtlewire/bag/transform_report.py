@@ -44,6 +44,7 @@ class TransformReport:
         links: Each link with its rate, times and senders (the topics).
         gaps: Pauses in the samples of links, by child frame.
         jumps: Where stamps fall back by more than a second.
+        steps_back: By child frame, the largest step back of its stamps, in nanoseconds.
         conflicts: Frames with two parents, or on two topics.
         refused: Transforms that tf2 refuses, by child frame.
         malformed: Messages that are no ``TFMessage``.
@@ -56,6 +57,7 @@ class TransformReport:
     links: list[LinkInfo] = field(default_factory=list)
     gaps: dict[str, list[Gap]] = field(default_factory=dict)
     jumps: list[Jump] = field(default_factory=list)
+    steps_back: dict[str, int] = field(default_factory=dict)
     conflicts: list[Conflict] = field(default_factory=list)
     refused: dict[str, Refused] = field(default_factory=dict)
     malformed: Malformed | None = None

@@ -105,6 +105,7 @@ def fill_buffer(
             reader.read(names & known.keys(), start_ns, end_ns, static=static)
             report.messages += walk.messages
             report.jumps += group_jumps(walk.jumps)
+            report.steps_back.update(walk.steps_back)
         tell(1.0)
         report.problems = bag.problems
     describe(buffer, report)

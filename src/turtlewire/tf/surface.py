@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     AnyBuffer = TypeVar("AnyBuffer", bound=Buffer)
 
-__all__ = ["equip"]
+__all__ = ["bag_report", "equip", "from_bag", "trajectory"]
 
 _FOREVER = (1 << 64) - 1
 _REPORTS: weakref.WeakKeyDictionary[Any, Any] = weakref.WeakKeyDictionary()

@@ -46,6 +46,7 @@ class RecordWalk:
         messages: How many messages were taken.
         jumps: Where stamps fall back by more than a second: log time, the child frame of the
             message's first transform, and by how much, in nanoseconds.
+        steps_back: The largest step back of the stamps of such a frame, if there is one.
     """
 
     def __init__(self, start_ns: int, end_ns: int) -> None:
@@ -54,6 +55,7 @@ class RecordWalk:
         self._children: dict[bytes, bytes] = {}  # by the names of a message with one transform
         self.messages = 0
         self.jumps: list[tuple[int, str, int]] = []
+        self.steps_back: dict[str, int] = {}
 
     def walk(
         self,
@@ -116,8 +118,14 @@ class RecordWalk:
         newest = self._newest.get(child)
         if newest is None or stamp >= newest:
             self._newest[child] = stamp
-        elif stamp < newest - _JUMP_NS:
-            self.jumps.append((log_time, child.decode(errors="replace"), newest - stamp))
+        else:
+            self._note_step_back(log_time, child, stamp, newest - stamp)
+
+    def _note_step_back(self, log_time: int, child: bytes, stamp: int, back: int) -> None:
+        name = child.decode(errors="replace")
+        self.steps_back[name] = max(back, self.steps_back.get(name, 0))
+        if back > _JUMP_NS:
+            self.jumps.append((log_time, name, back))
             self._newest[child] = stamp
 
 
