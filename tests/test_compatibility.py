@@ -219,7 +219,7 @@ colcon builds a package whose `package.xml` cannot be read, as one that ROS does
   turtlewire_ros/test_colcon_interfaces.py test_a_broken_manifest_is_named_with_its_line
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
-`ros2 bag`, `control`, `security`
+`ros2 control`, `security`
   ros2cli/test_suggestions.py test_commands_that_are_not_here
 an unknown option shows the usage of `ros2`
   ros2cli/test_extensions.py test_unknown_options_show_the_usage_of_the_verb

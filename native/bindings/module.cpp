@@ -3,7 +3,6 @@
 #include "errors.hpp"
 #include "intake.hpp"
 #include "message.hpp"
-#include "record_walk.hpp"
 #include "transform.hpp"
 
 NB_MODULE(_native, module) {
@@ -17,6 +16,5 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
-  add_record_walk_type(module);
   add_cyclone_types(module);
 }

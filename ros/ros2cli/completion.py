@@ -24,6 +24,7 @@ __all__ = [
     "interface_packages",
     "interfaces",
     "managed_node_names",
+    "message_types",
     "message_values",
     "node_names",
     "packages",
@@ -63,6 +64,11 @@ def interface_packages(**_: Any) -> list[str]:
 def interfaces(**_: Any) -> list[str]:
     """Full names of all interfaces."""
     return interface_names()
+
+
+def message_types(**_: Any) -> list[str]:
+    """Full names of all messages."""
+    return interface_names("msg")
 
 
 def topic_names(**_: Any) -> list[str]:

@@ -8,21 +8,25 @@ from rosbag2_py._compression_options import (
 )
 from rosbag2_py._info import Info
 from rosbag2_py._message_definitions import LocalMessageDefinitionSource
-from rosbag2_py._metadata import BagMetadata, FileInformation, TopicInformation, TopicMetadata
 from rosbag2_py._reader import (
     SequentialCompressionReader,
     SequentialReader,
     get_registered_readers,
 )
+from rosbag2_py._recorder import Recorder
 from rosbag2_py._reindexer import Reindexer
 from rosbag2_py._storage import (
+    BagMetadata,
     ConverterOptions,
+    FileInformation,
     MessageDefinition,
     MetadataIo,
     ReadOrder,
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
+    TopicInformation,
+    TopicMetadata,
     convert_rclcpp_qos_to_rclpy_qos,
     get_default_storage_id,
     to_rclcpp_qos_vector,
@@ -34,6 +38,7 @@ from rosbag2_py._writer import (
     get_registered_serializers,
     get_registered_writers,
 )
+from rosbag2_transport.options import PlayOptions, RecordOptions, ServiceRequestsSource
 
 __all__ = [
     "BagMetadata",
@@ -45,13 +50,17 @@ __all__ = [
     "LocalMessageDefinitionSource",
     "MessageDefinition",
     "MetadataIo",
+    "PlayOptions",
     "ReadOrder",
     "ReadOrderSortBy",
+    "RecordOptions",
+    "Recorder",
     "Reindexer",
     "SequentialCompressionReader",
     "SequentialCompressionWriter",
     "SequentialReader",
     "SequentialWriter",
+    "ServiceRequestsSource",
     "StorageFilter",
     "StorageOptions",
     "TopicInformation",

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 from rosbag2_py._compression_options import CompressionMode, CompressionOptions
-from turtlewire.bag import BagWriter
+from rosbag2_py._open_writer import make_writer
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from typing import Any
-
-    from rosbag2_py._metadata import TopicMetadata
-    from rosbag2_py._storage import ConverterOptions, StorageOptions
+    from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
+    from turtlewire.bag import BagWriter
 
 __all__ = [
     "SequentialCompressionWriter",
@@ -22,18 +19,6 @@ __all__ = [
     "get_registered_serializers",
     "get_registered_writers",
 ]
-
-_SMALLEST_SPLIT = {"mcap": 1024, "sqlite3": 86_016}
-
-#: What the presets of rosbag2's MCAP storage mean.
-_PRESETS: dict[str, dict[str, Any]] = {
-    "": {},
-    "none": {},
-    "fastwrite": {},
-    "zstd_fast": {"compression": "zstd", "level": -5},
-    "zstd_small": {"compression": "zstd", "level": 19, "chunk_bytes": 4 << 20},
-    "resilient": {},
-}
 
 
 def get_registered_writers() -> set[str]:
@@ -69,36 +54,7 @@ class SequentialWriter:
         Raises:
             RuntimeError: It exists, or the options do not fit.
         """
-        storage = storage_options.storage_id or "mcap"
-        size = storage_options.max_bagfile_size
-        if size and size < (smallest := _SMALLEST_SPLIT.get(storage, 0)):
-            raise RuntimeError(
-                "Invalid bag splitting size given. "
-                f"Please provide a value greater than {smallest}. Specified value of {size}"
-            )
-        if storage_options.storage_preset_profile not in _PRESETS:
-            raise RuntimeError(
-                f"unknown storage preset profile '{storage_options.storage_preset_profile}'"
-            )
-        preset = _PRESETS[storage_options.storage_preset_profile] if storage == "mcap" else {}
-        try:
-            self._writer = BagWriter(
-                storage_options.uri,
-                storage=storage,
-                compression_mode=self._mode,
-                max_file_bytes=size,
-                max_file_ns=storage_options.max_bagfile_duration * 1_000_000_000,
-                custom_data=storage_options.custom_data,
-                ros_distro=os.environ.get("ROS_DISTRO", "jazzy"),
-                **preset,
-            )
-        except FileExistsError as error:
-            raise RuntimeError(
-                f"Bag directory already exists ({storage_options.uri}), "
-                "can't overwrite existing bag"
-            ) from error
-        except BagError as error:
-            raise RuntimeError(str(error)) from error
+        self._writer = make_writer(storage_options, self._mode)
 
     def _opened(self) -> BagWriter:
         if self._writer is None:

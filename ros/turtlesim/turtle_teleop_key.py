@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import copy
 import os
-import select
 import signal
 import sys
 import threading
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -18,12 +16,9 @@ from rclpy.executors import ExternalShutdownException
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
+from turtlewire.keyboard import Keyboard
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
-    from typing_extensions import Self
-
     from rclpy.task import Future
 
 __all__ = ["BANNER", "NO_TERMINAL", "NO_TERMINAL_HINT", "TeleopTurtle", "main"]
@@ -101,85 +96,6 @@ class TeleopTurtle(CppNode):
             self._goal.result().cancel_goal_async()
 
 
-class _Keyboard:
-    """The terminal, in a mode that gives each byte as it is typed within a ``with`` block.
-
-    It is put back into its own mode at the end of the block, and while Ctrl-Z stops the process.
-    For the main thread, except for :meth:`stop`.
-
-    Raises:
-        OSError: There is no terminal.
-    """
-
-    def __init__(self) -> None:
-        import termios
-
-        self._fd = _terminal()
-        try:
-            self._cooked = termios.tcgetattr(self._fd)
-        except termios.error as error:
-            raise OSError(*error.args) from error
-        self._wake_read, self._wake_write = os.pipe()
-
-    def __enter__(self) -> Self:
-        self._take()
-        self._handlers = {
-            number: signal.signal(number, handler)
-            for number, handler in (
-                (signal.SIGTSTP, self._suspend),
-                (signal.SIGCONT, lambda *_: self._take()),
-            )
-        }
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        for number, handler in self._handlers.items():
-            signal.signal(number, handler)
-        self._give_back()
-
-    def _take(self) -> None:
-        import termios
-
-        raw = copy.deepcopy(self._cooked)
-        raw[3] &= ~(termios.ICANON | termios.ECHO)
-        raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
-        self._set(raw)
-
-    def _give_back(self) -> None:
-        self._set(self._cooked)
-
-    def _set(self, mode: list[Any]) -> None:
-        import termios
-
-        # The terminal may be gone. In the background the attempt stops the process (SIGTTOU); the
-        # next SIGCONT interrupts it, and its handler tries again.
-        with contextlib.suppress(termios.error):
-            termios.tcsetattr(self._fd, termios.TCSANOW, mode)
-
-    def _suspend(self, *_: object) -> None:
-        self._give_back()
-        os.kill(os.getpid(), signal.SIGSTOP)
-
-    def read(self) -> bytes:
-        """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
-        ready, _, _ = select.select([self._fd, self._wake_read], [], [])
-        if self._wake_read in ready:
-            return b""
-        try:
-            return os.read(self._fd, 1)
-        except OSError:  # what a terminal that was closed says
-            return b""
-
-    def stop(self) -> None:
-        """End the present and all later reads. Safe from any thread."""
-        os.write(self._wake_write, b"\0")
-
-
 def main(args: list[str] | None = None) -> int:
     """Read keys until ``q``, Ctrl-C or the end of the terminal.
 
@@ -193,7 +109,7 @@ def main(args: list[str] | None = None) -> int:
         )
         return 1
     try:
-        keyboard = _Keyboard()
+        keyboard = Keyboard(_terminal())
     except OSError:
         _complain(NO_TERMINAL, NO_TERMINAL_HINT)
         return 1

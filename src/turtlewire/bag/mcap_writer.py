@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from itertools import accumulate
 
 from turtlewire.bag.compression import compress
 from turtlewire.bag.mcap_records import (
@@ -70,7 +69,7 @@ class McapWriter:
         self._channels = 0
         self._chunk_indexes: list[bytes] = []
         self._metadata_indexes: list[bytes] = []
-        self._file = open(path, "xb")  # noqa: SIM115 - closed by close()
+        self._file = open(path, "xb", buffering=0)  # noqa: SIM115 - closed by close()
         self.file_bytes = 0
         self.message_count = 0
         self.start_ns = (1 << 64) - 1
@@ -127,7 +126,10 @@ class McapWriter:
         self._put(content)
 
     def flush(self) -> None:
-        """Write the pending messages as a chunk and hand it to the operating system."""
+        """Write the pending messages as a chunk and hand it to the operating system.
+
+        After an error the messages still wait, and the file ends with its last whole record.
+        """
         if not self._pending and not self._new_definitions:
             return
         pack, fields = _MESSAGE.pack, _MESSAGE.size - OPCODE_AND_LENGTH.size
@@ -137,12 +139,18 @@ class McapWriter:
             pack(Op.MESSAGE, fields + len(data), channel, 0, log_time, publish_time) + data
             for channel, log_time, publish_time, data in self._pending
         ]
-        offsets = accumulate(map(len, messages), initial=len(definitions))
-        index: dict[int, list[int]] = {}
-        for (channel, log_time, _, _), offset in zip(self._pending, offsets, strict=False):
-            index.setdefault(channel, []).extend((log_time, offset))
-        self._write_chunk(definitions + b"".join(messages), index)
+        index: dict[int, list[int]] = {channel: [] for channel, *_ in self._pending}
+        position = len(definitions)
+        for (channel, log_time, _, _), message in zip(self._pending, messages, strict=True):
+            index[channel] += (log_time, position)
+            position += len(message)
+        messages.insert(0, definitions)
+        self._write_chunk(b"".join(messages), index)
         self._new_definitions.clear()
+        self.discard()
+
+    def discard(self) -> None:
+        """Forget the pending messages, for example because the disk is full."""
         self._pending.clear()
         self._pending_bytes = 0
 
@@ -157,22 +165,22 @@ class McapWriter:
         start, end = (min(times), max(times)) if times else (0, 0)
         crc = zlib.crc32(records) if self._checksums else 0
         packed = compress(self._compression, records, self._level)
-        chunk = record(
-            Op.CHUNK,
+        fields = (
             struct.pack("<QQQI", start, end, len(records), crc)
             + pack_string(self._compression)
             + struct.pack("<Q", len(packed))
-            + packed,
         )
-        indexes, offsets = _message_indexes(index, self.file_bytes + len(chunk))
+        head = OPCODE_AND_LENGTH.pack(Op.CHUNK, len(fields) + len(packed)) + fields
+        chunk_bytes = len(head) + len(packed)
+        indexes, offsets = _message_indexes(index, self.file_bytes + chunk_bytes)
         chunk_index = (
-            struct.pack("<QQQQI", start, end, self.file_bytes, len(chunk), len(offsets))
+            struct.pack("<QQQQI", start, end, self.file_bytes, chunk_bytes, len(offsets))
             + offsets
             + struct.pack("<Q", len(indexes))
             + pack_string(self._compression)
             + struct.pack("<QQ", len(packed), len(records))
         )
-        self._put(chunk + indexes)
+        self._put(head, packed, indexes)
         self._chunk_indexes.append(record(Op.CHUNK_INDEX, chunk_index))
         for channel, entries in index.items():
             self.channel_counts[channel] = self.channel_counts.get(channel, 0) + len(entries) // 2
@@ -181,18 +189,35 @@ class McapWriter:
             self.end_ns = max(self.end_ns, end)
         self.message_count += len(times)
 
-    def _put(self, data: bytes) -> None:
-        self._file.write(data)
-        self._file.flush()
-        self.file_bytes += len(data)
+    def _put(self, *parts: bytes) -> None:
+        """Append to the file, or leave it as it was."""
+        try:
+            for part in parts:
+                rest = memoryview(part)
+                while rest:
+                    rest = rest[self._file.write(rest) :]
+        except OSError:
+            # Half a chunk would not hurt a reader, but the room that it takes may be the last.
+            self._file.truncate(self.file_bytes)
+            self._file.seek(self.file_bytes)
+            raise
+        self.file_bytes += sum(map(len, parts))
 
     def close(self) -> None:
-        """Write the summary and close the file."""
+        """Write the summary and close the file.
+
+        If the messages that wait cannot be written, they are lost, and the rest gets its summary.
+        """
         try:
-            self.flush()
-            self._put(record(Op.DATA_END, bytes(4)) + self._summary() + MAGIC)
+            try:
+                self.flush()
+            finally:
+                self._end()
         finally:
             self._file.close()
+
+    def _end(self) -> None:
+        self._put(record(Op.DATA_END, bytes(4)) + self._summary() + MAGIC)
 
     def _summary(self) -> bytes:
         """The summary section with its offsets and the footer."""

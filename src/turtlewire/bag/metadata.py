@@ -7,6 +7,7 @@ policies up to 8, words since. Both are told apart by what is there, as rosbag2 
 
 from __future__ import annotations
 
+import contextlib
 import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -183,11 +184,22 @@ def _topic(entry: dict[str, Any]) -> TopicInfo:
 
 
 def write_metadata(folder: str, metadata: BagMetadata) -> None:
-    """Write ``metadata.yaml`` (version 9) into a bag's folder."""
+    """Write ``metadata.yaml`` (version 9) into a bag's folder: the whole of it, or nothing.
+
+    Raises:
+        OSError: The disk is full, for example. A former ``metadata.yaml`` stays as it was.
+    """
     path = os.path.join(folder, METADATA_FILE)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(f"{_KEY}:\n")
-        file.writelines(f"  {line}\n" for line in dump_metadata(metadata).splitlines())
+    unfinished = path + ".part"
+    try:
+        with open(unfinished, "w", encoding="utf-8") as file:
+            file.write(f"{_KEY}:\n")
+            file.writelines(f"  {line}\n" for line in dump_metadata(metadata).splitlines())
+        os.replace(unfinished, path)
+    except OSError:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(unfinished)
+        raise
 
 
 def dump_metadata(metadata: BagMetadata) -> str:

@@ -97,17 +97,21 @@ class SqliteWriter:
         """Write the pending messages in one transaction."""
         if not self._pending:
             return
-        self._database.execute("BEGIN")
-        self._database.executemany(
-            "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
-        )
-        self._database.execute("COMMIT")
+        with self._database:  # commits, or takes back what an error left half done
+            self._database.execute("BEGIN")
+            self._database.executemany(
+                "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
+            )
         for topic_id, log_time, _ in self._pending:
             self.topic_counts[topic_id] += 1
             self.start_ns = min(self.start_ns, log_time)
             self.end_ns = max(self.end_ns, log_time)
         self.message_count += len(self._pending)
         self._file_bytes += self._pending_bytes
+        self.discard()
+
+    def discard(self) -> None:
+        """Forget the pending messages, for example because the disk is full."""
         self._pending.clear()
         self._pending_bytes = 0
 

@@ -24,7 +24,7 @@ from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import Message, serialize, type_hash
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from types import TracebackType
 
     from typing_extensions import Self
@@ -57,8 +57,15 @@ class BagWriter:
             ``"MESSAGE"`` each message (sqlite3 only), as rosbag2 does; ``""`` does neither.
         max_file_bytes: A new file begins when one has this size; 0 for one file.
         max_file_ns: A new file begins after this much recorded time; 0 for one file.
+        checksums: Whether chunks of an MCAP file carry a CRC-32.
         custom_data: Texts to keep in the metadata.
         ros_distro: Name of the distribution in the metadata.
+
+    Attributes:
+        path: The folder, absolute.
+        metadata: What the finished files hold.
+        on_split: Called with the paths of the finished and of the new file when a file begins
+            because the one before has its size or lasts long enough.
 
     Raises:
         FileExistsError: ``path`` exists.
@@ -76,6 +83,7 @@ class BagWriter:
         compression_mode: str = "",
         max_file_bytes: int = 0,
         max_file_ns: int = 0,
+        checksums: bool = True,
         custom_data: dict[str, str] | None = None,
         ros_distro: str = "",
     ) -> None:
@@ -90,7 +98,9 @@ class BagWriter:
             "compression": compression,
             "level": level,
             "chunk_bytes": chunk_bytes,
+            "checksums": checksums,
         }
+        self.on_split: Callable[[str, str], None] | None = None
         self._max_file_bytes = max_file_bytes
         self._max_file_ns = max_file_ns
         self._splits = bool(max_file_bytes or max_file_ns)
@@ -124,6 +134,15 @@ class BagWriter:
     def topics(self) -> dict[str, TopicInfo]:
         """The topics that were added, by name."""
         return dict(self._topics)
+
+    @property
+    def file_path(self) -> str:
+        """The file that is being written.
+
+        Raises:
+            BagError: The bag is closed.
+        """
+        return self._open().path
 
     def add_topic(
         self,
@@ -190,21 +209,18 @@ class BagWriter:
             OSError: The disk is full, for example. What was written before stays readable.
         """
         number = self._ids.get(topic)
-        file = self._file
-        if number is None or file is None:
+        if number is None or self._file is None:
             self._open()
             raise BagError(f"the topic '{topic}' was not added").with_hint(
                 "Call add_topic() first."
             )
-        if isinstance(data, Message):
-            data = serialize(data)
+        if not isinstance(data, bytes):
+            data = serialize(data) if isinstance(data, Message) else bytes(data)
         if self._compresses_messages:
             data = compress("zstd", data)
-        if publish_time_ns is None:
-            publish_time_ns = log_time_ns
-        file.write(number, log_time_ns, publish_time_ns, data)
+        self._file.write(number, log_time_ns, publish_time_ns or log_time_ns, data)
         if self._splits:
-            self._split_if_due(file, log_time_ns)
+            self._split_if_due(self._file, log_time_ns)
 
     def flush(self) -> None:
         """Hand all messages to the operating system: they survive this process."""
@@ -224,11 +240,17 @@ class BagWriter:
         return finished, self._file.path
 
     def close(self) -> None:
-        """Finish the file and write ``metadata.yaml``; closing twice does nothing."""
+        """Finish the file and write ``metadata.yaml``; closing twice does nothing.
+
+        Raises:
+            OSError: The disk is full, for example. What was written before stays readable.
+        """
         if self._file is not None:
             file, self._file = self._file, None
-            self._finish_file(file)
-            write_metadata(self.path, self._whole_metadata())
+            try:
+                self._finish_file(file)
+            finally:
+                write_metadata(self.path, self._whole_metadata())
 
     # -- one file
 
@@ -268,11 +290,32 @@ class BagWriter:
         if (self._max_file_bytes and file.size >= self._max_file_bytes) or (
             self._max_file_ns and lasts > self._max_file_ns
         ):
-            self.split()
+            paths = self.split()
+            if self.on_split is not None:
+                self.on_split(*paths)
 
     def _finish_file(self, file: McapWriter | SqliteWriter) -> str:
-        """Close a file and take it into the metadata; returns its path."""
-        file.flush()
+        """Close a file and take it into the metadata; returns its path.
+
+        What waits and cannot be written is lost, the rest is finished before the error is raised.
+        """
+        try:
+            try:
+                file.flush()
+            finally:
+                self._enter(file)
+                self._embed(file, self._whole_metadata())
+        finally:
+            file.close()
+        if self.metadata.compression_mode == "FILE":
+            write_zstd_file(file.path, file.path + ".zstd")
+            os.remove(file.path)
+            self.metadata.paths[-1] += ".zstd"
+        return os.path.join(self.path, self.metadata.paths[-1])
+
+    def _enter(self, file: McapWriter | SqliteWriter) -> None:
+        """Take what a file holds into the metadata."""
+        file.discard()
         counts = file.channel_counts if isinstance(file, McapWriter) else file.topic_counts
         for name, topic in self._topics.items():
             topic.message_count += counts.get(self._ids[name], 0)
@@ -281,13 +324,6 @@ class BagWriter:
         duration = file.end_ns - start
         self.metadata.files.append(FileInfo(name, start, duration, file.message_count))
         self.metadata.paths.append(name)
-        self._embed(file, self._whole_metadata())
-        file.close()
-        if self.metadata.compression_mode == "FILE":
-            write_zstd_file(file.path, file.path + ".zstd")
-            os.remove(file.path)
-            self.metadata.paths[-1] += ".zstd"
-        return os.path.join(self.path, self.metadata.paths[-1])
 
     def _embed(self, file: McapWriter | SqliteWriter, metadata: BagMetadata) -> None:
         text = dump_metadata(metadata)

@@ -1,0 +1,141 @@
+"""What recorder and player are asked to do."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass, field
+from datetime import timedelta
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+
+__all__ = ["PlayOptions", "RecordOptions", "ServiceRequestsSource"]
+
+
+class ServiceRequestsSource(enum.Enum):
+    """Whose record of a service request is played."""
+
+    SERVICE_INTROSPECTION = 0
+    CLIENT_INTROSPECTION = 1
+
+
+@dataclass
+class RecordOptions:
+    """What is recorded, and how.
+
+    Attributes:
+        all_topics: Record all topics.
+        all_services: Record the events of all services.
+        is_discovery_disabled: Look only once for topics.
+        topics: Names of topics.
+        topic_types: Types whose topics are recorded.
+        services: Names of the event topics of services (``/add/_service_event``).
+        exclude_topics: Names of topics that are left out.
+        exclude_topic_types: Types whose topics are left out.
+        exclude_service_events: Names of event topics that are left out.
+        rmw_serialization_format: Only ``cdr`` is known, which is also what an empty text means.
+        topic_polling_interval: How long changes of the graph are collected before the next look.
+        regex: A pattern; topics and services in whose name it is found are recorded.
+        exclude_regex: A pattern; what it is found in is left out.
+        node_prefix: Put in front of the node's name.
+        compression_mode: ``file``, ``message``, ``none`` or empty.
+        compression_format: ``zstd``, or empty.
+        compression_queue_size: Accepted as in ROS 2; the cache bounds what waits.
+        compression_threads: Accepted as in ROS 2.
+        compression_threads_priority: Accepted as in ROS 2.
+        topic_qos_profile_overrides: QoS of subscriptions by topic.
+        include_hidden_topics: Record topics whose name has a part that begins with ``_``.
+        include_unpublished_topics: Record topics that nobody publishes at the moment.
+        ignore_leaf_topics: Leave out topics that nobody subscribes to.
+        start_paused: Begin paused.
+        use_sim_time: Take the time of messages from ``/clock``.
+        disable_keyboard_controls: Do not read keys.
+    """
+
+    all_topics: bool = False
+    all_services: bool = False
+    is_discovery_disabled: bool = False
+    topics: list[str] = field(default_factory=list)
+    topic_types: list[str] = field(default_factory=list)
+    services: list[str] = field(default_factory=list)
+    exclude_topics: list[str] = field(default_factory=list)
+    exclude_topic_types: list[str] = field(default_factory=list)
+    exclude_service_events: list[str] = field(default_factory=list)
+    rmw_serialization_format: str = ""
+    topic_polling_interval: timedelta = timedelta(milliseconds=100)
+    regex: str = ""
+    exclude_regex: str = ""
+    node_prefix: str = ""
+    compression_mode: str = ""
+    compression_format: str = ""
+    compression_queue_size: int = 1
+    compression_threads: int = 0
+    compression_threads_priority: int = 0
+    topic_qos_profile_overrides: dict[str, QoSProfile] = field(default_factory=dict)
+    include_hidden_topics: bool = False
+    include_unpublished_topics: bool = False
+    ignore_leaf_topics: bool = False
+    start_paused: bool = False
+    use_sim_time: bool = False
+    disable_keyboard_controls: bool = False
+
+
+@dataclass
+class PlayOptions:
+    """What is played, and how. Times are seconds; negative means "without".
+
+    Attributes:
+        read_ahead_queue_size: How many messages are read before they are due.
+        node_prefix: Put in front of the node's name.
+        rate: Bag seconds in one second.
+        topics_to_filter: Names of the topics to play; empty for all.
+        services_to_filter: Names of the service event topics to play; empty for all.
+        regex_to_filter: A pattern that matches whole names of what is played.
+        exclude_regex_to_filter: A pattern that matches whole names of what is left out.
+        exclude_topics_to_filter: Names of topics that are left out.
+        exclude_service_events_to_filter: Names of event topics that are left out.
+        topic_qos_profile_overrides: QoS of publishers by topic.
+        loop: Begin again at the end.
+        topic_remapping_options: Words of a command line: ``--ros-args --remap /a:=/b``.
+        clock_publish_frequency: How often ``/clock`` is published [Hz]; 0 for never.
+        clock_publish_on_topic_publish: Publish ``/clock`` with each message.
+        clock_trigger_topics: Publish ``/clock`` with the messages of these topics.
+        delay: How long to wait before each playback.
+        playback_duration: How much of the bag is played.
+        playback_until_timestamp: Time of the bag at which to end [ns].
+        start_paused: Begin paused.
+        start_offset: Where in the bag to begin.
+        disable_keyboard_controls: Do not read keys.
+        wait_acked_timeout: How long to wait at the end until all reliable subscriptions have all
+            messages [ms]; 0 for ever.
+        disable_loan_message: Accepted as in ROS 2; messages are never loaned.
+        publish_service_requests: Send recorded requests to services instead of their events.
+        service_requests_source: Whose record of a request is sent.
+    """
+
+    read_ahead_queue_size: int = 1000
+    node_prefix: str = ""
+    rate: float = 1.0
+    topics_to_filter: list[str] = field(default_factory=list)
+    services_to_filter: list[str] = field(default_factory=list)
+    regex_to_filter: str = ""
+    exclude_regex_to_filter: str = ""
+    exclude_topics_to_filter: list[str] = field(default_factory=list)
+    exclude_service_events_to_filter: list[str] = field(default_factory=list)
+    topic_qos_profile_overrides: dict[str, QoSProfile] = field(default_factory=dict)
+    loop: bool = False
+    topic_remapping_options: list[str] = field(default_factory=list)
+    clock_publish_frequency: float = 0.0
+    clock_publish_on_topic_publish: bool = False
+    clock_trigger_topics: list[str] = field(default_factory=list)
+    delay: float = 0.0
+    playback_duration: float = -1.0
+    playback_until_timestamp: int = -1
+    start_paused: bool = False
+    start_offset: float = 0.0
+    disable_keyboard_controls: bool = False
+    wait_acked_timeout: int = -1
+    disable_loan_message: bool = False
+    publish_service_requests: bool = False
+    service_requests_source: ServiceRequestsSource = ServiceRequestsSource.SERVICE_INTROSPECTION

@@ -1,0 +1,136 @@
+"""One recording from beginning to end."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from typing import TYPE_CHECKING
+
+from rclpy.logging import get_logger
+from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
+from rosbag2_transport.recorder import Recorder
+from rosbag2_transport.recorder_services import RecorderServices
+from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
+from turtlewire.bag.recording import Recording
+
+if TYPE_CHECKING:
+    import queue
+
+    from rosbag2_transport.options import RecordOptions
+    from turtlewire.bag.writer import BagWriter
+
+__all__ = ["record"]
+
+
+def record(
+    writer: BagWriter,
+    options: RecordOptions,
+    stop: queue.SimpleQueue[None],
+    *,
+    node_name: str = "rosbag2_recorder",
+    cache_bytes: int = 0,
+    snapshot: bool = False,
+) -> None:
+    """Record until ``stop`` holds an item, SIGINT or SIGTERM comes, or the disk is full.
+
+    Args:
+        writer: The bag; it is closed at the end.
+        options: What is recorded.
+        stop: Ends the recording.
+        node_name: Name of the recorder's node.
+        cache_bytes: How many bytes may wait for the disk; 0 for no limit.
+        snapshot: Whether only snapshots are written.
+
+    Raises:
+        RuntimeError: A pattern is no regular expression, or the bag could not be written any more.
+    """
+    recording = Recording(
+        writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
+    )
+    failure: Exception | None = None
+    try:
+        name = options.node_prefix + node_name
+        with (
+            stopped_by_signals(stop),
+            Session(name, use_sim_time=options.use_sim_time) as session,
+        ):
+            _run(session, recording, writer, options, stop, snapshot)
+    finally:
+        try:
+            recording.close()
+        except (OSError, sqlite3.Error) as error:
+            failure = error
+        _report_lost(recording)
+    failure = recording.failure or failure
+    if failure is not None:
+        raise RuntimeError(
+            f"Recording stopped: {failure}. What was recorded before is in {writer.path}"
+        )
+
+
+def _run(
+    session: Session,
+    recording: Recording,
+    writer: BagWriter,
+    options: RecordOptions,
+    stop: queue.SimpleQueue[None],
+    snapshot: bool,
+) -> None:
+    logger = session.node.get_logger()
+    recorder = Recorder(session.node, recording, options)
+    services = RecorderServices(session.node, recorder, recording, snapshot=snapshot)
+    writer.on_split = lambda closed, opened: _split(services, writer, closed, opened)
+    with handle_keys({b" ": recorder.toggle_paused}, not options.disable_keyboard_controls):
+        if not options.disable_keyboard_controls:
+            logger.info("Press SPACE for pausing/resuming")
+        logger.info("Event publisher thread: Starting")
+        logger.info("Listening for topics...")
+        recorder.start()
+        paused = "Wait for recording: Press SPACE to start."
+        logger.info(paused if options.start_paused else "Recording...")
+        started = time.monotonic()
+        with ProgressLine(lambda: _progress(recorder, recording, time.monotonic() - started)):
+            stop.get()
+    recorder.pause()
+    recorder.stop()
+    _say_that_it_writes()
+    if writer.metadata.compression_mode == "FILE":
+        _say_that_it_compresses(writer.file_path)
+    logger.info("Event publisher thread: Exiting")
+    logger.info("Recording stopped")
+
+
+def _split(services: RecorderServices, writer: BagWriter, closed: str, opened: str) -> None:
+    _say_that_it_writes()
+    if writer.metadata.compression_mode == "FILE":
+        _say_that_it_compresses(closed.removesuffix(".zstd"))
+    services.report_split(closed, opened)
+
+
+def _say_that_it_writes() -> None:
+    get_logger("rosbag2_cpp").info(
+        "Writing remaining messages from cache to the bag. It may take a while"
+    )
+
+
+def _say_that_it_compresses(path: str) -> None:
+    get_logger("rosbag2_compression").info(f"Compressing file: {path}")
+
+
+def _progress(recorder: Recorder, recording: Recording, seconds: float) -> str:
+    status = recording.status
+    lost = f", {status.lost} lost" if status.lost else ""
+    state = "paused" if recorder.is_paused else "recording"
+    return (
+        f"{state} {time_text(seconds)}: {recorder.topics} topics, {status.messages} messages, "
+        f"{bytes_text(status.data_bytes)}{lost}"
+    )
+
+
+def _report_lost(recording: Recording) -> None:
+    if recording.lost:
+        lines = "".join(f"\n\t{topic}: {count}" for topic, count in recording.lost.items())
+        total = sum(recording.lost.values())
+        get_logger("rosbag2_cpp").warning(
+            f"Cache buffers lost messages per topic: {lines}\nTotal lost: {total}"
+        )

@@ -1,0 +1,230 @@
+"""Records topics: bytes from the wire into a bag."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from rclpy.logging import get_logger
+from rosbag2_transport.recorder_qos import misses, subscription_qos
+from rosbag2_transport.topic_filter import TopicFilter
+from turtlewire.errors import InterfaceError
+from turtlewire.msg import type_hash
+from turtlewire.wire.base import Subscription, TypeId
+from turtlewire.wire.qos import Durability
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rclpy.node import Node
+    from rosbag2_transport.options import RecordOptions
+    from turtlewire.bag.recording import Recording
+    from turtlewire.wire.base import EndpointInfo, Entity
+    from turtlewire.wire.qos import QoS
+
+__all__ = ["Recorder"]
+
+#: How long the first look at the graph may wait for it to be complete.
+_DISCOVERY_NS = 1_000_000_000
+_BATCH = 1000
+
+
+class Recorder:
+    """Subscribes to topics as they appear and writes their messages.
+
+    One thread looks for topics whenever the graph changes, another takes messages. Latched messages
+    that arrive during a pause are written when it ends.
+
+    Args:
+        node: The node whose subscriptions it uses.
+        recording: The bag.
+        options: What is recorded.
+
+    Raises:
+        RuntimeError: A pattern is no regular expression.
+    """
+
+    def __init__(self, node: Node, recording: Recording, options: RecordOptions) -> None:
+        self._node = node
+        self._logger = node.get_logger()
+        self._recording = recording
+        self._options = options
+        self._filter = TopicFilter(options, self._complain)
+        self._graph = node.context.wire.graph
+        self._wait_set = node.context.wire.create_wait_set()
+        self._subscriptions: dict[str, Subscription] = {}
+        self._requested: dict[str, QoS] = {}
+        self._known_publishers: set[bytes] = set()
+        self._latched: list[tuple[str, bytes, int]] = []
+        self._lock = threading.Lock()  # guards the pause and what waits for its end
+        self._paused = options.start_paused
+        self._stopped = threading.Event()
+        self._graph_changed = threading.Event()
+        self._taker = threading.Thread(target=self._take, name="bag-taker", daemon=True)
+        self._seeker = threading.Thread(target=self._seek, name="bag-discovery", daemon=True)
+
+    @property
+    def topics(self) -> int:
+        """How many topics are recorded."""
+        return len(self._subscriptions)
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether messages are dropped at the moment."""
+        return self._paused
+
+    def start(self) -> None:
+        """Begin to look for topics and to take their messages."""
+        self._remove_listener = self._graph.add_listener(self._graph_changed.set)
+        self._graph_changed.set()
+        self._seeker.start()
+        self._taker.start()
+
+    def stop(self) -> None:
+        """Stop recording; what has arrived is handed to the bag first."""
+        self._stopped.set()
+        self._graph_changed.set()
+        self._wait_set.wake()
+        self._seeker.join()
+        self._taker.join()
+        self._remove_listener()
+        self._wait_set.close()
+        for subscription in self._subscriptions.values():
+            subscription.close()
+
+    def pause(self) -> None:
+        """Drop messages from now on."""
+        if not self._paused:
+            self._paused = True
+            self._logger.info("Pausing recording.")
+
+    def resume(self) -> None:
+        """Record again, with the latched messages that arrived meanwhile."""
+        with self._lock:
+            if not self._paused:
+                return
+            self._paused = False
+            if not self._is_waiting():
+                self._write_latched(self._simulated_ns() or time.time_ns())
+        self._logger.info("Resuming recording.")
+
+    def toggle_paused(self) -> None:
+        """Pause or resume."""
+        (self.resume if self._paused else self.pause)()
+
+    # -- topics
+
+    def _seek(self) -> None:
+        self._graph.wait_for(self._is_settled, _DISCOVERY_NS)
+        while not self._stopped.is_set():
+            self._graph_changed.clear()
+            self._subscribe_to_new()
+            if self._options.is_discovery_disabled:
+                return
+            if self._has_all_requested():
+                self._logger.info("All requested topics are subscribed. Stopping discovery...")
+                return
+            self._graph_changed.wait()
+            # Changes come in groups; looking at each would subscribe before all publishers are
+            # known.
+            self._stopped.wait(self._options.topic_polling_interval.total_seconds())
+
+    def _is_settled(self) -> bool:
+        return self._stopped.is_set() or self._graph.is_complete()
+
+    def _has_all_requested(self) -> bool:
+        options = self._options
+        by_name_only = not (
+            options.all_topics or options.all_services or options.regex or options.topic_types
+        )
+        wanted = {*options.topics, *options.services}
+        return by_name_only and bool(wanted) and wanted == self._subscriptions.keys()
+
+    def _subscribe_to_new(self) -> None:
+        publishers: dict[str, list[EndpointInfo]] = {}
+        heard: set[str] = set()
+        for endpoint in self._graph.endpoints():
+            if endpoint.kind == "publisher":
+                publishers.setdefault(endpoint.topic, []).append(endpoint)
+            elif endpoint.node is None or endpoint.node.name != self._node.get_name():
+                heard.add(endpoint.topic)
+        for topic, types in self._graph.topic_names_and_types().items():
+            there = publishers.get(topic, [])
+            if topic in self._subscriptions:
+                self._look_at_new_publishers(topic, there)
+            elif self._filter.takes(topic, types, published=bool(there), heard=topic in heard):
+                self._subscribe(topic, types[0], there)
+
+    def _look_at_new_publishers(self, topic: str, publishers: list[EndpointInfo]) -> None:
+        for publisher in publishers:
+            if publisher.gid not in self._known_publishers:
+                self._known_publishers.add(publisher.gid)
+                if why := misses(topic, self._requested[topic], publisher.qos):
+                    self._logger.warning(why)
+
+    def _subscribe(self, topic: str, type_name: str, publishers: list[EndpointInfo]) -> None:
+        offered = [publisher.qos for publisher in publishers]
+        override = self._options.topic_qos_profile_overrides.get(topic)
+        if override is not None:
+            self._logger.info(f"Overriding subscription profile for {topic}")
+            qos = override.to_wire()
+        else:
+            qos, warnings = subscription_qos(topic, offered)
+            for warning in warnings:
+                get_logger("rosbag2_storage").warning(warning)
+        their_hash = next((each.type_hash for each in publishers if each.type_hash), "")
+        hash_of_type = their_hash or _known_hash(type_name)
+        self._recording.add_topic(topic, type_name, qos=offered, hash_of_type=hash_of_type)
+        self._known_publishers.update(publisher.gid for publisher in publishers)
+        self._requested[topic] = qos
+        wire = self._node._rclpy_wire
+        subscription = wire.create_subscription(topic, TypeId(type_name, hash_of_type), qos)
+        self._subscriptions[topic] = subscription
+        self._wait_set.attach(subscription)
+        self._logger.info(f"Subscribed to topic '{topic}'")
+
+    def _complain(self, severity: str, text: str) -> None:
+        logger = self._logger
+        (logger.error if severity == "error" else logger.warning)(text)
+
+    # -- messages
+
+    def _take(self) -> None:
+        while not self._stopped.is_set():
+            self._take_from(self._wait_set.wait())
+        self._take_from(list(self._subscriptions.values()))
+
+    def _take_from(self, subscriptions: Iterable[Entity]) -> None:
+        for subscription in subscriptions:
+            if isinstance(subscription, Subscription):
+                for data, info in subscription.take(_BATCH):
+                    received_ns = self._simulated_ns() or info.received_timestamp_ns
+                    self._keep(subscription.topic, data, received_ns, info.source_timestamp_ns)
+
+    def _keep(self, topic: str, data: bytes, received_ns: int, sent_ns: int) -> None:
+        with self._lock:
+            if not self._is_waiting():
+                self._write_latched(received_ns)
+                self._recording.write(topic, data, received_ns, sent_ns)
+            elif self._requested[topic].durability == Durability.TRANSIENT_LOCAL:
+                self._latched.append((topic, data, sent_ns))
+
+    def _write_latched(self, now_ns: int) -> None:
+        for topic, data, sent_ns in self._latched:
+            self._recording.write(topic, data, now_ns, sent_ns)
+        self._latched.clear()
+
+    def _is_waiting(self) -> bool:
+        """Whether it is paused, or the simulation has not told its time yet."""
+        return self._paused or (self._options.use_sim_time and not self._simulated_ns())
+
+    def _simulated_ns(self) -> int:
+        return self._node.get_clock().now().nanoseconds if self._options.use_sim_time else 0
+
+
+def _known_hash(type_name: str) -> str:
+    try:
+        return type_hash(type_name)
+    except InterfaceError:
+        return ""

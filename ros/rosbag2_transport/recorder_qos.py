@@ -1,0 +1,81 @@
+"""With which QoS a recorder subscribes, so that it receives from all publishers of a topic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.qos import Durability, History, QoS, Reliability
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["misses", "subscription_qos"]
+
+#: How many messages of a topic may wait for the recorder. rosbag2 takes rmw's default of 10, which
+#: loses messages of a fast topic when the computer is busy for a moment; peers do not see it.
+_DEPTH = 10_000
+
+_SOME = 'Some, but not all, publishers on topic "{topic}" are offering {strong}. Falling back to '
+_UNRELIABLE = (
+    "{weak} as it will connect to all publishers. "
+    "Some messages from Reliable publishers could be dropped."
+)
+_VOLATILE = (
+    "{weak} as it will connect to all publishers. "
+    "Previously-published latched messages will not be retrieved."
+)
+_NEW = (
+    "A new publisher for subscribed topic {topic} was found offering {weak}, but rosbag already "
+    "subscribed requesting {strong}. Messages from this new publisher will not be recorded."
+)
+_RELIABLE = {
+    "strong": "RMW_QOS_POLICY_RELIABILITY_RELIABLE",
+    "weak": "RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT",
+}
+_LATCHED = {
+    "strong": "RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL",
+    "weak": "RMW_QOS_POLICY_DURABILITY_VOLATILE",
+}
+
+
+def subscription_qos(topic: str, offered: Sequence[QoS]) -> tuple[QoS, list[str]]:
+    """The strongest QoS that fits all publishers.
+
+    Args:
+        topic: Name of the topic, for the warnings.
+        offered: What its publishers offer.
+
+    Returns:
+        The QoS, and what is lost because the publishers differ.
+    """
+    reliable = [qos.reliability == Reliability.RELIABLE for qos in offered]
+    latched = [qos.durability == Durability.TRANSIENT_LOCAL for qos in offered]
+    warnings = []
+    if any(reliable) and not all(reliable):
+        warnings.append((_SOME + _UNRELIABLE).format(topic=topic, **_RELIABLE))
+    if any(latched) and not all(latched):
+        warnings.append((_SOME + _VOLATILE).format(topic=topic, **_LATCHED))
+    fitting = QoS(
+        history=History.KEEP_LAST,
+        depth=_DEPTH,
+        reliability=Reliability.RELIABLE if all(reliable) else Reliability.BEST_EFFORT,
+        durability=(
+            Durability.TRANSIENT_LOCAL if latched and all(latched) else Durability.VOLATILE
+        ),
+    )
+    return fitting, warnings
+
+
+def misses(topic: str, requested: QoS, offered: QoS) -> str | None:
+    """Why the messages of a new publisher are not received; None if they are."""
+    if (
+        requested.durability == Durability.TRANSIENT_LOCAL
+        and offered.durability == Durability.VOLATILE
+    ):
+        return _NEW.format(topic=topic, **_LATCHED)
+    if (
+        requested.reliability == Reliability.RELIABLE
+        and offered.reliability == Reliability.BEST_EFFORT
+    ):
+        return _NEW.format(topic=topic, **_RELIABLE)
+    return None

@@ -1,0 +1,102 @@
+"""Which of the topics in the graph are recorded."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.names import is_hidden
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from rosbag2_transport.options import RecordOptions
+
+__all__ = ["TopicFilter", "is_service_event", "pattern"]
+
+_EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
+
+
+def is_service_event(topic: str, type_name: str) -> bool:
+    """Whether a topic carries the introspection events of a service."""
+    return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
+
+
+def pattern(text: str) -> re.Pattern[str] | None:
+    """A compiled pattern; None for an empty text.
+
+    Raises:
+        RuntimeError: It is no regular expression.
+    """
+    try:
+        return re.compile(text) if text else None
+    except re.error as error:
+        raise RuntimeError(f"'{text}' is not a regular expression: {error}") from None
+
+
+class TopicFilter:
+    """Decides by name and types; says once of each topic why it cannot be recorded.
+
+    Args:
+        options: What is to be recorded.
+        complain: Called with severity (``"error"`` or ``"warning"``) and text.
+
+    Raises:
+        RuntimeError: A pattern is no regular expression.
+    """
+
+    def __init__(self, options: RecordOptions, complain: Callable[[str, str], None]) -> None:
+        self._options = options
+        self._complain = complain
+        self._regex = pattern(options.regex)
+        self._exclude_regex = pattern(options.exclude_regex)
+        self._told: set[str] = set()
+
+    def takes(self, topic: str, types: Sequence[str], *, published: bool, heard: bool) -> bool:
+        """Whether a topic is recorded.
+
+        Args:
+            topic: Its name.
+            types: The types that its publishers and subscriptions have.
+            published: Whether it has a publisher.
+            heard: Whether anybody but a recorder subscribes to it.
+        """
+        options = self._options
+        if not self._is_wanted(topic, types):
+            return False
+        if len(types) > 1:
+            self._tell(
+                topic,
+                "error",
+                f"Topic '{topic}' has several types associated. "
+                "Only topics with one type are supported",
+            )
+            return False
+        hidden = is_hidden(topic) and not is_service_event(topic, types[0])
+        if hidden and not options.include_hidden_topics:
+            text = "Hidden topics are not recorded. Enable them with --include-hidden-topics"
+            self._tell("hidden topics", "warning", text)
+            return False
+        if not published and not options.include_unpublished_topics:
+            return False
+        return heard or not options.ignore_leaf_topics
+
+    def _is_wanted(self, topic: str, types: Sequence[str]) -> bool:
+        options = self._options
+        if is_service_event(topic, types[0]):
+            everything, listed = options.all_services, topic in options.services
+            excluded = topic in options.exclude_service_events
+            name = topic.removesuffix(_EVENT_TOPIC)
+        else:
+            everything = options.all_topics
+            listed = topic in options.topics or types[0] in options.topic_types
+            excluded = topic in options.exclude_topics or types[0] in options.exclude_topic_types
+            name = topic
+        if excluded or (self._exclude_regex and self._exclude_regex.search(name)):
+            return False
+        return everything or listed or bool(self._regex and self._regex.search(name))
+
+    def _tell(self, what: str, severity: str, text: str) -> None:
+        if what not in self._told:
+            self._told.add(what)
+            self._complain(severity, text)

@@ -1,0 +1,201 @@
+"""`ros2 bag record`: what is published is in the bag, whatever happens to the recorder."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+
+import pytest
+from tests.rosbag2_transport.conftest import DEEP, LATCHED, ROS2, end, texts
+
+from rosbag2_interfaces import srv
+from rosbag2_interfaces.msg import WriteSplitEvent
+from std_msgs.msg import String
+from turtlewire.bag import open_bag, reindex
+from turtlewire.errors import BagError
+
+NAMES = [f"number {i}" for i in range(500)]
+SIZE_LIMIT = 3_000_000
+LIMITED = (
+    "import os, resource, sys; "
+    f"resource.setrlimit(resource.RLIMIT_FSIZE, ({SIZE_LIMIT}, {SIZE_LIMIT})); "
+    "os.execv(sys.argv[1], sys.argv[1:])"
+)
+
+
+def publish(publisher, names=NAMES):
+    for name in names:
+        publisher.publish(String(data=name))
+
+
+def wait_until_written(path, topic, count):
+    """Until a bag that is being recorded holds so many messages in its file."""
+    for _ in range(600):
+        try:
+            if len(texts(path, topic)) >= count:
+                return
+        except (BagError, FileNotFoundError):
+            pass  # not begun yet
+        threading.Event().wait(0.1)
+    raise AssertionError(f"{texts(path, topic)} in {path}")
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_everything_is_recorded_in_order(peer, bag_verb, tmp_path, storage):
+    publisher = peer.publisher("/numbers")
+    latched = peer.publisher("/latched", LATCHED)
+    publish(latched, ["before the recorder"])
+    recorder = bag_verb("record", "-o", "out", "-s", storage, "--topics", "/numbers", "/latched")
+    recorder.wait_for("All requested topics are subscribed. Stopping discovery...")
+    publish(peer.heard(publisher))
+    wait_until_written(tmp_path / "out", "/numbers", len(NAMES))
+    assert end(recorder) == 0
+    assert texts(tmp_path / "out", "/numbers") == NAMES
+    assert texts(tmp_path / "out", "/latched") == ["before the recorder"]
+    with open_bag(tmp_path / "out") as bag:
+        assert [qos.depth for qos in bag.topics["/numbers"].qos] == [DEEP.depth]
+        first = next(bag.messages("/latched"))
+        assert first.publish_time_ns <= first.log_time_ns
+    for line in ("Pausing recording.", "Recording stopped", "Press SPACE for pausing/resuming"):
+        assert recorder.text.count(line) == 1
+
+
+def test_after_kill_9_reindex_makes_a_bag(peer, bag_verb, tmp_path):
+    publisher = peer.publisher("/numbers")
+    recorder = bag_verb("record", "-o", "out", "-a", "--disable-keyboard-controls")
+    publish(peer.heard(publisher))
+    wait_until_written(tmp_path / "out", "/numbers", len(NAMES))
+    recorder.signal_group(signal.SIGKILL)
+    recorder.wait()
+    assert not (tmp_path / "out" / "metadata.yaml").exists()
+    reindex(tmp_path / "out")
+    assert (tmp_path / "out" / "metadata.yaml").exists()
+    assert texts(tmp_path / "out", "/numbers") == NAMES
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there a file's size cannot be limited")
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_full_disk_ends_the_recording_with_one_line(peer, run, tmp_path, storage):
+    publisher = peer.publisher("/numbers")
+    recorder = run(
+        *(sys.executable, "-c", LIMITED, ROS2, "bag", "record", "-o", "out", "-s", storage, "-a"),
+        cwd=tmp_path,
+    )
+    recorder.wait_for("Subscribed to topic '/numbers'")
+    peer.heard(publisher)
+    names = []
+    while recorder.process.poll() is None and len(names) < 100_000:
+        names.append(f"{len(names)} {'x' * 10_000}")
+        publish(publisher, names[-1:])
+        wait_a_little.wait(0.005)
+    assert recorder.wait() == 1
+    lines = [line for line in recorder.text.splitlines() if "Recording stopped: " in line]
+    assert len(lines) == 1
+    assert "Traceback" not in recorder.text
+    found = texts(tmp_path / "out", "/numbers")
+    assert 0 < len(found) < len(names)
+    assert names[: len(found)] == found
+
+
+wait_a_little = threading.Event()
+
+
+def test_latched_messages_that_come_during_a_pause_are_kept(peer, bag_verb, tmp_path):
+    publisher, latched = peer.publisher("/numbers"), peer.publisher("/latched", LATCHED)
+    recorder = bag_verb("record", "-o", "out", "-a", "--start-paused")
+    recorder.wait_for("Wait for recording: Press SPACE to start.")
+    recorder.wait_for("Subscribed to topic '/latched'")
+    name = "/rosbag2_recorder"
+    assert peer.call(srv.IsPaused, f"{name}/is_paused").paused
+    publish(peer.heard(publisher), ["lost"])
+    publish(peer.heard(latched), ["kept"])
+    peer.call(srv.Resume, f"{name}/resume")
+    assert not peer.call(srv.IsPaused, f"{name}/is_paused").paused
+    publish(publisher, ["recorded"])
+    wait_until_written(tmp_path / "out", "/numbers", 1)
+    peer.call(srv.Pause, f"{name}/pause")
+    publish(publisher, ["lost, too"])
+    assert end(recorder) == 0
+    assert texts(tmp_path / "out", "/numbers") == ["recorded"]
+    assert texts(tmp_path / "out", "/latched") == ["kept"]
+    assert recorder.text.count("Resuming recording.") == 1
+
+
+def test_files_are_split_and_the_split_is_told(peer, bag_verb, tmp_path):
+    publisher = peer.publisher("/numbers")
+    splits = peer.listen("/events/write_split", type_=WriteSplitEvent)
+    recorder = bag_verb("record", "-o", "out", "-b", "20000", "--topics", "/numbers")
+    recorder.wait_for("Subscribed to topic '/numbers'")
+    publish(peer.heard(publisher))
+    wait_until_written(tmp_path / "out", "/numbers", len(NAMES))
+    peer.wait_for(lambda: splits)
+    peer.call(srv.SplitBagfile, "/rosbag2_recorder/split_bagfile")
+    assert end(recorder) == 0
+    assert texts(tmp_path / "out", "/numbers") == NAMES
+    assert splits[0].closed_file == str(tmp_path / "out" / "out_0.mcap")
+    assert splits[0].opened_file == str(tmp_path / "out" / "out_1.mcap")
+    assert splits[0].node_name == "/rosbag2_recorder"
+    with open_bag(tmp_path / "out") as bag:
+        assert len(bag.metadata.paths) >= 3
+
+
+def test_snapshots_hold_the_newest_messages(peer, bag_verb, tmp_path):
+    publisher = peer.publisher("/numbers")
+    received = peer.listen("/numbers")
+    recorder = bag_verb(
+        *("record", "-o", "out", "--topics", "/numbers", "--snapshot-mode"),
+        *("--max-cache-size", "2000"),
+    )
+    recorder.wait_for("Subscribed to topic '/numbers'")
+    publish(peer.heard(publisher, by=2))
+    peer.wait_for(lambda: len(received) == len(NAMES))
+    for _ in range(600):  # the recorder may take them later than this process
+        assert peer.call(srv.Snapshot, "/rosbag2_recorder/snapshot").success
+        if NAMES[-1] in texts(tmp_path / "out", "/numbers"):
+            break
+    assert end(recorder) == 0
+    found = texts(tmp_path / "out", "/numbers")
+    assert found[-1] == NAMES[-1]
+    assert found == [name for name in NAMES if name in found]
+
+
+def test_a_second_interrupt_does_not_spoil_the_bag(peer, bag_verb, tmp_path):
+    publisher = peer.publisher("/numbers")
+    recorder = bag_verb("record", "-o", "out", "--topics", "/numbers")
+    recorder.wait_for("Subscribed to topic '/numbers'")
+    publish(peer.heard(publisher))
+    wait_until_written(tmp_path / "out", "/numbers", 1)
+    recorder.signal_group(signal.SIGINT)
+    recorder.signal_group(signal.SIGINT)
+    assert recorder.wait() == 0
+    assert "Traceback" not in recorder.text
+    assert (tmp_path / "out" / "metadata.yaml").exists()
+
+
+def test_space_pauses_and_resumes(peer, bag_verb):
+    recorder = bag_verb("record", "-o", "out", "-a", terminal=True)
+    recorder.wait_for("Recording...")
+    recorder.type(" ")
+    recorder.wait_for("Pausing recording.")
+    recorder.type(" ")
+    recorder.wait_for("Resuming recording.")
+    recorder.type("\x03")
+    assert recorder.wait() == 0
+    assert "Keyboard handling disabled" not in recorder.text
+
+
+def test_topics_of_two_types_are_named_once(peer, bag_verb, tmp_path):
+    from std_msgs.msg import Int32
+
+    peer.publisher("/two")
+    peer.node.create_publisher(Int32, "/two", DEEP)
+    publisher = peer.publisher("/numbers")
+    recorder = bag_verb("record", "-o", "out", "-a", "--disable-keyboard-controls")
+    recorder.wait_for("Topic '/two' has several types associated")
+    publish(peer.heard(publisher))
+    wait_until_written(tmp_path / "out", "/numbers", len(NAMES))
+    assert end(recorder) == 0
+    assert recorder.text.count("several types") == 1
+    with open_bag(tmp_path / "out") as bag:
+        assert "/two" not in bag.topics
