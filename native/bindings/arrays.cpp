@@ -21,6 +21,17 @@ nb::object convert(const char* function, nb::handle object, const char* dtype) {
   }));
 }
 
+// datetime64 of any unit as int64 nanoseconds.
+nb::object of_datetimes(const nb::object& array) {
+  return checked(taking_gil([&array]() -> PyObject* {
+    PyObject* module = PyImport_ImportModule("turtlewire.tf.datetimes");
+    if (module == nullptr) return nullptr;
+    PyObject* result = PyObject_CallMethod(module, "nanoseconds_array", "(O)", array.ptr());
+    Py_DECREF(module);
+    return result;
+  }));
+}
+
 void check_maximum(const nb::object& array) {
   const nb::object maximum =
       checked(taking_gil([&array] { return PyObject_CallMethod(array.ptr(), "max", nullptr); }));
@@ -39,7 +50,8 @@ nb::object contiguous_array(nb::handle object, const char* dtype) {
 Stamps stamps_of(nb::handle object) {
   Stamps stamps;
   if (nb::try_cast(object, stamps, false)) return stamps;
-  const nb::object array = convert("asarray", object, nullptr);
+  nb::object array = convert("asarray", object, nullptr);
+  if (nb::cast<std::string>(array.attr("dtype").attr("kind")) == "M") array = of_datetimes(array);
   const std::string kind = nb::cast<std::string>(array.attr("dtype").attr("kind"));
   const bool is_empty = nb::cast<std::size_t>(array.attr("size")) == 0;
   if (kind != "i" && kind != "u" && !is_empty)

@@ -157,7 +157,8 @@ nb::object lookup_batch(BufferObject& self, std::string_view target, std::string
 
 // ---------------------------------------------------------------- all frames
 
-nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
+nb::tuple lookup_all(BufferObject& self, std::string_view target, nb::handle when) {
+  const Stamp t = nanoseconds_of(when, "stamp_ns");
   std::vector<FramePose> found;
   Failure failure;
   Status status;
@@ -182,8 +183,14 @@ nb::tuple lookup_all(BufferObject& self, std::string_view target, Stamp t) {
   return nb::make_tuple(frames, poses, stamps);
 }
 
-// The time, if it is one and no array: an int or one of NumPy's integers.
+bool is_datetime(nb::handle object) {
+  return std::string_view(Py_TYPE(object.ptr())->tp_name) == "numpy.datetime64" ||
+         nb::hasattr(object, "to_datetime64");
+}
+
+// The time, if it is one and no array: an int, one of NumPy's integers, or a datetime64.
 std::optional<Stamp> single_stamp(nb::handle object) {
+  if (is_datetime(object)) return nanoseconds_of(object, "stamps");
   if (!PyIndex_Check(object.ptr()) || PySequence_Check(object.ptr())) return std::nullopt;
   const Stamp value = taking_gil([object] { return PyLong_AsLongLong(object.ptr()); });
   if (value == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
@@ -303,8 +310,9 @@ nb::object move_points(BufferObject& self, const Deskew& way, const Points<T>& p
 
 nb::object transform_points(BufferObject& self, std::string_view target, std::string_view source,
                             nb::handle points, nb::handle stamps,
-                            std::optional<std::string_view> fixed_frame, Stamp target_stamp,
+                            std::optional<std::string_view> fixed_frame, nb::handle target_time,
                             nb::object out, nb::object status) {
+  const Stamp target_stamp = nanoseconds_of(target_time, "target_stamp_ns");
   if (!fixed_frame && target_stamp != 0) {
     throw nb::value_error(
         "target_stamp_ns needs fixed_frame, the frame by way of which points get to another time");

@@ -6,6 +6,7 @@
 #include "../core/tf_message.hpp"
 #include "batch.hpp"
 #include "buffer.hpp"
+#include "bytes.hpp"
 #include "errors.hpp"
 #include "inspection.hpp"
 #include "transform.hpp"
@@ -181,23 +182,6 @@ PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t c
   if (refusal.empty()) buffer->call_listeners();
   return to_python(refusal);
 }
-
-// The bytes of any object with the buffer protocol, for as long as this lives.
-class Bytes {
- public:
-  Bytes() = default;
-  Bytes(const Bytes&) = delete;
-  Bytes& operator=(const Bytes&) = delete;
-  ~Bytes() {
-    if (view_.obj != nullptr) PyBuffer_Release(&view_);
-  }
-  bool read(PyObject* object) { return PyObject_GetBuffer(object, &view_, PyBUF_SIMPLE) == 0; }
-  const unsigned char* data() const { return static_cast<const unsigned char*>(view_.buf); }
-  std::size_t size() const { return static_cast<std::size_t>(view_.len); }
-
- private:
-  Py_buffer view_{};
-};
 
 PyObject* ingest(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<3> signature("ingest", 1, {"cdr", "static", "authority"});

@@ -38,8 +38,9 @@ bool resolve_both(const Tree& tree, std::string_view target, std::string_view so
   return failure.status == Status::ok;
 }
 
-nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source, Stamp t,
-                                 Stamp limit) {
+nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str source,
+                                 nb::handle when, Stamp limit) {
+  const Stamp t = nanoseconds_of(when, "stamp_ns");
   if (limit < 0) throw nb::value_error("limit_ns must not be negative");
   Found found{t, {}};
   Failure failure;
@@ -58,7 +59,8 @@ nb::object extrapolate_transform(BufferObject& self, nb::str target, nb::str sou
 }
 
 nb::tuple lookup_latest(BufferObject& self, nb::str target, nb::str source, Stamp max_age,
-                        Stamp now) {
+                        nb::handle present) {
+  const Stamp now = nanoseconds_of(present, "now_ns");
   if (max_age != 0 && now == 0)
     throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
   Found found;
@@ -95,7 +97,8 @@ bool remove_frame(BufferObject& self, std::string_view child) {
   return access->resolve(child, id) == Status::ok && !access->remove({&id, 1}).empty();
 }
 
-nb::list remove_stale(BufferObject& self, Stamp before) {
+nb::list remove_stale(BufferObject& self, nb::handle since) {
+  const Stamp before = nanoseconds_of(since, "before_ns");
   std::vector<std::string> removed;
   {
     const SharedBuffer::Access access(self.shared);
@@ -253,6 +256,26 @@ nb::list samples(BufferObject& self, std::string_view child) {
   return list;
 }
 
+nb::ndarray<nb::numpy, Stamp> stamps(BufferObject& self, std::string_view child) {
+  std::vector<Stamp> found;
+  Failure failure;
+  {
+    const SharedBuffer::Access access(self.shared);
+    FrameId id = 0;
+    failure.status = access->resolve(child, id);
+    failure.name = child;
+    if (failure.status == Status::ok && !access->link(id).is_static()) {
+      const auto& samples = access->link(id).samples();
+      found.resize(samples.size());
+      for (std::size_t i = 0; i < found.size(); ++i) found[i] = samples.stamp(i);
+    }
+  }
+  if (failure.status != Status::ok) raise_failure(self, failure);
+  const auto result = new_array<Stamp>({found.size()});
+  std::copy(found.begin(), found.end(), result.data());
+  return result;
+}
+
 std::size_t set_transforms(BufferObject& self, std::string_view parent, std::string_view child,
                            nb::handle stamps_object, nb::handle poses_object,
                            std::string_view authority) {
@@ -323,6 +346,9 @@ void add_inspection_methods(nb::class_<BufferObject>& cls) {
            "nanoseconds, and the poses (N, "
            "7).\n"
            "    A static transform is one sample with stamp 0.")
+      .def("stamps", &stamps, "child_frame"_a,
+           "The times of a frame's samples in nanoseconds, oldest first: int64, shape (N,); none "
+           "for a static transform.")
       .def("set_transforms", &set_transforms, "parent_frame"_a, "child_frame"_a, "stamps"_a,
            "poses"_a, "authority"_a = "default_authority",
            "set_transform for many samples of one frame.\n\n"

@@ -3,6 +3,7 @@
 #include "errors.hpp"
 #include "intake.hpp"
 #include "message.hpp"
+#include "record_walk.hpp"
 #include "transform.hpp"
 
 NB_MODULE(_native, module) {
@@ -16,5 +17,6 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
+  add_record_walk_type(module);
   add_cyclone_types(module);
 }

@@ -108,16 +108,19 @@ inline bool text_of(PyObject* object, std::string_view& text, const char* what) 
   return true;
 }
 
-// Nanoseconds from an int (or what has __index__); a null object leaves the default.
+// Nanoseconds from an int (or what has __index__) or a datetime64; a null object leaves the
+// default. False with a Python error set. The second function goes on where PyLong_AsLongLong has
+// failed.
+bool nanoseconds_of_other(PyObject* object, Stamp& value, const char* what);
 inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   if (object == nullptr) return true;
   value = taking_gil([object] { return PyLong_AsLongLong(object); });
-  if (value != -1 || PyErr_Occurred() == nullptr) return true;
-  if (PyErr_ExceptionMatches(PyExc_TypeError)) {
-    PyErr_Format(PyExc_TypeError, "%s must be an int of nanoseconds, not %.200s", what,
-                 Py_TYPE(object)->tp_name);
-  }
-  return false;
+  if (value != -1 || PyErr_Occurred() == nullptr) [[likely]]
+    return true;
+  return nanoseconds_of_other(object, value, what);
 }
+
+// The same for functions of nanobind: throws if there is a Python error.
+Stamp nanoseconds_of(nb::handle object, const char* what);
 
 }  // namespace turtlewire::python

@@ -21,7 +21,8 @@ __all__ = ["SPIN_ARGUMENTS", "STRATEGY_ARGUMENTS", "GraphNode", "wait_until_disc
 # Other hosts are given so much time to answer; participants of this host are counted. Measured on
 # two cores: the last of 50 participants answers 70 ms after the first question.
 _ANSWER_S = 0.15
-_PATIENCE_S = 2.0
+# Fast DDS repeats every three seconds what got lost.
+_PATIENCE_S = 4.0
 
 _NODE_TOPICS = (
     (
@@ -63,7 +64,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
 
     That is when all participants of this host, and all that they announced, are known, and other
     hosts that are in range had the time to answer. When something that is announced does not
-    arrive, the wait ends after two seconds without news.
+    arrive, the wait ends after four seconds without news.
 
     Args:
         graph: The graph.
@@ -77,6 +78,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
     answer_time = 0.0 if only_this_host else _ANSWER_S
     changed = threading.Event()
     stop_listening = graph.add_listener(changed.set)
+    graph.hurry()
     started = last_change = time.monotonic()
     try:
         while True:

@@ -8,6 +8,7 @@ from rosbag2_py._compression_options import (
 )
 from rosbag2_py._info import Info
 from rosbag2_py._message_definitions import LocalMessageDefinitionSource
+from rosbag2_py._metadata import BagMetadata, FileInformation, TopicInformation, TopicMetadata
 from rosbag2_py._reader import (
     SequentialCompressionReader,
     SequentialReader,
@@ -16,17 +17,13 @@ from rosbag2_py._reader import (
 from rosbag2_py._recorder import Recorder
 from rosbag2_py._reindexer import Reindexer
 from rosbag2_py._storage import (
-    BagMetadata,
     ConverterOptions,
-    FileInformation,
     MessageDefinition,
     MetadataIo,
     ReadOrder,
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
-    TopicInformation,
-    TopicMetadata,
     convert_rclcpp_qos_to_rclpy_qos,
     get_default_storage_id,
     to_rclcpp_qos_vector,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 
-from rosbag2_py import _text
-from rosbag2_py._storage import BagMetadata, folder_size, from_engine
+from rosbag2_py._metadata import BagMetadata, info
+from rosbag2_py._service_events import is_service_event, service_of
+from rosbag2_py._storage import folder_size, from_engine
 from turtlewire.bag import Bag, open_bag
 from turtlewire.errors import BagError
 
@@ -38,7 +39,7 @@ class Info:
         metadata = self.read_metadata(uri, storage_id)
         with _opened(uri) as bag:
             counts = service_counts(bag)
-        print(_text.info(metadata, counts))  # noqa: T201 - its purpose
+        print(info(metadata, counts))  # noqa: T201 - its purpose
 
 
 def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
@@ -46,9 +47,7 @@ def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
 
     What client and server both report counts twice, as in rosbag2.
     """
-    events = [
-        topic for topic in bag.topics.values() if _text.is_service_event(topic.name, topic.type)
-    ]
+    events = [topic for topic in bag.topics.values() if is_service_event(topic.name, topic.type)]
     counts = {}
     for topic in events:
         kinds = [0, 0, 0, 0]
@@ -57,7 +56,7 @@ def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
             kinds[message.data[4] & 3] += 1
         requests = kinds[_REQUEST_SENT] + kinds[_REQUEST_RECEIVED]
         responses = kinds[_RESPONSE_SENT] + kinds[_RESPONSE_RECEIVED]
-        counts[_text.service_of(topic.name, topic.type)[0]] = (requests, responses)
+        counts[service_of(topic.name, topic.type)[0]] = (requests, responses)
     return counts
 
 

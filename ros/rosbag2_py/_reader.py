@@ -7,26 +7,25 @@ import sys
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from rosbag2_py._service_events import is_service_event
 from rosbag2_py._storage import (
-    BagMetadata,
     ConverterOptions,
     MessageDefinition,
     ReadOrder,
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
-    TopicMetadata,
     folder_size,
     from_engine,
     topic_of,
 )
-from rosbag2_py._text import is_service_event
 from turtlewire.bag import Bag, open_bag
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from rosbag2_py._metadata import BagMetadata, TopicMetadata
     from turtlewire.bag import BagMessage, TopicInfo
 
 __all__ = ["SequentialCompressionReader", "SequentialReader", "get_registered_readers"]

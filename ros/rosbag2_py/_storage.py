@@ -11,7 +11,12 @@ from typing import TYPE_CHECKING
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from rosbag2_py import _text
+from rosbag2_py._metadata import (
+    BagMetadata,
+    FileInformation,
+    TopicInformation,
+    TopicMetadata,
+)
 from turtlewire.bag import metadata as engine
 from turtlewire.bag.qos_yaml import profiles_from_yaml
 from turtlewire.errors import BagError
@@ -20,17 +25,13 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
 
 __all__ = [
-    "BagMetadata",
     "ConverterOptions",
-    "FileInformation",
     "MessageDefinition",
     "MetadataIo",
     "ReadOrder",
     "ReadOrderSortBy",
     "StorageFilter",
     "StorageOptions",
-    "TopicInformation",
-    "TopicMetadata",
     "convert_rclcpp_qos_to_rclpy_qos",
     "folder_size",
     "from_engine",
@@ -124,61 +125,6 @@ class ReadOrder:
 
 
 @dataclass
-class TopicMetadata:
-    """A topic.
-
-    Attributes:
-        id: A number of the caller's choice.
-        name: ``/tf``.
-        type: ``tf2_msgs/msg/TFMessage``.
-        serialization_format: ``cdr``.
-        offered_qos_profiles: What each publisher offers.
-        type_description_hash: ``RIHS01_…`` or empty.
-    """
-
-    id: int
-    name: str
-    type: str
-    serialization_format: str
-    offered_qos_profiles: list[QoSProfile] = field(default_factory=list)
-    type_description_hash: str = ""
-
-    def equals(self, other: TopicMetadata) -> bool:
-        """Whether both describe the same topic; the number does not count."""
-        return (self.name, self.type, self.serialization_format, self.offered_qos_profiles) == (
-            other.name,
-            other.type,
-            other.serialization_format,
-            other.offered_qos_profiles,
-        )
-
-
-@dataclass
-class TopicInformation:
-    """A topic and how many messages of it a bag holds."""
-
-    topic_metadata: TopicMetadata
-    message_count: int
-
-
-@dataclass
-class FileInformation:
-    """A file of a bag.
-
-    Attributes:
-        path: Relative to the bag's folder.
-        starting_time: Log time of its first message.
-        duration: From its first to its last message, cut to microseconds as in ROS 2.
-        message_count: Number of its messages.
-    """
-
-    path: str
-    starting_time: Time
-    duration: timedelta
-    message_count: int
-
-
-@dataclass
 class MessageDefinition:
     """The definition of a type, as a bag carries it."""
 
@@ -186,28 +132,6 @@ class MessageDefinition:
     encoding: str
     encoded_message_definition: str
     type_hash: str
-
-
-@dataclass
-class BagMetadata:
-    """What a bag holds; ``str()`` gives the text of ``ros2 bag info``."""
-
-    version: int = engine.NEWEST_VERSION
-    bag_size: int = 0
-    storage_identifier: str = ""
-    relative_file_paths: list[str] = field(default_factory=list)
-    files: list[FileInformation] = field(default_factory=list)
-    duration: Duration = field(default_factory=Duration)
-    starting_time: Time = field(default_factory=Time)
-    message_count: int = 0
-    topics_with_message_count: list[TopicInformation] = field(default_factory=list)
-    compression_format: str = ""
-    compression_mode: str = ""
-    custom_data: dict[str, str] = field(default_factory=dict)
-    ros_distro: str = ""
-
-    def __str__(self) -> str:
-        return _text.info(self)
 
 
 class MetadataIo:

@@ -9,7 +9,8 @@ from rosbag2_py._open_writer import make_writer
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
+    from rosbag2_py._metadata import TopicMetadata
+    from rosbag2_py._storage import ConverterOptions, StorageOptions
     from turtlewire.bag import BagWriter
 
 __all__ = [

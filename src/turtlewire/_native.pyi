@@ -1,10 +1,15 @@
 # The compiled core; use it through turtlewire.Buffer. The module itself has the docstrings.
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
+from typing_extensions import Self
+
+from turtlewire.bag.transform_report import TransformReport
+from turtlewire.trajectory.trajectory import Trajectory
 
 @final
 class Transform:
@@ -31,6 +36,8 @@ class Transform:
     @property
     def rotation(self) -> tuple[float, float, float, float]: ...
     def inverse(self) -> Transform: ...
+    def __matmul__(self, other: Transform) -> Transform: ...
+    def interpolate(self, other: Transform, stamp_ns: int) -> Transform: ...
     def as_matrix(self) -> NDArray[np.float64]: ...
     def _repr_html_(self) -> str: ...
     def __array__(
@@ -40,6 +47,32 @@ class Transform:
 
 class Buffer:
     def __init__(self, cache_time_ns: int | None = ...) -> None: ...
+    @classmethod
+    def from_bag(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        topics: str | Iterable[str] = "/tf",
+        static_topics: str | Iterable[str] = "/tf_static",
+        start_ns: int = 0,
+        end_ns: int = ...,
+        cache_time_ns: int | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Self: ...
+    @property
+    def bag_report(self) -> TransformReport | None: ...
+    def trajectory(
+        self,
+        target_frame: str,
+        source_frame: str,
+        *,
+        stamps: ArrayLike | None = None,
+        rate_hz: float | None = None,
+        max_gap_ns: int | None = None,
+    ) -> Trajectory: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __contains__(self, frame: object) -> bool: ...
     @property
     def cache_time_ns(self) -> int | None: ...
     def set_transform(
@@ -153,6 +186,7 @@ class Buffer:
     def samples(
         self, child_frame: str
     ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]: ...
+    def stamps(self, child_frame: str) -> NDArray[np.int64]: ...
     def set_transforms(
         self,
         parent_frame: str,
@@ -168,6 +202,21 @@ class Buffer:
     def _describe_malformed(self) -> tuple[int, str, str]: ...
     def _rename_sender(self, name: str, shown: str) -> None: ...
     def _fault(self) -> str: ...
+
+class RecordWalk:
+    def __init__(self, start_ns: int, end_ns: int) -> None: ...
+    def walk(
+        self,
+        buffer: Buffer,
+        records: bytes | memoryview,
+        channels: Mapping[int, tuple[str, bool]],
+    ) -> int: ...
+    @property
+    def messages(self) -> int: ...
+    @property
+    def jumps(self) -> list[tuple[int, str, int]]: ...
+    @property
+    def steps_back(self) -> dict[str, int]: ...
 
 class MessageLookup:
     def __init__(self, buffer: Buffer, example: Any) -> None: ...

@@ -65,7 +65,8 @@ def test_gaps_jumps_two_parents_and_nonsense_are_reported(tmp_path):
         writer.write("/tf", b"nonsense", 10_000)
     _, report = load_transforms(tmp_path / "made")
     assert report.gaps["base_link"] == [(START + 990_000_000, START + 4 * SECOND)]
-    assert report.jumps == [200]
+    assert report.jumps == [(200, 4_490_000_000, ("base_link", "two_parents"))]
+    assert report.two_parents == ["two_parents"]
     assert [conflict.kind for conflict in report.conflicts] == ["two parents"]
     assert report.malformed is not None
     assert report.malformed.messages == 1

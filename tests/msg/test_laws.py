@@ -140,7 +140,7 @@ def _same_as_pycdr2():
 def _run_pycdr2(all_messages, messages, limits):
     names = [name for name in all_messages if not _has_wide_strings(name)]
     _check_all(names, messages, _same_as_pycdr2(), limits)
-    assert len(names) == len(all_messages) - 1 == 396
+    assert len(names) == len(all_messages) - 1 == 586
 
 
 def test_every_type_round_trips_with_the_bytes_of_pycdr2(all_messages, messages):
@@ -201,7 +201,7 @@ def _run_rosbags(all_messages, messages, limits):
         assert not any(theirs[len(ours) :])
 
     _check_all(names, messages, check, limits)
-    assert len(names) == 159
+    assert len(names) == 162
 
 
 def test_every_type_that_rosbags_knows_has_its_bytes(all_messages, messages):
@@ -284,7 +284,7 @@ def test_rosbags_knows_the_same_fields_constants_and_hashes(all_messages):
         if name not in _ROSBAGS_KEEPS_CHAR:
             assert store.hash_rihs01(name) == msg.type_hash(name), name
             hashed += 1
-    assert hashed == 159 - len(_ROSBAGS_KEEPS_CHAR)
+    assert hashed == 162 - len(_ROSBAGS_KEEPS_CHAR)
 
 
 # ROS 2 hashes `char` as the uint8 it becomes; rosbags hashes it as char. The golden hashes have

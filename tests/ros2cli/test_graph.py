@@ -110,6 +110,10 @@ class Incomplete:
     def __init__(self, news_needed):
         self.news_needed = news_needed
         self.listeners = []
+        self.hurries = False
+
+    def hurry(self):
+        self.hurries = True
 
     def add_listener(self, listener):
         self.listeners.append(listener)
@@ -125,6 +129,7 @@ class Incomplete:
 def test_news_end_the_wait_when_they_complete_the_graph():
     graph = Incomplete(news_needed=1)
     wait_until_discovered(graph)
+    assert graph.hurries
     assert graph.listeners == []
 
 

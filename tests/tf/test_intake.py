@@ -174,7 +174,7 @@ def test_change_listeners_are_called_on_the_reader_thread(flow):
         stop()
         calls = len(threads)
         flow.send(buffer)
-        flow.receiver.reader.close()  # joined: whatever it had to call has been called
+        flow.receiver.close()  # which joins its threads: whatever it had to call has been called
         assert len(threads) <= calls + 1  # one may have been on its way
 
 

@@ -160,3 +160,18 @@ def test_half_turns_about_each_axis():
         q = np.zeros((1, 4))
         q[0, axis] = 1
         assert np.abs(quaternions.from_matrices(quaternions.matrices(q))) == pytest.approx(q)
+
+
+@pytest.mark.parametrize("kind", ["tum", "kitti", "euroc", "csv"])
+def test_any_format_is_written_and_recognised(tmp_path, kind):
+    from turtlewire.trajectory import read_trajectory, write_trajectory
+
+    walk = random_walk(3)
+    path = tmp_path / f"walk.{kind}"
+    assert write_trajectory(walk, path) == kind
+    back = read_trajectory(path)
+    assert back.stamps_ns.tolist() == walk.stamps_ns.tolist()
+    assert back.positions == pytest.approx(walk.positions)
+    assert write_trajectory(walk, tmp_path / "walk.txt") == "tum"
+    with pytest.raises(ValueError, match="unknown format 'xyz'; known are tum, kitti"):
+        write_trajectory(walk, path, "xyz")

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -17,11 +18,13 @@ from turtlewire import msg
 from turtlewire.errors import CdrError
 from turtlewire.wire import open_context, report
 from turtlewire.wire.base import Context, TypeId
+from turtlewire.wire.cyclone.silent_peers import SilentPeers
 from turtlewire.wire.qos import Durability, QoS
 
 pytestmark = pytest.mark.slow
 
 PEERS = Path(__file__).parent / "peers"
+ROS2 = Path(sys.executable).parent / "ros2"
 LONG = 10_000_000_000
 LATCHED = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
 LIVE = QoS(depth=100)
@@ -101,9 +104,10 @@ def context():
 
 
 @contextmanager
-def running(program: Path, context: Context):
+def running(program: Path, context: Context | None, *arguments: str):
     environment = os.environ | {"CYCLONEDDS_URI": RMW_CYCLONEDDS_LOCALHOST}
-    peer = subprocess.Popen([program, str(context.domain_id)], env=environment)
+    domain_id = environment["ROS_DOMAIN_ID"] if context is None else str(context.domain_id)
+    peer = subprocess.Popen([program, domain_id, *arguments], env=environment)
     try:
         yield
         assert peer.poll() is None, "the peer ended too early"
@@ -229,3 +233,37 @@ def test_payloads_that_are_no_messages_are_dropped_and_said_once(
         errors == 2
     )  # the big-endian one comes with the header of a little-endian one: to us its string is far too long
     assert capfd.readouterr().err.count("dropped a message on /broken") == 1
+
+
+@pytest.mark.parametrize("vendor", ["fast"], indirect=True)
+def test_the_first_question_for_nodes_has_the_node_of_fast_dds(program: Path, context: Context):
+    graph = context.graph
+    for name in (f"fast_node_{number}" for number in range(5)):
+        with running(program, context, name):
+            assert graph.wait_for(lambda: name in {node.name for node in graph.nodes()}, LONG)  # noqa: B023
+            listed = subprocess.run(
+                [ROS2, "node", "list"], capture_output=True, text=True, check=True
+            )
+        assert listed.stdout.split() == [f"/{name}"]
+
+
+@pytest.mark.parametrize("vendor", ["fast"], indirect=True)
+def test_who_hurries_asks_fast_dds(program: Path, monkeypatch):
+    asked = []
+    ask = SilentPeers.ask
+    monkeypatch.setattr(
+        SilentPeers, "ask", lambda self, questions: (asked.append(questions), ask(self, questions))
+    )
+    with running(program, None, "fast_node"):
+        for _ in range(5):  # one whose first words are heard need not be asked
+            context = open_context(middleware="rmw_cyclonedds_cpp")
+            assert _becomes_complete(context)
+            context.close()
+    assert any(questions.endpoints for questions in asked)
+    assert any(questions.nodes for questions in asked)
+
+
+def _becomes_complete(context: Context) -> bool:
+    graph = context.graph
+    graph.hurry()
+    return graph.wait_for(lambda: graph.nodes() and graph.is_complete(), LONG)

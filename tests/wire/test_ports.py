@@ -69,6 +69,16 @@ def test_a_graph_is_complete_when_it_knows_all_processes(participant):
         context.close()
 
 
+def test_a_graph_is_complete_although_a_context_has_no_node():
+    without_node, context = open_context(), open_context()
+    try:
+        assert context.graph.wait_for(context.graph.is_complete, 60_000_000_000)
+        assert context.graph.nodes() == []
+    finally:
+        without_node.close()
+        context.close()
+
+
 def test_participants_of_one_process_are_told_apart_from_others():
     first, second = open_context(), open_context()
     assert process_of(first.gid) == process_of(second.gid)

@@ -9,25 +9,28 @@
         for message in bag.messages("/odom"):
             print(message.log_time_ns, message.decode())
 
-=================  ==================================================================
-module             what it holds
-=================  ==================================================================
-`reader`           `Bag`, `open_bag`: messages in order of time over all files; `reindex`
-`transforms`       `load_transforms`: the TF of a bag in a buffer, and what is wrong with it
-`message`          `BagMessage`
-`writer`           `BagWriter`
-`recording`        `Recording`: messages of several threads, written on a thread of its own
-`storage`          one file of a bag, MCAP or sqlite3, behind one interface
-`mcap_reader`      the MCAP format: summary, chunks, files without a summary
-`mcap_records`     the records of MCAP as bytes and objects
-`mcap_writer`      writes MCAP files
-`sqlite_reader`    rosbag2's sqlite3 schema, versions 1 to 4
-`sqlite_writer`    writes sqlite3 files
-`metadata`         ``metadata.yaml``, versions 1 to 9
-`qos_yaml`         the QoS of recorded topics as YAML
-`definitions`      message definitions as bags carry them
-`compression`      zstd and lz4, with limits
-=================  ==================================================================
+==================  ==================================================================
+module              what it holds
+==================  ==================================================================
+`reader`            `Bag`, `open_bag`: messages in order of time over all files; `reindex`
+`transforms`        `load_transforms`: the TF of a bag in a buffer
+`transform_report`  `TransformReport`: its links, and what is wrong with them
+`trajectories`      `load_trajectory`: odometry and poses of a topic
+`progress`          a line that shows how far something is
+`message`           `BagMessage`
+`writer`            `BagWriter`
+`recording`         `Recording`: messages of several threads, written on a thread of its own
+`storage`           one file of a bag, MCAP or sqlite3, behind one interface
+`mcap_reader`       the MCAP format: summary, chunks, files without a summary
+`mcap_records`      the records of MCAP as bytes and objects
+`mcap_writer`       writes MCAP files
+`sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
+`sqlite_writer`     writes sqlite3 files
+`metadata`          ``metadata.yaml``, versions 1 to 9
+`qos_yaml`          the QoS of recorded topics as YAML
+`definitions`       message definitions as bags carry them
+`compression`       zstd and lz4, with limits
+==================  ==================================================================
 """
 
 from __future__ import annotations
@@ -35,7 +38,9 @@ from __future__ import annotations
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
 from turtlewire.bag.reader import Bag, open_bag, reindex
-from turtlewire.bag.transforms import TransformReport, load_transforms
+from turtlewire.bag.trajectories import load_trajectory, pose_topics
+from turtlewire.bag.transform_report import Jump, TransformReport
+from turtlewire.bag.transforms import load_transforms
 from turtlewire.bag.writer import BagWriter
 
 __all__ = [
@@ -44,9 +49,12 @@ __all__ = [
     "BagMetadata",
     "BagWriter",
     "FileInfo",
+    "Jump",
     "TopicInfo",
     "TransformReport",
+    "load_trajectory",
     "load_transforms",
     "open_bag",
+    "pose_topics",
     "reindex",
 ]

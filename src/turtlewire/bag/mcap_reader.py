@@ -83,15 +83,21 @@ class McapFile:
         except BufferError:  # a message is still in use: the garbage collector closes the file
             pass
 
-    def records(self, chunk: ChunkIndex) -> bytes:
-        """The records of a chunk, decompressed and checked.
+    def forget(self, chunk: ChunkIndex) -> None:
+        """Give the memory of a chunk's pages back; they are read again when they are needed."""
+        if hasattr(mmap, "MADV_DONTNEED"):
+            start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
+            self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)
+
+    def records(self, chunk: ChunkIndex) -> bytes | memoryview:
+        """The records of a chunk, decompressed and checked; a view of the file if they are plain.
 
         Raises:
             BagError: The chunk is damaged; the text says where it lies.
         """
         content = self._bytes[chunk.offset : chunk.offset + chunk.length]
         if content[0] != Op.CHUNK:
-            return bytes(content)
+            return content
         try:
             return _chunk_records(content[OPCODE_AND_LENGTH.size :])
         except BagError as error:
@@ -109,7 +115,7 @@ class McapFile:
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.
         """
-        return self.messages_in(self.records(chunk), chunk, wanted)
+        return self.messages_in(bytes(self.records(chunk)), chunk, wanted)
 
     def messages_in(
         self, records: bytes, chunk: ChunkIndex, wanted: Container[int] | None = None
@@ -120,11 +126,11 @@ class McapFile:
         while position < end:
             body = position + _PREFIX
             if body > end:
-                raise self._cut(chunk, position)
+                raise self.cut(chunk, position)
             opcode, length = unpack(records, position)
             position = body + length
             if position > end or (opcode == _MESSAGE_OPCODE and length < _MESSAGE_FIELDS):
-                raise self._cut(chunk, body)
+                raise self.cut(chunk, body - _PREFIX)
             if opcode == _MESSAGE_OPCODE:
                 channel, _, log_time, publish_time = unpack_message(records, body)
                 if wanted is None or channel in wanted:
@@ -137,7 +143,8 @@ class McapFile:
             elif opcode in _DEFINITIONS:
                 self._read_definition(opcode, memoryview(records)[body:position])
 
-    def _cut(self, chunk: ChunkIndex, position: int) -> BagError:
+    def cut(self, chunk: ChunkIndex, position: int) -> BagError:
+        """The error of a chunk whose records end at a position in the middle of one."""
         return BagError(
             f"{self.path}: chunk at byte {chunk.offset}: "
             f"its records are damaged at byte {position} of their decompressed bytes"
@@ -310,12 +317,12 @@ def _map_file(path: str) -> tuple[mmap.mmap, memoryview]:
     return mapped, memoryview(mapped)
 
 
-def _chunk_records(content: memoryview) -> bytes:
+def _chunk_records(content: memoryview) -> bytes | memoryview:
     reader = RecordReader(content)
     reader.take(16)  # the times of the first and last message
     size, crc, compression = reader.u64(), reader.u32(), reader.string()
     compressed = reader.take(reader.u64())
-    records = decompress(compression, compressed, size)
+    records = decompress(compression, compressed, size) if compression else compressed
     if crc and zlib.crc32(records) != crc:
         raise BagError("the checksum does not fit")
     return records

@@ -148,7 +148,7 @@ class Bag:
             BagError: One is missing or not what it should be.
         """
         for path in self.metadata.paths:
-            yield self._file(path)
+            yield self.file(path)
 
     def messages(
         self,
@@ -189,7 +189,7 @@ class Bag:
         end_ns: int,
         damage: list[BagError],
     ) -> Iterator[BagMessage]:
-        messages = self._file(path).messages(wanted, start_ns, end_ns, damage.append)
+        messages = self.file(path).messages(wanted, start_ns, end_ns, damage.append)
         if self.metadata.compression_mode != "MESSAGE":
             return messages
         unpack = self.metadata.compression_format
@@ -206,7 +206,13 @@ class Bag:
             (topics is None or topic.name in topics) and (types is None or topic.type in types)
         )
 
-    def _file(self, path: str) -> StorageFile:
+    def file(self, path: str) -> StorageFile:
+        """One of the files that ``metadata.paths`` names.
+
+        Raises:
+            OSError: It is missing.
+            BagError: It is not what it should be.
+        """
         file = self._files.get(path)
         if file is None:
             file = open_storage(self._plain_file(path))
@@ -234,7 +240,7 @@ class Bag:
         """Metadata from the files themselves."""
         if not paths:
             raise BagError(f"{self.path} is no bag: it holds no .mcap or .db3 file")
-        return _joined(paths, [self._file(path).summary() for path in paths])
+        return _joined(paths, [self.file(path).summary() for path in paths])
 
 
 def open_bag(path: str | os.PathLike[str]) -> Bag:

@@ -8,62 +8,32 @@ from __future__ import annotations
 
 import os
 import struct
-import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.storage import McapStorage
-from turtlewire.errors import BagError, CdrError
-from turtlewire.tf.buffer import Buffer
-from turtlewire.tf.inspection import conflicts, links, malformed, refusals
+from turtlewire.bag.transform_report import TransformReport, describe, group_jumps
+from turtlewire.errors import BagError
+from turtlewire.tf.buffer import Buffer, RecordWalk
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.metadata import TopicInfo
-    from turtlewire.tf.inspection import Conflict, LinkInfo, Malformed, Refused
-    from turtlewire.trajectory import Gap
 
-__all__ = ["TransformReport", "load_transforms"]
+__all__ = ["TransformReport", "fill_buffer", "load_transforms"]
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _FOREVER = (1 << 64) - 1
-#: Stamps that fall back by more than this are a jump of time, not messages out of order.
-_JUMP_NS = 1_000_000_000
-#: Seconds and nanoseconds of the first transform, behind the CDR header and the sequence's length.
-_FIRST_STAMP, _FIRST_STAMP_OFFSET = struct.Struct("<iI"), 8
-_AUTHORITY = "bag"
-_REDRAW_SECONDS = 0.1
-
-
-@dataclass
-class TransformReport:
-    """What `load_transforms` found.
-
-    Attributes:
-        messages: Messages of ``/tf`` and ``/tf_static`` that were read.
-        links: Each link with its rate, times and senders.
-        gaps: Pauses in the samples of links, by child frame.
-        jumps: Log times at which the stamps of ``/tf`` jump back by more than a second: a bag that
-            was recorded while another was played in a loop, for example.
-        conflicts: Frames with two parents.
-        refused: Transforms that tf2 refuses, by child frame.
-        malformed: Messages that are no ``TFMessage``.
-        problems: Damaged parts of the bag.
-    """
-
-    messages: int = 0
-    links: list[LinkInfo] = field(default_factory=list)
-    gaps: dict[str, list[Gap]] = field(default_factory=dict)
-    jumps: list[int] = field(default_factory=list)
-    conflicts: list[Conflict] = field(default_factory=list)
-    refused: dict[str, Refused] = field(default_factory=dict)
-    malformed: Malformed | None = None
-    problems: list[str] = field(default_factory=list)
+#: Opcode, length, channel, sequence, log time and publish time of an MCAP message.
+_MESSAGE = struct.Struct("<BQHIQQ")
+_MESSAGE_OPCODE = 5
+_MESSAGE_FIELDS = 22
+_ROWS_AT_A_TIME = 1000
 
 
 def load_transforms(
@@ -95,19 +65,51 @@ def load_transforms(
         FileNotFoundError: There is nothing at ``path``.
         BagError: It is no bag, or none of the topics is in it.
     """
-    moving, fixed = _names(topics), _names(static_topics)
     buffer = Buffer(cache_time_ns)
-    report = TransformReport()
+    report = fill_buffer(
+        buffer,
+        path,
+        topics=topics,
+        static_topics=static_topics,
+        start_ns=start_ns,
+        end_ns=end_ns,
+        progress=progress,
+    )
+    return buffer, report
+
+
+def fill_buffer(
+    buffer: Buffer,
+    path: str | os.PathLike[str],
+    *,
+    topics: str | Iterable[str] = "/tf",
+    static_topics: str | Iterable[str] = "/tf_static",
+    start_ns: int = 0,
+    end_ns: int = _FOREVER,
+    progress: Callable[[float], None] | None = None,
+) -> TransformReport:
+    """Read the transforms of a bag into a buffer; see `load_transforms`."""
+    moving, fixed = _names(topics), _names(static_topics)
+    name = os.path.basename(os.path.abspath(path))
+    report = TransformReport(name)
     with Bag(path) as bag:
         _check_topics(bag, moving | fixed)
-        reader = _Reader(bag, buffer, report)
-        tell = progress or _line_of_progress(os.path.basename(os.path.abspath(path)))
-        reader.read(fixed, 0, _FOREVER, static=True)
-        reader.read(moving, start_ns, end_ns, static=False, progress=tell)
+        known = bag.topics
+        report.publishers = {
+            topic: len(known[topic].qos) for topic in sorted((moving | fixed) & known.keys())
+        }
+        tell = progress or progress_line(f"reading {name}")
+        for static, names in ((True, fixed), (False, moving)):
+            walk = RecordWalk(0, _FOREVER) if static else RecordWalk(start_ns, end_ns)
+            reader = _Reader(bag, walk, buffer, (lambda _: None) if static else tell)
+            reader.read(names & known.keys(), start_ns, end_ns, static=static)
+            report.messages += walk.messages
+            report.jumps += group_jumps(walk.jumps)
+            report.steps_back.update(walk.steps_back)
         tell(1.0)
         report.problems = bag.problems
-    _describe(buffer, report)
-    return buffer, report
+    describe(buffer, report)
+    return report
 
 
 def _names(topics: str | Iterable[str]) -> set[str]:
@@ -127,135 +129,113 @@ def _check_topics(bag: Bag, wanted: set[str]) -> None:
 class _Reader:
     """Reads the messages of some topics into a buffer."""
 
-    def __init__(self, bag: Bag, buffer: Buffer, report: TransformReport) -> None:
+    def __init__(
+        self, bag: Bag, walk: RecordWalk, buffer: Buffer, tell: Callable[[float], None]
+    ) -> None:
         self._bag = bag
+        self._walk = walk
         self._buffer = buffer
-        self._report = report
-        self._newest_ns = 0
+        self._tell = tell
 
-    def read(
+    def read(self, names: set[str], start_ns: int, end_ns: int, *, static: bool) -> None:
+        """Read the messages of topics whose log time lies in the walk's window."""
+        if not names:
+            return
+        if static:
+            start_ns, end_ns = 0, _FOREVER
+        paths = self._bag.metadata.paths
+        for i, path in enumerate(paths):
+            try:
+                file = self._bag.file(path)
+            except (BagError, OSError) as error:
+                self._bag.problems.append(str(error))
+                continue
+            if isinstance(file, McapStorage) and self._bag.metadata.compression_mode != "MESSAGE":
+                self._read_chunks(file, names, start_ns, end_ns, static, (i, len(paths)))
+            else:
+                self._read_rows(names, start_ns, end_ns, static)
+                return  # rows come in order of time over all files
+
+    def _read_chunks(
         self,
+        file: McapStorage,
         names: set[str],
         start_ns: int,
         end_ns: int,
-        *,
         static: bool,
-        progress: Callable[[float], None] | None = None,
+        place: tuple[int, int],
     ) -> None:
-        """Read the messages of topics whose log time lies between two times (both included)."""
+        """Read one file, each chunk decompressed while the last is taken."""
 
         def wanted(topic: TopicInfo) -> bool:
             return topic.name in names
 
-        known = self._bag.topics
-        expected = sum(known[name].message_count for name in names & known.keys())
-        done = 0
-        for messages in self._batches(wanted, start_ns, end_ns):
-            for log_time, data in messages:
-                if start_ns <= log_time <= end_ns:
-                    self._take(log_time, data, static)
-                    done += 1
-            if progress is not None:
-                progress(min(1.0, done / (expected or 1)))
-        self._report.messages += done
-
-    def _batches(
-        self, wanted: Callable[[TopicInfo], bool], start_ns: int, end_ns: int
-    ) -> Iterator[Iterator[tuple[int, bytes]]]:
-        """Log times and bytes of the wanted messages, a chunk at a time where there are chunks."""
-        if self._bag.metadata.storage == "mcap":
-            for file in self._bag.files():
-                if isinstance(file, McapStorage):
-                    yield from self._chunks(file, wanted, start_ns, end_ns)
-        else:
-            yield self._rows(wanted, start_ns, end_ns)
-
-    def _rows(
-        self, wanted: Callable[[TopicInfo], bool], start_ns: int, end_ns: int
-    ) -> Iterator[tuple[int, bytes]]:
-        names = [topic.name for topic in self._bag.topics.values() if wanted(topic)]
-        try:
-            for message in self._bag.messages(names, start_ns=start_ns, end_ns=end_ns):
-                yield message.log_time_ns, message.data
-        except BagError as error:
-            self._damaged(error)
-
-    def _chunks(
-        self, file: McapStorage, wanted: Callable[[TopicInfo], bool], start_ns: int, end_ns: int
-    ) -> Iterator[Iterator[tuple[int, bytes]]]:
-        """The same for the chunks of one file, each decompressed while the last is taken."""
-        channels = {number for number in file.file.channels if wanted(file.topic(number))}
+        channels = {
+            number: (topic.name, static)
+            for number in file.file.channels
+            if wanted(topic := file.topic(number))
+        }
         chunks = file.chunks(wanted, start_ns, end_ns)
+        total, done = sum(chunk.length for chunk in chunks) or 1, 0
+        for chunk, records in self._decompressed(file, chunks):
+            if isinstance(records, BagError):
+                self._bag.problems.append(str(records))
+            else:
+                damaged_at = self._walk.walk(self._buffer, records, channels)
+                if damaged_at >= 0:
+                    self._bag.problems.append(str(file.file.cut(chunk, damaged_at)))
+            file.file.forget(chunk)
+            done += chunk.length
+            self._tell((place[0] + done / total) / place[1])
 
-        def messages(records: bytes, chunk: ChunkIndex) -> Iterator[tuple[int, bytes]]:
+    @staticmethod
+    def _decompressed(
+        file: McapStorage, chunks: list[ChunkIndex]
+    ) -> Iterator[tuple[ChunkIndex, bytes | memoryview | BagError]]:
+        """Each chunk with its records, which another thread decompresses one chunk ahead."""
+
+        def load(chunk: ChunkIndex) -> bytes | memoryview | BagError:
             try:
-                for log_time, _, _, data in file.file.messages_in(records, chunk, channels):
-                    yield log_time, data
+                return file.file.records(chunk)
             except BagError as error:
-                self._damaged(error)
+                return error
 
         with ThreadPoolExecutor(1, "bag") as thread:
-            ahead = [thread.submit(file.file.records, chunk) for chunk in chunks[:1]]
-            for i, chunk in enumerate(chunks):
-                current = ahead.pop()
-                ahead += [
-                    thread.submit(file.file.records, next_) for next_ in chunks[i + 1 : i + 2]
-                ]
-                try:
-                    records = current.result()
-                except BagError as error:
-                    self._damaged(error)
-                else:
-                    yield messages(records, chunk)
+            following = iter(chunks)
+            ahead = [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
+            while ahead:
+                chunk, current = ahead.pop()
+                ahead += [(chunk, thread.submit(load, chunk)) for chunk in islice(following, 1)]
+                yield chunk, current.result()
 
-    def _damaged(self, error: BagError) -> None:
-        self._bag.problems.append(str(error))
+    def _read_rows(self, names: set[str], start_ns: int, end_ns: int, static: bool) -> None:
+        """Read storages without chunks, as records that are made here."""
+        numbers = {name: number for number, name in enumerate(sorted(names))}
+        channels = {number: (name, static) for name, number in numbers.items()}
+        known = self._bag.topics
+        expected = sum(known[name].message_count for name in names) or 1
+        records = self._records(names, numbers, start_ns, end_ns)
+        done = 0
+        while batch := list(islice(records, _ROWS_AT_A_TIME)):
+            self._walk.walk(self._buffer, b"".join(batch), channels)
+            done += len(batch)
+            self._tell(min(1.0, done / expected))
 
-    def _take(self, log_time: int, data: bytes, static: bool) -> None:
+    def _records(
+        self, names: set[str], numbers: dict[str, int], start_ns: int, end_ns: int
+    ) -> Iterator[bytes]:
         try:
-            self._buffer.ingest(data, static, _AUTHORITY)
-        except CdrError:
-            return  # the buffer counts them
-        if static or len(data) < _FIRST_STAMP.size + _FIRST_STAMP_OFFSET:
-            return
-        seconds, nanoseconds = _FIRST_STAMP.unpack_from(data, _FIRST_STAMP_OFFSET)
-        stamp = seconds * 1_000_000_000 + nanoseconds
-        if stamp < self._newest_ns - _JUMP_NS:
-            self._report.jumps.append(log_time)
-            self._newest_ns = stamp
-        elif stamp > self._newest_ns:
-            self._newest_ns = stamp
-
-
-def _describe(buffer: Buffer, report: TransformReport) -> None:
-    """Add to the report what the filled buffer tells."""
-    import numpy as np
-
-    from turtlewire.trajectory import find_gaps
-
-    report.links = links(buffer)
-    report.conflicts = conflicts(buffer)
-    report.refused = refusals(buffer)
-    report.malformed = malformed(buffer)
-    for link in report.links:
-        if not link.static and link.samples > 2:
-            stamps = np.concatenate([run[1] for run in buffer.samples(link.child_frame)])
-            if found := find_gaps(stamps):
-                report.gaps[link.child_frame] = found
-
-
-def _line_of_progress(name: str) -> Callable[[float], None]:
-    """Draws one line on a terminal when reading takes more than a second; else does nothing."""
-    started = time.monotonic()
-    shown = 0.0
-
-    def tell(share: float) -> None:
-        nonlocal shown
-        now = time.monotonic()
-        if share >= 1.0 and shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)  # noqa: T201
-        elif now - started > 1.0 and now - shown > _REDRAW_SECONDS:
-            shown = now
-            print(f"\rreading {name}: {share:4.0%}", end="", file=sys.stderr, flush=True)  # noqa: T201
-
-    return tell if sys.stderr.isatty() else lambda _share: None
+            for message in self._bag.messages(names, start_ns=start_ns, end_ns=end_ns):
+                yield (
+                    _MESSAGE.pack(
+                        _MESSAGE_OPCODE,
+                        _MESSAGE_FIELDS + len(message.data),
+                        numbers[message.topic],
+                        0,
+                        message.log_time_ns,
+                        message.publish_time_ns,
+                    )
+                    + message.data
+                )
+        except BagError as error:
+            self._bag.problems.append(str(error))

@@ -40,6 +40,7 @@ def examine(listen_s: float | None = None) -> list[Finding]:
         graph = context.graph
         context.create_node("_turtlewire_doctor")
         listener = TfListener(context)
+        graph.hurry()
         if discovery().static_peers or not only_this_host():
             graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
         graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)

@@ -18,7 +18,6 @@ from __future__ import annotations
 from turtlewire.msg.cdr import deserialize, serialize
 from turtlewire.msg.classes import (
     Action,
-    Message,
     Service,
     get_action,
     get_interface_class,
@@ -26,6 +25,7 @@ from turtlewire.msg.classes import (
     get_service,
     type_name,
 )
+from turtlewire.msg.message import Message
 from turtlewire.msg.registry import interface_names, interface_path, register_package
 from turtlewire.msg.shell import lazy_classes
 from turtlewire.msg.type_hash import type_hash

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TypeVar
 
 from turtlewire.errors import CdrError
-from turtlewire.msg.classes import Message, type_name
+from turtlewire.msg.classes import type_name
+from turtlewire.msg.message import Message
 
 __all__ = ["deserialize", "serialize"]
 

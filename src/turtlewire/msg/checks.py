@@ -27,8 +27,8 @@ from turtlewire.msg.types import (
 from turtlewire.msg.values import element_code, numpy_name
 
 if TYPE_CHECKING:
-    from turtlewire.msg.classes import Message
     from turtlewire.msg.definition import Field
+    from turtlewire.msg.message import Message
 
 __all__ = ["turn_on_checks"]
 

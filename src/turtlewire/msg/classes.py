@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any, Generic, cast
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import split_name
+from turtlewire.msg.message import Message
 from turtlewire.msg.registry import load_action, load_message, load_service
 from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
 from turtlewire.msg.values import converter, element_code, scalar_default
 
 if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition
-    from turtlewire.msg.types import AbstractType
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
@@ -37,7 +37,6 @@ else:  # the defaults came with Python 3.13
 
 __all__ = [
     "Action",
-    "Message",
     "Service",
     "checks_are_on",
     "get_action",
@@ -52,90 +51,6 @@ _messages: dict[str, type[Message]] = {}
 _services: dict[str, type[Service]] = {}
 _actions: dict[str, type[Action]] = {}
 _lock = RLock()
-
-
-class _FieldTypes:
-    """``_fields_and_field_types``, which programs read although it is private in ROS 2."""
-
-    def __get__(self, message: Message | None, cls: type[Message]) -> dict[str, str]:
-        return cls.get_fields_and_field_types()
-
-
-class Message:
-    """Base of all message classes.
-
-    Attributes:
-        SLOT_TYPES: The types of the fields, in order.
-    """
-
-    __slots__ = ()
-    SLOT_TYPES: tuple[AbstractType, ...] = ()
-    _TYPE_NAME: str
-    _DEFINITION: MessageDefinition
-    _fields_and_field_types = _FieldTypes()
-
-    if TYPE_CHECKING:  # each class gets a constructor of its own when it is made
-
-        def __init__(self, **fields: Any) -> None: ...
-
-    @classmethod
-    def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Names and types of the fields, in order.
-
-        ROS 2 spells the types ``sequence<double>``, ``geometry_msgs/Vector3``.
-        """
-        return {field.name: str(field.type) for field in cls._DEFINITION.fields}
-
-    def __repr__(self) -> str:
-        package, kind, name = split_name(self._TYPE_NAME)
-        arguments = ", ".join(
-            f"{field.name}={_repr_value(field.type, getattr(self, field.name))}"
-            for field in self._DEFINITION.fields
-        )
-        return f"{package}.{kind}.{name}({arguments})"
-
-    def __eq__(self, other: object) -> bool:
-        if getattr(other, "_TYPE_NAME", None) != self._TYPE_NAME:
-            return False
-        for field in self._DEFINITION.fields:
-            equal = getattr(self, field.name) == getattr(other, field.name)
-            if not (equal if isinstance(equal, bool) else _all_equal(equal)):
-                return False
-        return True
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (
-            self._TYPE_NAME,
-            {field.name: getattr(self, field.name) for field in self._DEFINITION.fields},
-        )
-
-    def _to_cdr(self) -> bytes:
-        """Encode. The first call for a class generates the code, which replaces this method."""
-        from turtlewire.msg.encoder import make_encoder
-
-        encode = make_encoder(type(self))
-        _messages[self._TYPE_NAME]._to_cdr = encode  # type: ignore[method-assign, assignment]
-        return encode(self)
-
-    @classmethod
-    def _from_cdr(cls, data: bytes) -> Message:
-        """Decode little endian; generated at the first call, as `_to_cdr`."""
-        from turtlewire.msg.decoder import make_decoder
-
-        decode = make_decoder(cls, "<")
-        cls._from_cdr = staticmethod(decode)  # type: ignore[method-assign, assignment]
-        return decode(data)
-
-    @classmethod
-    def _from_cdr_big_endian(cls, data: bytes) -> Message:
-        """Decode big endian; generated at the first call, as `_to_cdr`."""
-        from turtlewire.msg.decoder import make_decoder
-
-        decode = make_decoder(cls, ">")
-        cls._from_cdr_big_endian = staticmethod(decode)  # type: ignore[method-assign, assignment]
-        return decode(data)
 
 
 class _PartsOnDemand(type):
@@ -279,6 +194,10 @@ def _make_message(definition: MessageDefinition) -> type[Message]:
         "_TYPE_NAME": definition.full_name,
         "_DEFINITION": definition,
         "__init__": _make_constructor(definition),
+        "__reduce__": _reduce,
+        "_to_cdr": _first_to_cdr,
+        "_from_cdr": classmethod(_first_from_cdr),
+        "_from_cdr_big_endian": classmethod(_first_from_cdr_big_endian),
     }
     namespace.update((constant.name, constant.value) for constant in definition.constants)
     namespace.update(
@@ -415,19 +334,41 @@ def _make_action(full_name: str) -> type[Action]:
     return cast("type[Action]", _PartsOnDemand(name, (Action,), namespace))
 
 
+def _first_to_cdr(message: Message) -> bytes:
+    """Encode. The first call for a class generates the code, which replaces this method."""
+    from turtlewire.msg.encoder import make_encoder
+
+    encode = make_encoder(type(message))
+    _messages[message._TYPE_NAME]._to_cdr = encode  # type: ignore[method-assign, assignment]
+    return encode(message)
+
+
+def _first_from_cdr(cls: type[Message], data: bytes) -> Message:
+    """Decode little endian; generated at the first call, as `_first_to_cdr` does."""
+    from turtlewire.msg.decoder import make_decoder
+
+    decode = make_decoder(cls, "<", get_message)
+    cls._from_cdr = staticmethod(decode)  # type: ignore[method-assign, assignment]
+    return decode(data)
+
+
+def _first_from_cdr_big_endian(cls: type[Message], data: bytes) -> Message:
+    """Decode big endian; generated at the first call, as `_first_to_cdr` does."""
+    from turtlewire.msg.decoder import make_decoder
+
+    decode = make_decoder(cls, ">", get_message)
+    cls._from_cdr_big_endian = staticmethod(decode)  # type: ignore[method-assign, assignment]
+    return decode(data)
+
+
+def _reduce(message: Message) -> tuple[Any, ...]:
+    values = {field.name: getattr(message, field.name) for field in message._DEFINITION.fields}
+    return _restore, (message._TYPE_NAME, values)
+
+
 def _restore(full_name: str, values: dict[str, Any]) -> Message:
     """Unpickle or copy.
 
     Finds the class by its name, so that no ROS-named package needs to be importable.
     """
     return get_message(full_name)(**values)
-
-
-def _repr_value(type_: AbstractType, value: Any) -> str:
-    if element_code(type_) and not isinstance(type_, Array):
-        return repr(value.tolist()) if hasattr(value, "tolist") else repr(value)
-    return repr(value)
-
-
-def _all_equal(comparison: Any) -> bool:
-    return bool(comparison.all()) if hasattr(comparison, "all") else bool(comparison)

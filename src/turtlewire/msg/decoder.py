@@ -14,7 +14,6 @@ from math import gcd
 from struct import Struct
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.msg.classes import get_message
 from turtlewire.msg.encoder import CODES, SIZES
 from turtlewire.msg.types import (
     AbstractSequence,
@@ -30,21 +29,24 @@ from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.msg.classes import Message
     from turtlewire.msg.definition import MessageDefinition
+    from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType
 
 __all__ = ["make_decoder", "numbers"]
 
 
-def make_decoder(cls: type[Message], order: str) -> Callable[[bytes], Message]:
+def make_decoder(
+    cls: type[Message], order: str, class_of: Callable[[str], type[Message]]
+) -> Callable[[bytes], Message]:
     """Generate ``decode(data) -> message`` for a message class.
 
     Args:
         cls: The class.
         order: ``"<"`` for little endian data, ``">"`` for big endian.
+        class_of: Finds the class of a nested message by its full name.
     """
-    return _Decoder(order).compile(cls)
+    return _Decoder(order, class_of).compile(cls)
 
 
 def numbers(code: str, data: memoryview, swap: bool) -> array[Any]:
@@ -62,7 +64,8 @@ class _Decoder:
     ``self.base + self.offset`` is the position in ``data``.
     """
 
-    def __init__(self, order: str) -> None:
+    def __init__(self, order: str, class_of: Callable[[str], type[Message]]) -> None:
+        self.class_of = class_of
         self.order = order
         self.lines: list[str] = []
         self.indent = " "
@@ -106,7 +109,7 @@ class _Decoder:
             self.number(CODES[type_.typename], target)
         elif isinstance(type_, NamespacedType):
             nested = self.name()
-            self.message(get_message(type_.full_name), nested)
+            self.message(self.class_of(type_.full_name), nested)
             self.line(f"{target} = {nested}")
         elif isinstance(type_, AbstractString):
             self.text(type_, target)

@@ -15,7 +15,9 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-__all__ = ["CORE", "Buffer", "Transform"]
+from turtlewire.tf.surface import equip
+
+__all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
 
 _UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 _ADVICE = (
@@ -48,6 +50,8 @@ CORE = _choose()
 """Which core runs: ``native`` or ``python``."""
 
 if TYPE_CHECKING or CORE == "native":
-    from turtlewire._native import Buffer, Transform
+    from turtlewire._native import Buffer, RecordWalk, Transform
 else:
-    from turtlewire.tf.plain import Buffer, Transform
+    from turtlewire.tf.plain import Buffer, RecordWalk, Transform
+
+equip(Buffer, Transform)

@@ -5,12 +5,14 @@ Also saves a buffer to a file and loads it again.
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.tf.links import LinkInfo, Sender, links
 
 if TYPE_CHECKING:
     from os import PathLike
+    from typing import BinaryIO
     from zipfile import ZipFile
 
     from numpy.typing import NDArray
@@ -24,8 +26,10 @@ __all__ = [
     "Refused",
     "Sender",
     "conflicts",
+    "dumps",
     "links",
     "load",
+    "loads",
     "malformed",
     "refusals",
     "save",
@@ -104,6 +108,20 @@ def conflicts(buffer: Buffer) -> list[Conflict]:
 
 def save(buffer: Buffer, path: str | PathLike[str]) -> None:
     """Write all samples and static transforms to a file (NumPy's ``.npz``, without pickled objects)."""
+    with open(path, "wb") as file:
+        _write(buffer, file)
+
+
+def dumps(buffer: Buffer) -> bytes:
+    """The same as bytes."""
+    import io
+
+    file = io.BytesIO()
+    _write(buffer, file)
+    return file.getvalue()
+
+
+def _write(buffer: Buffer, file: BinaryIO) -> None:
     import json
 
     import numpy as np
@@ -122,8 +140,7 @@ def save(buffer: Buffer, path: str | PathLike[str]) -> None:
             arrays[f"stamps{len(runs)}"], arrays[f"poses{len(runs)}"] = stamps, poses
             runs.append((parent, link.child_frame, link.static, sender))
     header = json.dumps({"format": _FORMAT, "cache_time_ns": buffer.cache_time_ns, "runs": runs})
-    with open(path, "wb") as file:
-        np.savez_compressed(file, header=np.frombuffer(header.encode(), dtype=np.uint8), **arrays)
+    np.savez_compressed(file, header=np.frombuffer(header.encode(), dtype=np.uint8), **arrays)
 
 
 def load(path: str | PathLike[str]) -> Buffer:
@@ -134,16 +151,27 @@ def load(path: str | PathLike[str]) -> Buffer:
     Raises:
         ValueError: The file is something else, or damaged.
     """
+    with open(path, "rb") as file:
+        return _read(file, os.fspath(path))
+
+
+def loads(data: bytes) -> Buffer:
+    """A new buffer with what ``dumps`` returned; see `load`."""
+    import io
+
+    return _read(io.BytesIO(data), "this")
+
+
+def _read(stream: BinaryIO, name: str) -> Buffer:
     import json
     import zipfile
 
-    with open(path, "rb") as stream:
-        try:
-            with zipfile.ZipFile(stream) as file:
-                _check_size(file)
-                return _fill(json.loads(bytes(_array(file, "header", "|u1"))), file)
-        except Exception as error:  # a damaged archive raises errors of many kinds
-            raise ValueError(f"{path} is no saved buffer: {error}") from error
+    try:
+        with zipfile.ZipFile(stream) as file:
+            _check_size(file)
+            return _fill(json.loads(bytes(_array(file, "header", "|u1"))), file)
+    except Exception as error:  # a damaged archive raises errors of many kinds
+        raise ValueError(f"{name} is no saved buffer: {error}") from error
 
 
 def _check_size(file: ZipFile) -> None:

@@ -20,13 +20,23 @@ module           what it holds
 `alignment`      nearest stamps; Umeyama's and others' alignment
 `metrics`        APE, RPE and their statistics
 `quaternions`    quaternion algebra over arrays
+`plots`          paths, positions, angles and speeds as pictures
+`error_plots`    errors as pictures
+`chart`          axes, lines and boxes as SVG
 ===============  ==============================================================
 """
 
 from __future__ import annotations
 
 from turtlewire.trajectory.alignment import ALIGNMENTS, Alignment, align, associate
+from turtlewire.trajectory.chart import Plot
 from turtlewire.trajectory.comparison import Comparison, compare
+from turtlewire.trajectory.error_plots import (
+    plot_box,
+    plot_error_path,
+    plot_errors,
+    plot_histogram,
+)
 from turtlewire.trajectory.files import (
     read_csv,
     read_euroc,
@@ -36,9 +46,16 @@ from turtlewire.trajectory.files import (
     write_csv,
     write_euroc,
     write_kitti,
+    write_trajectory,
     write_tum,
 )
 from turtlewire.trajectory.metrics import RELATIONS, Errors, Statistics, ape, rpe
+from turtlewire.trajectory.plots import (
+    plot_angles,
+    plot_path,
+    plot_positions,
+    plot_speeds,
+)
 from turtlewire.trajectory.sampling import find_gaps, sample_trajectory
 from turtlewire.trajectory.trajectory import Gap, Trajectory, as_stamps
 
@@ -49,6 +66,7 @@ __all__ = [
     "Comparison",
     "Errors",
     "Gap",
+    "Plot",
     "Statistics",
     "Trajectory",
     "align",
@@ -57,6 +75,14 @@ __all__ = [
     "associate",
     "compare",
     "find_gaps",
+    "plot_angles",
+    "plot_box",
+    "plot_error_path",
+    "plot_errors",
+    "plot_histogram",
+    "plot_path",
+    "plot_positions",
+    "plot_speeds",
     "read_csv",
     "read_euroc",
     "read_kitti",
@@ -67,5 +93,6 @@ __all__ = [
     "write_csv",
     "write_euroc",
     "write_kitti",
+    "write_trajectory",
     "write_tum",
 ]

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING
 
-from turtlewire.trajectory.alignment import Alignment, align, associate
+from turtlewire.trajectory import alignment
+from turtlewire.trajectory.alignment import Alignment, associate
+from turtlewire.trajectory.error_plots import plot_error_path
 from turtlewire.trajectory.metrics import Errors, ape, rpe
 from turtlewire.trajectory.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from turtlewire.trajectory.chart import Plot
 
 __all__ = ["Comparison", "compare"]
 
@@ -55,6 +62,13 @@ class Comparison:
             pairs_from_reference=pairs_from_reference,
         )
 
+    def plot(self, relation: str = "trans_part", plane: str = "xy") -> Plot:
+        """The path of the estimate, coloured by its APE, on the dashed reference."""
+        return plot_error_path(self.reference, self.estimate, self.ape(relation), plane)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self.table())}</pre>\n{self.plot().svg}"
+
     def table(self, relation: str = "trans_part") -> str:
         """The statistics of the APE as evo prints them, with a heading that tells the alignment."""
         errors = self.ape(relation)
@@ -66,7 +80,7 @@ class Comparison:
 def compare(
     reference: Trajectory,
     estimate: Trajectory,
-    align_by: str = "none",
+    align: str = "none",
     *,
     max_diff_ns: int = _MAX_DIFF_NS,
     offset_ns: int = 0,
@@ -77,7 +91,7 @@ def compare(
     Args:
         reference: The reference, for example ground truth.
         estimate: The estimate.
-        align_by: ``none``, ``origin``, ``yaw``, ``se3`` or ``sim3``; see
+        align: ``none``, ``origin``, ``yaw``, ``se3`` or ``sim3``; see
             `turtlewire.trajectory.align`.
         max_diff_ns: Poses whose stamps differ by more do not belong together.
         offset_ns: Added to the stamps of the estimate, for clocks that differ.
@@ -97,8 +111,8 @@ def compare(
     first = _at(reference, rows[0], stamps)
     second = _at(estimate, rows[1], stamps)
     count = len(first) if poses_to_align is None else poses_to_align
-    alignment = align(first[:count], second[:count], align_by)
-    return Comparison(first, alignment.apply(second), align_by, alignment)
+    moved = alignment.align(first[:count], second[:count], align)
+    return Comparison(first, moved.apply(second), align, moved)
 
 
 def _at(trajectory: Trajectory, rows: object, stamps: object) -> Trajectory:

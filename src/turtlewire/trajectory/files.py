@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
+    "FORMATS",
     "read_csv",
     "read_euroc",
     "read_kitti",
@@ -30,10 +31,15 @@ __all__ = [
     "write_csv",
     "write_euroc",
     "write_kitti",
+    "write_trajectory",
     "write_tum",
 ]
 
+#: Formats of files, and the usual ending of their names.
+FORMATS = {"tum": ".tum", "kitti": ".kitti", "euroc": ".euroc", "csv": ".csv"}
+
 _SECOND = 1_000_000_000
+_TIMES = "_times.txt"
 
 
 def read_tum(path: str | os.PathLike[str]) -> Trajectory:
@@ -124,8 +130,38 @@ def write_kitti(
         _write_lines(times, ((_seconds(stamp), ()) for stamp in stamps), " ")
 
 
+def write_trajectory(
+    trajectory: Trajectory, path: str | os.PathLike[str], kind: str | None = None
+) -> str:
+    """Write a file of one of `FORMATS`; of KITTI's, the times go into ``<name>_times.txt``.
+
+    Args:
+        trajectory: What is written.
+        path: Where to.
+        kind: The format; None takes it from the ending of the name, TUM if that says nothing.
+
+    Returns:
+        The format.
+
+    Raises:
+        ValueError: There is no such format.
+    """
+    root, ending = os.path.splitext(os.fspath(path))
+    kind = kind or next((each for each, usual in FORMATS.items() if usual == ending), "tum")
+    if kind == "kitti":
+        write_kitti(trajectory, path, root + _TIMES)
+        return kind
+    writers = {"tum": write_tum, "euroc": write_euroc, "csv": write_csv}
+    if kind not in writers:
+        raise ValueError(f"unknown format '{kind}'; known are {', '.join(FORMATS)}")
+    writers[kind](trajectory, path)
+    return kind
+
+
 def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     """Read a file of any of these formats: which one it is tell its separator and columns.
+
+    KITTI's times are read from ``<name>_times.txt``, if there is such a file.
 
     Raises:
         ValueError: It is none of them.
@@ -136,7 +172,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     columns = len(data.split("," if "," in data else None))
     if "," not in data:
         if columns == 12:
-            return read_kitti(path)
+            times = os.path.splitext(os.fspath(path))[0] + _TIMES
+            return read_kitti(path, times if os.path.exists(times) else None)
         return read_tum(path)
     euroc = columns > 8 or any(line.startswith("#") and "q_w" in line for line in lines[:1])
     return read_euroc(path) if euroc else read_csv(path)

@@ -110,7 +110,7 @@ def _moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def _stamps_of(buffer: Buffer, child: str) -> NDArray[np.int64]:
-    return np.unique(np.concatenate([run[1] for run in buffer.samples(child)]))
+    return np.unique(buffer.stamps(child))
 
 
 def _times(histories: list[NDArray[np.int64]], rate_hz: float | None) -> NDArray[np.int64]:

@@ -12,6 +12,8 @@ from turtlewire.trajectory import quaternions
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.trajectory.chart import Plot
+
 __all__ = ["Gap", "Trajectory", "as_stamps"]
 
 
@@ -118,6 +120,31 @@ class Trajectory:
         matrices[:, :3, :3] = quaternions.matrices(self.rotations)
         matrices[:, :3, 3] = self.positions
         return matrices
+
+    def plot(self, kind: str = "path", reference: Trajectory | None = None) -> Plot:
+        """A picture: ``path`` (x and y), ``positions``, ``angles`` or ``speeds`` over time.
+
+        Args:
+            kind: What is drawn.
+            reference: Drawn dashed and grey.
+
+        Raises:
+            ValueError: There is no such picture, or no pose.
+        """
+        from turtlewire.trajectory import plots
+
+        drawn = {
+            "path": plots.plot_path,
+            "positions": plots.plot_positions,
+            "angles": plots.plot_angles,
+            "speeds": plots.plot_speeds,
+        }
+        if kind not in drawn:
+            raise ValueError(f"'{kind}' is no picture; known are {', '.join(drawn)}")
+        return drawn[kind](self, reference)
+
+    def _repr_svg_(self) -> str | None:
+        return self.plot().svg if len(self) else None
 
     def to_pandas(self) -> Any:
         """A pandas ``DataFrame``: index UTC time, columns x y z qx qy qz qw roll pitch yaw.

@@ -206,6 +206,12 @@ class GraphView(Graph):
         """
         return True
 
+    def hurry(self) -> None:
+        """See :meth:`Graph.hurry`.
+
+        Nobody keeps silent where nothing has to be discovered.
+        """
+
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:
         """See :meth:`Graph.add_listener`."""
         with self._change:

@@ -6,7 +6,8 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.tf.plain.checks import LIMIT, check_frames, nanoseconds, numbers
+from turtlewire.tf.plain import arguments
+from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
 from turtlewire.tf.plain.failure import Failure
 from turtlewire.tf.plain.pose import (
     IDENTITY,
@@ -26,11 +27,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from turtlewire.tf.plain.buffer import Buffer
+    from turtlewire.tf.plain.shared_tree import SharedTree
 
 
 def lookup_batch(
-    self: Buffer,
+    self: SharedTree,
     target_frame: str,
     source_frame: str,
     stamps: ArrayLike,
@@ -41,15 +42,15 @@ def lookup_batch(
 ) -> NDArray[np.float64]:
     """lookup_transform at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
-    times = _stamps(stamps)
-    result = _output(out, (len(times), 4, 4) if matrices else (len(times), 7))
+    times = arguments.stamp_list(stamps)
+    result = arguments.output_array(out, (len(times), 4, 4) if matrices else (len(times), 7))
     for i, pose in enumerate(_poses(self, target_frame, source_frame, times, status)):
         result[i] = _matrix(pose) if matrices else pose
     return result
 
 
 def lookup_all(
-    self: Buffer, target_frame: str, stamp_ns: int = 0
+    self: SharedTree, target_frame: str, stamp_ns: int = 0
 ) -> tuple[list[str], NDArray[np.float64], NDArray[np.int64]]:
     """The poses of all frames in one frame at one time."""
     import numpy as np
@@ -79,7 +80,7 @@ def lookup_all(
 
 
 def transform_points(
-    self: Buffer,
+    self: SharedTree,
     target_frame: str,
     source_frame: str,
     points: ArrayLike,
@@ -98,13 +99,13 @@ def transform_points(
         raise ValueError(
             "target_stamp_ns needs fixed_frame, the frame by way of which points get to another time"
         )
-    given, result = _points(points, out)
+    given, result = arguments.point_arrays(points, out)
     last = (
         _pose(self, target_frame, own_target, target_stamp_ns)
         if fixed_frame is not None
         else IDENTITY
     )
-    times, single = _times(stamps)
+    times, single = arguments.times_of(stamps)
     if single:
         if status is not None:
             raise ValueError("status is for a stamp for each point")
@@ -119,33 +120,8 @@ def transform_points(
     return result
 
 
-def _points(points: ArrayLike, out: NDArray[Any] | None) -> tuple[NDArray[Any], NDArray[Any]]:
-    """What to read, float32 or float64, and where to write."""
-    import numpy as np
-
-    given = np.asarray(points)
-    given = np.ascontiguousarray(
-        given, dtype=np.float32 if given.dtype == np.float32 else np.float64
-    )
-    if given.ndim != 2 or given.shape[1] != 3:
-        raise ValueError("points must have the shape (N, 3)")
-    if out is None:
-        return given, np.empty_like(given)
-    if (
-        not isinstance(out, np.ndarray)
-        or out.dtype != given.dtype
-        or not out.flags.c_contiguous
-        or not out.flags.writeable
-    ):
-        raise TypeError(
-            "out must be a writable, C-contiguous (N, 3) array of the same type as points"
-        )
-    _check_shape(out, given.shape, "out")
-    return (given.copy() if np.may_share_memory(given, out) else given), out
-
-
 def lookup_velocity(
-    self: Buffer,
+    self: SharedTree,
     tracking_frame: str,
     observation_frame: str,
     stamps: int | ArrayLike = 0,
@@ -163,9 +139,9 @@ def lookup_velocity(
     if interval_ns <= 0:
         raise ValueError("interval_ns must be positive")
     px, py, pz = numbers("point", point, 3)
-    times, single = _times(stamps)
-    result = _output(out, (6,) if single else (len(times), 6))
-    _check_status(status, len(times))
+    times, single = arguments.times_of(stamps)
+    result = arguments.output_array(out, (6,) if single else (len(times), 6))
+    arguments.check_status(status, len(times))
     latest = _attempt(lambda: self._tree.latest_common_time(observation_frame, tracking_frame))
     newest = latest if isinstance(latest, int) else 0
     axes, fixed = reference_frame or observation_frame, point_frame or tracking_frame
@@ -203,24 +179,24 @@ def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tu
     return linear, (factor * x, factor * y, factor * z)
 
 
-def _bare(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
-    return buffer._tree.lookup(target, source, stamp, "lookupTransform")[1]
+def _bare(self: SharedTree, target: str, source: str, stamp: int) -> Pose:
+    return self._tree.lookup(target, source, stamp, "lookupTransform")[1]
 
 
-def _pose(buffer: Buffer, target: str, source: str, stamp: int) -> Pose:
-    with buffer._changed:
-        return buffer._checked(lambda: _bare(buffer, target, source, stamp))
+def _pose(self: SharedTree, target: str, source: str, stamp: int) -> Pose:
+    with self._changed:
+        return self._checked(lambda: _bare(self, target, source, stamp))
 
 
 def _poses(
-    buffer: Buffer, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None
+    self: SharedTree, target: str, source: str, stamps: list[int], status: NDArray[np.uint8] | None
 ) -> Iterable[Pose]:
-    _check_status(status, len(stamps))
+    arguments.check_status(status, len(stamps))
     for i, stamp in enumerate(stamps):
-        with buffer._changed:
+        with self._changed:
             pose = _with_status(
-                buffer,
-                lambda stamp=stamp: _bare(buffer, target, source, stamp),  # type: ignore[misc]
+                self,
+                lambda stamp=stamp: _bare(self, target, source, stamp),  # type: ignore[misc]
                 status,
                 i,
             )
@@ -235,69 +211,14 @@ def _attempt(ask: Callable[[], Any]) -> Any:
 
 
 def _with_status(
-    buffer: Buffer, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
+    self: SharedTree, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
 ) -> Any:
     """The answer; without one None, and its status noted, or the exception if nobody wants a status."""
     if status is None:
-        return buffer._checked(ask)
+        return self._checked(ask)
     answer = _attempt(ask)
     status[i] = answer if isinstance(answer, LookupStatus) else LookupStatus.OK
     return None if isinstance(answer, LookupStatus) else answer
-
-
-def _times(stamps: int | ArrayLike) -> tuple[list[int], bool]:
-    """The times, and whether it was a single one and no array."""
-    import numpy as np
-
-    if isinstance(stamps, (int, np.integer)):
-        return nanoseconds(stamps=stamps), True
-    return _stamps(stamps), False
-
-
-def _stamps(stamps: ArrayLike) -> list[int]:
-    import numpy as np
-
-    array = np.asarray(stamps)
-    if array.ndim != 1:
-        raise ValueError("stamps must be one-dimensional")
-    if array.dtype.kind not in "iu" and array.size:
-        raise TypeError("stamps must be integers (nanoseconds)")
-    times = [int(stamp) for stamp in array]
-    if max(times, default=0) >= LIMIT:
-        raise OverflowError("stamps do not fit into 64 bits (int64 nanoseconds)")
-    return times
-
-
-def _check_status(status: NDArray[np.uint8] | None, count: int) -> None:
-    import numpy as np
-
-    if status is not None and not (
-        isinstance(status, np.ndarray) and status.dtype == np.uint8 and status.flags.carray
-    ):
-        raise TypeError("status must be a writable, C-contiguous uint8 array")
-    _check_shape(status, (count,), "status")
-
-
-def _check_shape(array: NDArray[Any] | None, shape: tuple[int, ...], name: str) -> None:
-    if array is not None and array.shape != shape:
-        wanted, given = (", ".join(map(str, sizes)) for sizes in (shape, array.shape))
-        raise ValueError(f"{name} must have the shape ({wanted}), not ({given})")
-
-
-def _output(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    import numpy as np
-
-    if out is None:
-        return np.empty(shape)
-    if (
-        not isinstance(out, np.ndarray)
-        or out.dtype != np.float64
-        or not out.flags.c_contiguous
-        or not out.flags.writeable
-    ):
-        raise TypeError("out must be a writable, C-contiguous float64 array")
-    _check_shape(out, shape, "out")
-    return out
 
 
 def _matrix(pose: Pose) -> NDArray[np.float64]:

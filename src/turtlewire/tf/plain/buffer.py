@@ -1,29 +1,20 @@
-"""The public class: the tree with a lock, waiting and listeners."""
+"""The public class: data in, questions and descriptions, as the compiled core has them."""
 
 from __future__ import annotations
 
-import sys
-import threading
-import time
 from functools import partial
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import CdrError, TransformException
-from turtlewire.tf.plain import batch, fork, inspection
+from turtlewire.tf.plain import batch, inspection
 from turtlewire.tf.plain.checks import check_frames, nanoseconds, numbers
-from turtlewire.tf.plain.failure import (
-    ERRORS,
-    Failure,
-    Question,
-    Refusal,
-    Verdict,
-)
+from turtlewire.tf.plain.failure import Failure, Question, Refusal, Verdict
 from turtlewire.tf.plain.pose import Pose, Quaternion, Vector, canonical, compose
 from turtlewire.tf.plain.report import frames_as_dot, frames_as_string, frames_as_yaml
+from turtlewire.tf.plain.shared_tree import SharedTree
 from turtlewire.tf.plain.tf_message import decode_tf_message
 from turtlewire.tf.plain.transform import Transform
-from turtlewire.tf.plain.tree import NO_PARENT, Tree
+from turtlewire.tf.plain.tree import NO_PARENT
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
@@ -34,7 +25,7 @@ _Answer = TypeVar("_Answer")
 FOREVER = 2**63 - 1
 
 
-class Buffer:
+class Buffer(SharedTree):
     """The transforms of a tree of frames over time. Safe for use from many threads.
 
     Args:
@@ -48,10 +39,7 @@ class Buffer:
         (keep,) = nanoseconds(cache_time_ns=FOREVER if cache_time_ns is None else cache_time_ns)
         if keep < 0:
             raise ValueError("cache_time_ns must not be negative")
-        self._tree = Tree(keep)
-        self._changed = threading.Condition()
-        self._listeners: list[Callable[[], object]] = []
-        fork.guard(self._changed)
+        super().__init__(keep)
 
     @property
     def cache_time_ns(self) -> int | None:
@@ -67,6 +55,7 @@ class Buffer:
     remove_frame = inspection.remove_frame
     remove_stale = inspection.remove_stale
     samples = inspection.samples
+    stamps = inspection.stamps
     set_transforms = inspection.set_transforms
     _describe_links = inspection.describe_links
     _describe_refusals = inspection.describe_refusals
@@ -277,38 +266,11 @@ class Buffer:
         with self._changed:
             return frames_as_dot(list(self._tree.frames), self._tree.links_in_order(), now)
 
-    # -- changes
-
     def _repr_svg_(self) -> str:
         """The tree of frames as SVG, for notebooks."""
         from turtlewire.tf.notebook import buffer_svg
 
         return buffer_svg(self)
-
-    def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
-        """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
-
-        Returns:
-            A function that removes the listener again.
-        """
-        if not callable(listener):
-            raise TypeError(f"listener must be callable, not {type(listener).__name__}")
-        self._listeners.append(listener)
-        return partial(self._remove_change_listener, listener)
-
-    def _remove_change_listener(self, listener: Callable[[], object]) -> None:
-        self._listeners = [known for known in self._listeners if known is not listener]
-
-    def _call_listeners(self) -> None:
-        for listener in tuple(self._listeners):
-            _call(listener)
-
-    def wake(self) -> None:
-        """Make every waiting lookup look at pending signals now, and go on waiting if there is none."""
-        with self._changed:
-            self._changed.notify_all()
-
-    # -- asking, with the lock and a timeout
 
     def _full_question(
         self,
@@ -344,59 +306,3 @@ class Buffer:
         self._tree.check_name(target, question, "target_frame")
         self._tree.check_name(source, question, "source_frame")
         self._tree.check_name(fixed, question, "fixed_frame")
-
-    def _raising(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
-        try:
-            return self._waiting(ask, timeout_ns)
-        except Failure as failure:
-            raise self._error(failure) from None
-
-    def _checked(self, ask: Callable[[], _Answer]) -> _Answer:
-        """Ask, with the lock held already."""
-        try:
-            return ask()
-        except Failure as failure:
-            raise self._error(failure) from None
-
-    def _error(self, failure: Failure) -> TransformException:
-        error = ERRORS[failure.status](str(failure))
-        error._details = failure.details
-        if failure.status == LookupStatus.UNKNOWN_FRAME:
-            error._details = {**failure.details, "buffer": self}
-        return error
-
-    def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
-        try:
-            self._waiting(ask, timeout_ns)
-        except Failure as failure:
-            return str(failure)
-        return ""
-
-    def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
-        """Ask; as long as the answer is a Failure that data can mend, ask again when data comes in."""
-        (timeout_ns,) = nanoseconds(timeout_ns=timeout_ns)
-        deadline = time.monotonic_ns() + timeout_ns
-        with self._changed:
-            while True:
-                try:
-                    return ask()
-                except Failure as failure:
-                    left = deadline - time.monotonic_ns()
-                    if left <= 0 or failure.hopeless:
-                        raise
-                self._changed.wait(left / 1e9)
-
-
-def _call(listener: Callable[[], object]) -> None:
-    try:
-        listener()
-    except Exception as error:  # noqa: BLE001 - whoever brought the data is not the one to tell
-        sys.unraisablehook(
-            SimpleNamespace(
-                exc_type=type(error),
-                exc_value=error,
-                exc_traceback=error.__traceback__,
-                err_msg=None,
-                object=listener,
-            )
-        )

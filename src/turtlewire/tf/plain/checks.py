@@ -5,6 +5,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
+from turtlewire.tf import datetimes
+
 LIMIT = 2**63
 """The first stamp that does not fit into 64 bits."""
 
@@ -19,7 +21,7 @@ def check_frames(**frames: object) -> None:
 
 
 def nanoseconds(**times: Any) -> list[int]:
-    """The times as Python's integers; a TypeError for floats, which cannot hold a present stamp."""
+    """The times as Python's integers; ``datetime64``, too; a TypeError for floats, which cannot hold a present stamp."""
     return [_nanoseconds(argument, time) for argument, time in times.items()]
 
 
@@ -27,9 +29,7 @@ def _nanoseconds(argument: str, time: Any) -> int:
     try:
         value = operator.index(time)
     except TypeError:
-        raise TypeError(
-            f"{argument} must be an int of nanoseconds, not {type(time).__name__}"
-        ) from None
+        value = datetimes.nanoseconds(time, argument)
     if not -LIMIT <= value < LIMIT:
         raise OverflowError(f"{argument} does not fit into 64 bits")
     return value

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import groupby, islice
 from typing import TYPE_CHECKING
 
+from turtlewire.tf.plain import arguments
 from turtlewire.tf.plain.checks import check_frames, nanoseconds
 from turtlewire.tf.plain.failure import Verdict
 from turtlewire.tf.plain.transform import Transform
@@ -14,11 +15,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from turtlewire.tf.links import LinkRow
-    from turtlewire.tf.plain.buffer import Buffer
+    from turtlewire.tf.plain.shared_tree import SharedTree
 
 
 def extrapolate_transform(
-    self: Buffer, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
+    self: SharedTree, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
 ) -> Transform:
     """lookup_transform, but a time up to ``limit_ns`` outside of a link's data is answered as well."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
@@ -38,7 +39,7 @@ def extrapolate_transform(
 
 
 def lookup_latest(
-    self: Buffer, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
+    self: SharedTree, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
 ) -> tuple[Transform, dict[str, int]]:
     """The transform made of the newest data of each link, whatever its time; and those times by child frame."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
@@ -62,14 +63,14 @@ def lookup_latest(
     ), stamps
 
 
-def remove_frame(self: Buffer, child_frame: str) -> bool:
+def remove_frame(self: SharedTree, child_frame: str) -> bool:
     """Forget how a frame lies in its parent; whether there was anything to forget."""
     check_frames(child_frame=child_frame)
     with self._changed:
         return bool(self._tree.remove([child_frame]))
 
 
-def remove_stale(self: Buffer, before_ns: int) -> list[str]:
+def remove_stale(self: SharedTree, before_ns: int) -> list[str]:
     """Remove all frames that move and have no data since a time; their names."""
     (before_ns,) = nanoseconds(before_ns=before_ns)
     with self._changed:
@@ -81,8 +82,19 @@ def remove_stale(self: Buffer, before_ns: int) -> list[str]:
         return self._tree.remove(stale)
 
 
+def stamps(self: SharedTree, child_frame: str) -> NDArray[np.int64]:
+    """The times of a frame's samples in nanoseconds, oldest first; none for a static transform."""
+    import numpy as np
+
+    check_frames(child_frame=child_frame)
+    with self._changed:
+        self._checked(lambda: self._tree.check_name(child_frame, "lookupTransform", "target_frame"))
+        link = self._tree.links.get(child_frame)
+        return np.array([] if link is None or link.fixed else link.stamps, dtype=np.int64)
+
+
 def samples(
-    self: Buffer, child_frame: str
+    self: SharedTree, child_frame: str
 ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
     """The whole history of one frame, oldest first: for each run with one parent the parent, the stamps and the poses."""
     import numpy as np
@@ -108,7 +120,7 @@ def samples(
 
 
 def set_transforms(
-    self: Buffer,
+    self: SharedTree,
     parent_frame: str,
     child_frame: str,
     stamps: ArrayLike,
@@ -118,14 +130,12 @@ def set_transforms(
     """set_transform for many samples of one frame; how many were accepted."""
     import numpy as np
 
-    from turtlewire.tf.plain.batch import _check_shape, _stamps
-
     check_frames(parent_frame=parent_frame, child_frame=child_frame, authority=authority)
-    times = _stamps(stamps)
+    times = arguments.stamp_list(stamps)
     rows = np.ascontiguousarray(poses, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != 7:
         raise ValueError("poses must have the shape (N, 7)")
-    _check_shape(rows, (len(times), 7), "poses")
+    arguments.check_shape(rows, (len(times), 7), "poses")
     accepted = 0
     with self._changed:
         for stamp, row in zip(times, rows.tolist(), strict=True):
@@ -142,7 +152,7 @@ def set_transforms(
     return accepted
 
 
-def describe_links(self: Buffer, most: int) -> list[LinkRow]:
+def describe_links(self: SharedTree, most: int) -> list[LinkRow]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return [
@@ -161,7 +171,7 @@ def describe_links(self: Buffer, most: int) -> list[LinkRow]:
         ]
 
 
-def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
+def describe_refusals(self: SharedTree) -> dict[str, tuple[dict[str, int], str]]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return {
@@ -173,19 +183,19 @@ def describe_refusals(self: Buffer) -> dict[str, tuple[dict[str, int], str]]:
         }
 
 
-def describe_malformed(self: Buffer) -> tuple[int, str, str]:
+def describe_malformed(self: SharedTree) -> tuple[int, str, str]:
     """For turtlewire.tf.inspection."""
     with self._changed:
         return self._tree.refusals.malformed
 
 
-def rename_sender(self: Buffer, name: str, shown: str) -> None:
+def rename_sender(self: SharedTree, name: str, shown: str) -> None:
     """Show another name for a sender, in what it has sent already as well."""
     with self._changed:
         self._tree.rename_sender(name, shown)
 
 
-def fault(self: Buffer) -> str:
+def fault(self: SharedTree) -> str:
     """What is wrong with the buffer's own state; for tests."""
     with self._changed:
         for child, link in self._tree.links.items():

@@ -55,6 +55,8 @@ class Announcer:
         self._records: list[NodeRecord] = []
         self._scheduled = False
         self._not_before = 0
+        # Who looks at the graph waits for each participant, those without nodes included.
+        reader.call_at(time.monotonic_ns() + ANNOUNCEMENT_INTERVAL_NS, self._publish_first)
 
     def add(self, record: NodeRecord) -> None:
         """Announce a node."""
@@ -86,6 +88,10 @@ class Announcer:
                 )
                 for record in self._records
             ]
+
+    def _publish_first(self) -> None:
+        if not self._not_before:
+            self.changed()
 
     def _publish(self) -> None:
         """On the reader thread."""

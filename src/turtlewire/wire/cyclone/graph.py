@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import threading
+import time
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from turtlewire.errors import CdrError
@@ -28,6 +29,7 @@ from . import library as dds
 from .endpoint import EndpointSpec
 from .ports import process_of, processes_on_host
 from .qos import read_qos, read_user_data
+from .silent_peers import PATIENCE_NS, Questions, SilentPeers
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
@@ -94,6 +96,7 @@ class CycloneGraph(GraphView):
     ) -> None:
         super().__init__()
         self._announcer = announcer
+        self._participant = participant
         self._participant_gid = participant.gid
         self._domain_id = participant.domain_id
         self._lock = threading.RLock()
@@ -102,12 +105,11 @@ class CycloneGraph(GraphView):
         self._announced: dict[bytes, list[NodeEndpoints]] = {}
         self._topic_types = TopicTypes()
         self._node_names = NodeNames(participant.domain_id)
-        qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
-        self._infos = CycloneSubscription(
-            participant,
-            EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos),
-            ignore_local=True,
-        )
+        self._reader = reader
+        self._hurries = False
+        self._asks_soon = False
+        self._silent_peers = SilentPeers(participant, self._renew_infos)
+        self._infos = self._subscribe_to_infos()
         self._participants = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PARTICIPANT)
         self._publications = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_PUBLICATION)
         self._subscriptions = _BuiltinReader(participant.handle, dds.BUILTIN_TOPIC_SUBSCRIPTION)
@@ -115,6 +117,20 @@ class CycloneGraph(GraphView):
         for source in (self._participants, self._publications, self._subscriptions):
             reader.watch(source.condition, self._on_news)
         reader.watch(self._infos.condition(), self._on_news)
+
+    def _subscribe_to_infos(self) -> CycloneSubscription:
+        qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
+        spec = EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos)
+        return CycloneSubscription(self._participant, spec, ignore_local=True)
+
+    def _renew_infos(self) -> None:
+        """Every participant tells the new reader its nodes, those that the old one missed too."""
+        old, self._infos = self._infos, self._subscribe_to_infos()
+        self._reader.unwatch(old.condition())
+        for cdr in old.take_bytes():
+            self._update_nodes(cdr)
+        old.close()
+        self._reader.watch(self._infos.condition(), self._on_news)
 
     def _on_news(self) -> None:
         self._update()
@@ -133,6 +149,36 @@ class CycloneGraph(GraphView):
             self._update_endpoints("subscription", self._subscriptions)
             for cdr in infos:
                 self._update_nodes(cdr)
+            self._ask_soon()
+
+    def hurry(self) -> None:
+        """See :meth:`Graph.hurry`."""
+        with self._lock:
+            self._hurries = True
+            self._ask_soon()
+
+    def _ask_soon(self) -> None:
+        if self._hurries and not self._asks_soon and any(self._questions()):
+            self._asks_soon = True
+            self._reader.call_at(time.monotonic_ns() + PATIENCE_NS, self._ask)
+
+    def _ask(self) -> None:
+        with self._lock:
+            self._asks_soon = False
+            self._silent_peers.ask(self._questions())
+
+    def _questions(self) -> Questions:
+        announcers = (
+            gid
+            for gid, endpoint in self._endpoints.items()
+            if endpoint.dds_topic == DISCOVERY_TOPIC and endpoint.kind == "publisher"
+        )
+        return self._silent_peers.to_ask(self._unannounced(), announcers)
+
+    def _unannounced(self) -> set[bytes]:
+        """The other ROS participants whose nodes are not known."""
+        known = self._announced.keys() | {self._participant_gid}
+        return {gid for gid, enclave in self._enclaves.items() if enclave} - known
 
     def _update_participants(self) -> None:
         for alive, sample in self._participants.take(dds.BuiltinParticipant):
@@ -206,16 +252,13 @@ class CycloneGraph(GraphView):
         with self._lock:
             if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:
                 return False
-            others = {gid for gid, enclave in self._enclaves.items() if enclave} - {
-                self._participant_gid
-            }
             gids = (
                 gid
                 for nodes in self._announced.values()
                 for node in nodes
                 for gid in (*node.readers, *node.writers)
             )
-            return others <= self._announced.keys() and all(gid in self._endpoints for gid in gids)
+            return not self._unannounced() and all(gid in self._endpoints for gid in gids)
 
     def nodes(self) -> list[NodeInfo]:
         """See :meth:`Graph.nodes`."""
@@ -234,6 +277,11 @@ class CycloneGraph(GraphView):
                 _endpoint_info(gid, endpoint, owners.get(gid))
                 for gid, endpoint in self._endpoints.items()
             ]
+
+    def end_waits(self) -> None:
+        """End all waits, and take back what was asked."""
+        super().end_waits()
+        self._silent_peers.close()
 
 
 def _full_names(nodes: Iterable[NodeEndpoints]) -> list[str]:

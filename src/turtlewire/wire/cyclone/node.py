@@ -18,25 +18,42 @@ from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Sink, TypeId
+    from turtlewire.wire.base import Context, Sink, TypeId
     from turtlewire.wire.qos import QoS
 
-    from .context import CycloneContext
+    from .core import ContextCore
 
 __all__ = ["CycloneNode"]
 
 
 class CycloneNode(Node):
-    """A node of a :class:`CycloneContext`."""
+    """A node of a context.
 
-    def __init__(self, context: CycloneContext, name: str, namespace: str) -> None:
+    Args:
+        context: The context that makes it.
+        core: What the context shares with its nodes.
+        name: Its name.
+        namespace: Its namespace.
+        on_closed: Called when it is closed.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        core: ContextCore,
+        name: str,
+        namespace: str,
+        on_closed: Callable[[CycloneNode], None],
+    ) -> None:
         self.context = context
+        self._core = core
+        self._on_closed = on_closed
         self.name = name
         self.namespace = namespace
         self._lock = threading.Lock()
         self._endpoints: dict[Endpoint, None] = {}
-        self._record = NodeRecord(namespace, name)
-        context.announcer.add(self._record)
+        self.record = NodeRecord(namespace, name)
+        core.announcer.add(self.record)
 
     def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
         """See :meth:`Node.create_publisher`."""
@@ -69,8 +86,8 @@ class CycloneNode(Node):
             condition, deliver = subscription.condition(), deliver_to(subscription, on_message)
         else:
             condition, deliver = inlet.guard, deliver_rest_to(subscription, inlet, on_message)
-        subscription.on_closing.append(lambda: self.context.reader.unwatch(condition))
-        self.context.reader.watch(condition, deliver)
+        subscription.on_closing.append(lambda: self._core.reader.unwatch(condition))
+        self._core.reader.watch(condition, deliver)
 
     def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
@@ -92,46 +109,46 @@ class CycloneNode(Node):
         requests = self._subscription(
             EndpointSpec(service, names.request_topic(service), request, qos, identity)
         )
-        server = CycloneService(service, requests, replies, self.context.reader)
+        server = CycloneService(service, requests, replies, self._core.reader)
         replies.on_matched.append(server.matched)
         return server
 
     def _service_id(self) -> str:
-        return format_service_id(self.context.gid, self.context.next_service_number())
+        return format_service_id(self.context.gid, self._core.next_service_number())
 
     def _publisher(self, spec: EndpointSpec) -> CyclonePublisher:
-        publisher = CyclonePublisher(self.context.participant, spec)
-        self._adopt(publisher, self._record.writers)
+        publisher = CyclonePublisher(self._core.participant, spec)
+        self._adopt(publisher, self.record.writers)
         return publisher
 
     def _subscription(self, spec: EndpointSpec, sink: Sink | None = None) -> CycloneSubscription:
-        subscription = CycloneSubscription(self.context.participant, spec, sink=sink)
-        self._adopt(subscription, self._record.readers)
+        subscription = CycloneSubscription(self._core.participant, spec, sink=sink)
+        self._adopt(subscription, self.record.readers)
         return subscription
 
     def _adopt(self, endpoint: Endpoint, gids: list[bytes]) -> None:
         """Announce an endpoint until it closes, and watch its statuses."""
 
         def closing() -> None:
-            self.context.reader.unwatch(endpoint.handle)
+            self._core.reader.unwatch(endpoint.handle)
             with self._lock:
                 self._endpoints.pop(endpoint, None)
                 gids.remove(endpoint.gid)
-            self.context.announcer.changed()
+            self._core.announcer.changed()
 
         endpoint.on_closing.append(closing)
-        endpoint.on_matched.append(self.context.graph_changed)
+        endpoint.on_matched.append(self._core.graph_changed)
         with self._lock:
             self._endpoints[endpoint] = None
             gids.append(endpoint.gid)
-        self.context.reader.watch(endpoint.handle, endpoint.statuses_changed)
-        self.context.announcer.changed()
+        self._core.reader.watch(endpoint.handle, endpoint.statuses_changed)
+        self._core.announcer.changed()
 
     def close(self) -> None:
         """See :meth:`Entity.close`."""
         with self._lock:
             endpoints = list(self._endpoints)
         for endpoint in endpoints:
-            endpoint.ends_with_participant = self.context.closing
+            endpoint.ends_with_participant = self._core.closing
             endpoint.close()
-        self.context.remove_node(self, self._record)
+        self._on_closed(self)

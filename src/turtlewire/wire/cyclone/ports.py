@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["max_processes", "process_of", "processes_on_host"]
+__all__ = ["is_cyclone", "max_processes", "process_of", "processes_on_host"]
 
 _BASE = 7400
 _PER_DOMAIN = 250
@@ -49,9 +49,14 @@ def processes_on_host(domain_id: int) -> int | None:
     return sum(first + _PER_PARTICIPANT * index in ports for index in range(_MAX_PROCESSES))
 
 
+def is_cyclone(gid: bytes) -> bool:
+    """Whether the gid is one of Cyclone's: it begins with the number of the vendor."""
+    return gid.startswith(_CYCLONE)
+
+
 def process_of(gid: bytes) -> bytes:
     """What participants of one process have in common in their gids.
 
     Other vendors than Cyclone have one port for each participant.
     """
-    return gid[:4] if gid.startswith(_CYCLONE) else gid[:12]
+    return gid[:4] if is_cyclone(gid) else gid[:12]

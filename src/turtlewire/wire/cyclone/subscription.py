@@ -29,10 +29,9 @@ from .taking import take_messages
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from turtlewire.wire.base import Sink
+    from turtlewire.wire.base import Sink, WaitSet
 
     from .participant import Participant
-    from .waiting import CycloneWaitSet
 
 __all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to"]
 
@@ -79,7 +78,7 @@ class CycloneSubscription(Endpoint, Subscription):
     ) -> None:
         super().__init__(spec)
         self.topic = spec.name
-        self.wait_sets: set[CycloneWaitSet] = set()
+        self.wait_sets: set[WaitSet] = set()
         self._condition = 0
         self._gids: dict[int, bytes] = {}
         self._user_data: dict[bytes, bytes] = {}

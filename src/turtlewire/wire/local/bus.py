@@ -1,37 +1,27 @@
-"""What joins the contexts of one domain of one process.
-
-Who publishes, who listens, and who matches whom.
-"""
+"""The contexts, nodes and endpoints of one domain of one process, and which endpoints match."""
 
 from __future__ import annotations
 
-import itertools
 import threading
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.wire import names
-from turtlewire.wire.base import EventKind, EventStatus
 from turtlewire.wire.conflicts import TopicTypes
 from turtlewire.wire.qos import Durability, Reliability
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .context import LocalContext
-    from .endpoints import LocalEndpoint, LocalPublisher, LocalSubscription
+    from turtlewire.wire.base import NodeInfo
 
-__all__ = ["Bus", "bus_of", "new_gid"]
+    from .endpoint import LocalEndpoint
+
+__all__ = ["Bus", "bus_of"]
 
 _POLICY_DURABILITY, _POLICY_RELIABILITY = 2, 16
 
-_gids = itertools.count(1)
 _buses: dict[int, Bus] = {}
 _buses_lock = threading.Lock()
-
-
-def new_gid() -> bytes:
-    """16 bytes that nobody else in this process has."""
-    return b"local" + next(_gids).to_bytes(11, "big")
 
 
 def bus_of(domain_id: int) -> Bus:
@@ -43,28 +33,31 @@ def bus_of(domain_id: int) -> Bus:
 class _Topic(NamedTuple):
     """The endpoints of one topic and type, in the order of their creation."""
 
-    publishers: dict[LocalPublisher, None]
-    subscriptions: dict[LocalSubscription, None]
+    publishers: dict[LocalEndpoint, None]
+    subscriptions: dict[LocalEndpoint, None]
 
 
 class Bus:
-    """All contexts, publishers and subscriptions of a domain.
+    """All nodes, publishers and subscriptions of a domain.
 
     Attributes:
         lock: Guards the state of all of them.
+        nodes: The open nodes, in the order of their creation.
+        listeners: Called when the graph has changed.
     """
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
-        self.contexts: list[LocalContext] = []
+        self.nodes: list[NodeInfo] = []
+        self.listeners: list[Callable[[], None]] = []
         self._types = TopicTypes()
         self._topics: dict[tuple[str, str], _Topic] = {}
 
-    def publishers(self) -> list[LocalPublisher]:
+    def publishers(self) -> list[LocalEndpoint]:
         """All of them; called with the lock held."""
         return [publisher for topic in self._topics.values() for publisher in topic.publishers]
 
-    def subscriptions(self) -> list[LocalSubscription]:
+    def subscriptions(self) -> list[LocalEndpoint]:
         """All of them; called with the lock held."""
         return [
             subscription for topic in self._topics.values() for subscription in topic.subscriptions
@@ -73,7 +66,7 @@ class Bus:
     def _topic_of(self, endpoint: LocalEndpoint) -> _Topic:
         return self._topics.setdefault((endpoint.dds_topic, endpoint.type_id.name), _Topic({}, {}))
 
-    def add_publisher(self, publisher: LocalPublisher) -> None:
+    def add_publisher(self, publisher: LocalEndpoint) -> None:
         """Let it match; called with the lock held."""
         topic = self._topic_of(publisher)
         topic.publishers[publisher] = None
@@ -81,7 +74,7 @@ class Bus:
         for subscription in topic.subscriptions:
             _meet(publisher, subscription)
 
-    def add_subscription(self, subscription: LocalSubscription) -> None:
+    def add_subscription(self, subscription: LocalEndpoint) -> None:
         """Let it match; called with the lock held."""
         topic = self._topic_of(subscription)
         topic.subscriptions[subscription] = None
@@ -89,20 +82,20 @@ class Bus:
         for publisher in topic.publishers:
             _meet(publisher, subscription)
 
-    def remove_publisher(self, publisher: LocalPublisher) -> None:
+    def remove_publisher(self, publisher: LocalEndpoint) -> None:
         """Let it match no more; called with the lock held."""
         del self._topic_of(publisher).publishers[publisher]
         self._compare_types(self._types.remove, publisher, "publisher")
         for subscription in publisher.matched:
-            _part(subscription, publisher)
+            subscription.part(publisher)
         self._forget_if_empty(publisher)
 
-    def remove_subscription(self, subscription: LocalSubscription) -> None:
+    def remove_subscription(self, subscription: LocalEndpoint) -> None:
         """Let it match no more; called with the lock held."""
         del self._topic_of(subscription).subscriptions[subscription]
         self._compare_types(self._types.remove, subscription, "subscription")
         for publisher in subscription.matched:
-            _part(publisher, subscription)
+            publisher.part(subscription)
         self._forget_if_empty(subscription)
 
     def _compare_types(
@@ -118,34 +111,25 @@ class Bus:
             del self._topics[endpoint.dds_topic, endpoint.type_id.name]
 
     def changed(self) -> None:
-        """Tell every context that the graph is another one now."""
+        """Call the listeners."""
         with self.lock:
-            contexts = list(self.contexts)
-        for context in contexts:
-            context.graph_changed()
+            listeners = list(self.listeners)
+        for listener in listeners:
+            listener()
 
 
-def _meet(publisher: LocalPublisher, subscription: LocalSubscription) -> None:
-    """Match two endpoints of one topic and type, or say which policy does not fit."""
+def _meet(publisher: LocalEndpoint, subscription: LocalEndpoint) -> None:
+    """Match two endpoints of one topic and type, or report which policy does not fit."""
     policy = _misfit(publisher, subscription)
     if policy:
-        for endpoint in (publisher, subscription):
-            total = endpoint.incompatible_count = endpoint.incompatible_count + 1
-            endpoint.event(EventKind.INCOMPATIBLE_QOS).add(
-                EventStatus(total, 1, last_policy_kind=policy)
-            )
+        publisher.refuse(policy)
+        subscription.refuse(policy)
         return
-    publisher.matched.append(subscription)
-    subscription.matched.append(publisher)
-    for endpoint in (publisher, subscription):
-        endpoint.matched_count += 1
-        endpoint.event(EventKind.MATCHED).add(
-            EventStatus(endpoint.matched_count, 1, len(endpoint.matched), 1)
-        )
-    subscription.receive_late(publisher)
+    publisher.meet(subscription)
+    subscription.meet(publisher)
 
 
-def _misfit(publisher: LocalPublisher, subscription: LocalSubscription) -> int:
+def _misfit(publisher: LocalEndpoint, subscription: LocalEndpoint) -> int:
     """The policy that does not fit, or 0."""
     offered, requested = publisher.qos, subscription.qos
     if (
@@ -159,8 +143,3 @@ def _misfit(publisher: LocalPublisher, subscription: LocalSubscription) -> int:
     ):
         return _POLICY_DURABILITY
     return 0
-
-
-def _part(stays: LocalEndpoint, goes: LocalEndpoint) -> None:
-    stays.matched.remove(goes)
-    stays.event(EventKind.MATCHED).add(EventStatus(stays.matched_count, 0, len(stays.matched), -1))

@@ -1,34 +1,36 @@
-"""Wait sets and the reader thread of the in-process middleware."""
+"""Wait sets of the in-process middleware."""
 
 from __future__ import annotations
 
 import threading
-from collections import deque
 from typing import TYPE_CHECKING
 
 from turtlewire.wire.base import Entity, WaitSet
 from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
 
-from .endpoints import LocalSubscription
+from .subscription import LocalSubscription
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from turtlewire.wire.base import Waitable
 
-    from .bus import Bus
-
-__all__ = ["LocalWaitSet", "ReaderThread"]
+__all__ = ["LocalWaitSet"]
 
 
 class LocalWaitSet(EventWatcher, WaitSet):
-    """Waits on a condition variable over the bus's lock."""
+    """Waits on a condition variable over the bus's lock.
 
-    def __init__(self, bus: Bus, on_closing: Callable[[LocalWaitSet], None]) -> None:
+    Args:
+        lock: The bus's lock.
+        on_closing: Called when it is closed.
+    """
+
+    def __init__(self, lock: threading.RLock, on_closing: Callable[[LocalWaitSet], None]) -> None:
         super().__init__()
         self._on_closing = on_closing
-        self._condition = threading.Condition(bus.lock)
+        self._condition = threading.Condition(lock)
         self._attached: dict[LocalSubscription, Entity] = {}
         self._woken = False
         self._closed = False
@@ -40,7 +42,7 @@ class LocalWaitSet(EventWatcher, WaitSet):
             return
         subscription = _readable_part(entity)
         with self._condition:
-            subscription.wait_sets.add(self)
+            subscription.watchers[self] = self.notify
             self._attached[subscription] = entity
             self._condition.notify_all()
 
@@ -52,7 +54,7 @@ class LocalWaitSet(EventWatcher, WaitSet):
         subscription = _readable_part(entity)
         with self._condition:
             self._attached.pop(subscription, None)
-            subscription.wait_sets.discard(self)
+            subscription.watchers.pop(self, None)
 
     def notify(self) -> None:
         """A message came for an attached subscription; called with the bus locked."""
@@ -100,43 +102,3 @@ def _readable_part(entity: Waitable) -> LocalSubscription:
         entity = entity.requests
     assert isinstance(entity, LocalSubscription)
     return entity
-
-
-class ReaderThread:
-    """Runs what is submitted, in order, on one thread that starts with the first submission."""
-
-    def __init__(self) -> None:
-        self._condition = threading.Condition()
-        self._work: deque[Callable[[], None]] = deque()
-        self._thread: threading.Thread | None = None
-        self._closed = False
-
-    def submit(self, work: Callable[[], None]) -> None:
-        """Run ``work`` soon."""
-        with self._condition:
-            if self._closed:
-                return
-            self._work.append(work)
-            self._condition.notify()
-            if self._thread is None:
-                self._thread = threading.Thread(
-                    target=self._run, name="turtlewire-reader", daemon=True
-                )
-                self._thread.start()
-
-    def _run(self) -> None:
-        while True:
-            with self._condition:
-                self._condition.wait_for(lambda: self._work or self._closed)
-                if self._closed:
-                    return
-                work = self._work.popleft()
-            work()
-
-    def close(self) -> None:
-        """End the thread and join it, unless this is it."""
-        with self._condition:
-            self._closed = True
-            self._condition.notify()
-        if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join()

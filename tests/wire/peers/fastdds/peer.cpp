@@ -1,7 +1,8 @@
 // A foreign peer on Debian's Fast DDS, with type support written on Fast CDR. It sends back what it receives on
 // rt/to_fast/X on rt/from_fast/X, with 1 added to one number so that the test sees that the fields were understood, and
 // latches one message of each type on rt/latched_fast/X. It reads rt/latched/X, transient local, in the same way. On
-// rt/broken it latches payloads that are no messages, and a good one after them. It runs until it is terminated.
+// rt/broken it latches payloads that are no messages, and a good one after them. With the name of a node it announces
+// this node. It runs until it is terminated.
 
 #include <fastcdr/Cdr.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -136,7 +137,7 @@ using Bytes = std::vector<uint8_t>;
 
 class BytesType : public RosType {
  public:
-  BytesType() : RosType("std_msgs::msg::dds_::String_") {}
+  using RosType::RosType;
   bool serialize(void* data, SerializedPayload_t* payload) override {
     const Bytes& bytes = *static_cast<Bytes*>(data);
     payload->encapsulation = CDR_LE;
@@ -205,7 +206,7 @@ void serve(Peer& peer, const std::string& name) {
 
 void latch_broken(Peer& peer) {
   fast::DataWriter* writer =
-      peer.writer("rt/broken", fast::TypeSupport(new BytesType), fast::TRANSIENT_LOCAL_DURABILITY_QOS);
+      peer.writer("rt/broken", fast::TypeSupport(new BytesType("std_msgs::msg::dds_::String_")), fast::TRANSIENT_LOCAL_DURABILITY_QOS);
   std::vector<Bytes> payloads = {
       {0, 3, 0, 0, 1, 0, 0, 0},                                  // a parameter list
       {0, 7, 0, 0, 2, 0, 0, 0, 'x', 0, 0, 0},                    // XCDR2
@@ -216,8 +217,34 @@ void latch_broken(Peer& peer) {
   for (Bytes& payload : payloads) writer->write(&payload);
 }
 
+// What rmw_fastrtps publishes of a participant, here one without endpoints of its nodes.
+void announce_node(Peer& peer, const std::string& name) {
+  fast::DataWriter* writer =
+      peer.writer("ros_discovery_info",
+                  fast::TypeSupport(new BytesType("rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")),
+                  fast::TRANSIENT_LOCAL_DURABILITY_QOS);
+  const auto& guid = peer.participant->guid();
+  Bytes info = {0, 1, 0, 0};
+  info.insert(info.end(), guid.guidPrefix.value, guid.guidPrefix.value + 12);
+  info.insert(info.end(), guid.entityId.value, guid.entityId.value + 4);
+  const auto add_number = [&](size_t number) {
+    info.resize((info.size() + 3) / 4 * 4);
+    for (int shift = 0; shift < 32; shift += 8) info.push_back(static_cast<uint8_t>(number >> shift));
+  };
+  const auto add_text = [&](const std::string& text) {
+    add_number(text.size() + 1);
+    info.insert(info.end(), text.c_str(), text.c_str() + text.size() + 1);
+  };
+  add_number(1);
+  add_text("/");
+  add_text(name);
+  add_number(0);
+  add_number(0);
+  writer->write(&info);
+}
+
 // The discovery of rmw_fastrtps in LOCALHOST range: no multicast, and 32 processes of this host are asked.
-fast::DomainParticipantQos localhost_only() {
+fast::DomainParticipantQos localhost_only(const std::string& user_data) {
   fast::DomainParticipantQos qos;
   auto& builtin = qos.wire_protocol().builtin;
   builtin.metatrafficUnicastLocatorList.push_back(Locator_t());
@@ -226,15 +253,18 @@ fast::DomainParticipantQos localhost_only() {
   builtin.initialPeersList.push_back(localhost);
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = 32;
+  qos.user_data().data_vec({user_data.begin(), user_data.end()});
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(udp);
   return qos;
 }
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc != 2 && argc != 3) return 2;
+  const auto domain = static_cast<uint32_t>(std::atoi(argv[1]));
+  const auto qos = localhost_only(argc == 3 ? "enclave=/;" : "");
   auto* factory = fast::DomainParticipantFactory::get_instance();
-  Peer peer{factory->create_participant(static_cast<uint32_t>(std::atoi(argv[1])), localhost_only()), nullptr, nullptr};
+  Peer peer{factory->create_participant(domain, qos), nullptr, nullptr};
   if (peer.participant == nullptr) return 1;
   peer.publisher = peer.participant->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
   peer.subscriber = peer.participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
@@ -242,6 +272,7 @@ int main(int argc, char** argv) {
   serve<Pose>(peer, "pose");
   serve<Twist>(peer, "twist");
   latch_broken(peer);
+  if (argc == 3) announce_node(peer, argv[2]);
   std::mutex mutex;
   std::unique_lock lock(mutex);
   std::condition_variable().wait(lock, [] { return false; });

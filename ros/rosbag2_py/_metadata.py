@@ -1,30 +1,103 @@
-"""The text of ``ros2 bag info``."""
+"""What a bag holds, and the text of ``ros2 bag info`` about it."""
 
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from rclpy.duration import Duration
+from rclpy.time import Time
+from rosbag2_py._service_events import is_service_event, service_of
+from turtlewire.bag import metadata as engine
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from datetime import timedelta
 
-    from rosbag2_py._storage import BagMetadata, TopicInformation
+    from rclpy.qos import QoSProfile
 
-__all__ = ["info", "is_service_event", "service_of"]
+__all__ = ["BagMetadata", "FileInformation", "TopicInformation", "TopicMetadata", "info"]
 
-_EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 _UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 
 
-def is_service_event(topic: str, type_name: str) -> bool:
-    """Whether a topic carries the introspection events of a service."""
-    return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
+@dataclass
+class TopicMetadata:
+    """A topic.
+
+    Attributes:
+        id: A number of the caller's choice.
+        name: ``/tf``.
+        type: ``tf2_msgs/msg/TFMessage``.
+        serialization_format: ``cdr``.
+        offered_qos_profiles: What each publisher offers.
+        type_description_hash: ``RIHS01_…`` or empty.
+    """
+
+    id: int
+    name: str
+    type: str
+    serialization_format: str
+    offered_qos_profiles: list[QoSProfile] = field(default_factory=list)
+    type_description_hash: str = ""
+
+    def equals(self, other: TopicMetadata) -> bool:
+        """Whether both describe the same topic; the number does not count."""
+        return (self.name, self.type, self.serialization_format, self.offered_qos_profiles) == (
+            other.name,
+            other.type,
+            other.serialization_format,
+            other.offered_qos_profiles,
+        )
 
 
-def service_of(topic: str, type_name: str) -> tuple[str, str]:
-    """Name and type of the service whose events a topic carries."""
-    return topic.removesuffix(_EVENT_TOPIC), type_name.removesuffix(_EVENT_TYPE)
+@dataclass
+class TopicInformation:
+    """A topic and how many messages of it a bag holds."""
+
+    topic_metadata: TopicMetadata
+    message_count: int
+
+
+@dataclass
+class FileInformation:
+    """A file of a bag.
+
+    Attributes:
+        path: Relative to the bag's folder.
+        starting_time: Log time of its first message.
+        duration: From its first to its last message, cut to microseconds as in ROS 2.
+        message_count: Number of its messages.
+    """
+
+    path: str
+    starting_time: Time
+    duration: timedelta
+    message_count: int
+
+
+@dataclass
+class BagMetadata:
+    """What a bag holds; ``str()`` gives the text of ``ros2 bag info``."""
+
+    version: int = engine.NEWEST_VERSION
+    bag_size: int = 0
+    storage_identifier: str = ""
+    relative_file_paths: list[str] = field(default_factory=list)
+    files: list[FileInformation] = field(default_factory=list)
+    duration: Duration = field(default_factory=Duration)
+    starting_time: Time = field(default_factory=Time)
+    message_count: int = 0
+    topics_with_message_count: list[TopicInformation] = field(default_factory=list)
+    compression_format: str = ""
+    compression_mode: str = ""
+    custom_data: dict[str, str] = field(default_factory=dict)
+    ros_distro: str = ""
+
+    def __str__(self) -> str:
+        return info(self)
 
 
 def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = None) -> str:

@@ -1,0 +1,1 @@
+"""Interfaces of actionlib_msgs."""

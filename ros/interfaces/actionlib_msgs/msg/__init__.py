@@ -1,0 +1,15 @@
+"""The msg interfaces of actionlib_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "GoalID",
+    "GoalStatus",
+    "GoalStatusArray",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,18 @@
+"""The action interfaces of control_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "FollowJointTrajectory",
+    "GripperCommand",
+    "JointTrajectory",
+    "ParallelGripperCommand",
+    "PointHead",
+    "SingleJointPosition",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,25 @@
+"""The msg interfaces of control_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "DynamicJointState",
+    "GripperCommand",
+    "InterfaceValue",
+    "JointComponentTolerance",
+    "JointControllerState",
+    "JointJog",
+    "JointTolerance",
+    "JointTrajectoryControllerState",
+    "MultiDOFCommand",
+    "MultiDOFStateStamped",
+    "PidState",
+    "SingleDOFState",
+    "SingleDOFStateStamped",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,16 @@
+"""The srv interfaces of geographic_msgs: classes made at first access."""
+
+from turtlewire.msg import lazy_classes
+
+__all__ = [
+    "GetGeoPath",
+    "GetGeographicMap",
+    "GetRoutePlan",
+    "UpdateGeographicMap",
+]
+
+__getattr__ = lazy_classes(__name__)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,1 @@
+"""Interfaces of map_msgs."""

@@ -1,0 +1,110 @@
+"""Trajectories that a bag holds as topics: odometry and poses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire.bag.progress import progress_line
+from turtlewire.bag.reader import Bag
+from turtlewire.errors import BagError
+from turtlewire.suggestion import did_you_mean
+from turtlewire.trajectory import Trajectory, find_gaps
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator
+
+__all__ = ["POSE_TYPES", "load_trajectory", "pose_topics"]
+
+#: The part of a message that is the pose, and whether it names the frame that moves.
+POSE_TYPES: dict[str, tuple[str, bool]] = {
+    "geometry_msgs/msg/PoseStamped": ("pose", False),
+    "geometry_msgs/msg/PoseWithCovarianceStamped": ("pose.pose", False),
+    "geometry_msgs/msg/TransformStamped": ("transform", True),
+    "nav_msgs/msg/Odometry": ("pose.pose", True),
+}
+
+
+def load_trajectory(
+    path: str | os.PathLike[str],
+    topic: str,
+    *,
+    start_ns: int = 0,
+    end_ns: int = (1 << 64) - 1,
+    max_gap_ns: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Read the poses of a topic, with the stamps of their headers.
+
+    Poses come in order of their stamps; of those with one stamp the first is taken.
+
+    Args:
+        path: The bag; see `turtlewire.bag.open_bag`.
+        topic: A topic with one of `POSE_TYPES`.
+        start_ns: Log time of the first message to take.
+        end_ns: Log time of the last message to take.
+        max_gap_ns: Longer pauses are gaps; None takes ten times the median pause, and at least
+            half a second.
+        progress: Called with the share that was read; by default a line is drawn on a terminal.
+
+    Raises:
+        FileNotFoundError: There is nothing at ``path``.
+        BagError: It is no bag, has no such topic, or one of another type.
+        ValueError: A quaternion is none.
+    """
+    with Bag(path) as bag:
+        kind = _type_of(bag, topic)
+        count = bag.topics[topic].message_count or 1
+        tell = progress or progress_line(f"reading {topic}")
+        rows = list(_rows(bag, topic, *POSE_TYPES[kind], (start_ns, end_ns, count), tell))
+        tell(1.0)
+    if not rows:
+        raise BagError(f"{bag.path} has no message of {topic} in that time")
+    _, frame, child, _ = rows[0]
+    stamps, first = np.unique(np.array([row[0] for row in rows], np.int64), return_index=True)
+    poses = np.array([row[3] for row in rows], np.float64)[first]
+    return Trajectory(stamps, poses, frame, child, tuple(find_gaps(stamps, max_gap_ns)))
+
+
+def pose_topics(bag: Bag) -> list[str]:
+    """The topics of a bag that `load_trajectory` reads."""
+    return sorted(name for name, topic in bag.topics.items() if topic.type in POSE_TYPES)
+
+
+def _type_of(bag: Bag, topic: str) -> str:
+    fitting = pose_topics(bag)
+    if topic in fitting:
+        return bag.topics[topic].type
+    has = f"Topics with poses: {', '.join(fitting)}." if fitting else "It has no topic with poses."
+    if topic in bag.topics:
+        wrong = bag.topics[topic].type
+        raise BagError(f"{topic} is of type {wrong}, which has no poses").with_hint(has)
+    hint = did_you_mean(topic, fitting)
+    raise BagError(f"{bag.path} has no topic {topic}").with_hint(f"{hint} {has}".strip())
+
+
+def _rows(
+    bag: Bag,
+    topic: str,
+    place: str,
+    has_child: bool,
+    window: tuple[int, int, int],
+    tell: Callable[[float], None],
+) -> Iterator[tuple[int, str, str, tuple[float, ...]]]:
+    """Stamp, frames and pose of each message."""
+    start_ns, end_ns, count = window
+    for number, message in enumerate(bag.messages(topic, start_ns=start_ns, end_ns=end_ns)):
+        decoded: Any = message.decode()
+        pose: Any = decoded
+        for name in place.split("."):
+            pose = getattr(pose, name)
+        at = pose.translation if place == "transform" else pose.position
+        turn = pose.rotation if place == "transform" else pose.orientation
+        stamp = decoded.header.stamp.sec * 1_000_000_000 + decoded.header.stamp.nanosec
+        child = decoded.child_frame_id if has_child else ""
+        numbers = (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
+        yield stamp, decoded.header.frame_id, child, numbers
+        if number % 1000 == 0:
+            tell(min(1.0, number / count))

@@ -1,0 +1,167 @@
+"""What the transforms of a bag are like, and what is wrong with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.printable import printable
+from turtlewire.tf.inspection import conflicts, links, malformed, refusals
+from turtlewire.trajectory import find_gaps
+
+if TYPE_CHECKING:
+    from turtlewire.tf.buffer import Buffer
+    from turtlewire.tf.inspection import Conflict, LinkInfo, Malformed, Refused
+    from turtlewire.trajectory import Gap
+
+__all__ = ["Jump", "TransformReport", "describe", "group_jumps"]
+
+_MOST_SHOWN = 5
+
+
+class Jump(NamedTuple):
+    """Stamps that fall back by more than a second, as where a bag starts again in a loop.
+
+    Attributes:
+        log_time_ns: When the first message with an earlier stamp was received.
+        back_ns: By how much the stamps fall back, at most.
+        frames: The child frames whose stamps fall back.
+    """
+
+    log_time_ns: int
+    back_ns: int
+    frames: tuple[str, ...]
+
+
+@dataclass(repr=False)
+class TransformReport:
+    """What was found in a bag; printed, it is a table of links and a list of what looks wrong.
+
+    Attributes:
+        name: Name of the bag.
+        messages: Messages that were read.
+        publishers: By topic, how many publishers the recorder noted.
+        links: Each link with its rate, times and senders (the topics).
+        gaps: Pauses in the samples of links, by child frame.
+        jumps: Where stamps fall back by more than a second.
+        steps_back: By child frame, the largest step back of its stamps, in nanoseconds.
+        conflicts: Frames with two parents, or on two topics.
+        refused: Transforms that tf2 refuses, by child frame.
+        malformed: Messages that are no ``TFMessage``.
+        problems: Damaged or missing parts of the bag.
+    """
+
+    name: str = ""
+    messages: int = 0
+    publishers: dict[str, int] = field(default_factory=dict)
+    links: list[LinkInfo] = field(default_factory=list)
+    gaps: dict[str, list[Gap]] = field(default_factory=dict)
+    jumps: list[Jump] = field(default_factory=list)
+    steps_back: dict[str, int] = field(default_factory=dict)
+    conflicts: list[Conflict] = field(default_factory=list)
+    refused: dict[str, Refused] = field(default_factory=dict)
+    malformed: Malformed | None = None
+    problems: list[str] = field(default_factory=list)
+
+    @property
+    def two_parents(self) -> list[str]:
+        """The frames that go back and forth between parents."""
+        return [each.child_frame for each in self.conflicts if each.kind == "two parents"]
+
+    def complaints(self) -> list[str]:
+        """What looks wrong, one line each."""
+        lines = [f"damaged: {text}" for text in self.problems]
+        if self.malformed is not None and self.malformed.messages:
+            lines.append(f"no TFMessage: {self.malformed.messages} messages: {self.malformed.last}")
+        lines += [f"{each.kind}: {each.text}" for each in self.conflicts]
+        lines += [_jump_line(jump) for jump in self.jumps]
+        lines += [_gap_line(child, gaps) for child, gaps in self.gaps.items()]
+        lines += [_refused_line(child, refused) for child, refused in self.refused.items()]
+        return [printable(line) for line in lines]
+
+    def __repr__(self) -> str:
+        topics = ", ".join(f"{topic} ({_publishers(n)})" for topic, n in self.publishers.items())
+        head = f"{printable(self.name)}: {self.messages:,} messages of {printable(topics)}"
+        return "\n".join((head, *_table(self.links), *self.complaints()))
+
+
+def describe(buffer: Buffer, report: TransformReport) -> None:
+    """Add to the report what the filled buffer tells."""
+    report.links = links(buffer)
+    report.conflicts = conflicts(buffer)
+    report.refused = refusals(buffer)
+    report.malformed = malformed(buffer)
+    for link in report.links:
+        if link.static or link.samples < 3:
+            continue
+        if found := find_gaps(buffer.stamps(link.child_frame)):
+            report.gaps[link.child_frame] = found
+
+
+def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
+    """One jump for all frames that fall back together.
+
+    Args:
+        jumps: Log time, child frame and how far back, of each frame, in the order of the file.
+    """
+    grouped: list[Jump] = []
+    for log_time, child, back in jumps:
+        if grouped and child not in grouped[-1].frames:
+            last = grouped[-1]
+            grouped[-1] = Jump(last.log_time_ns, max(last.back_ns, back), (*last.frames, child))
+        else:
+            grouped.append(Jump(log_time, back, (child,)))
+    return grouped
+
+
+def _publishers(count: int) -> str:
+    return "1 publisher" if count == 1 else f"{count} publishers"
+
+
+def _table(links: list[LinkInfo]) -> list[str]:
+    rows = [("child", "parent", "rate", "samples", "from", "to")]
+    for link in links:
+        times = ("", "") if link.static else (_seconds(link.oldest_ns), _seconds(link.newest_ns))
+        rate = "static" if link.static else f"{link.rate_hz:.1f} Hz"
+        samples = "" if link.static else f"{link.samples:,}"
+        names = printable(link.child_frame), printable(link.parent_frame)
+        rows.append((*names, rate, samples, *times))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  "
+        + "  ".join(
+            cell.ljust(width) if i < 2 else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def _seconds(stamp_ns: int) -> str:
+    seconds, nanoseconds = divmod(stamp_ns, 1_000_000_000)
+    return f"{seconds}.{nanoseconds:09d}"
+
+
+def _jump_line(jump: Jump) -> str:
+    frames = _some(jump.frames)
+    return (
+        f"jump of time: at {_seconds(jump.log_time_ns)} the stamps of {frames} fall back by "
+        f"{jump.back_ns / 1e9:.3f} s"
+    )
+
+
+def _gap_line(child: str, gaps: list[Gap]) -> str:
+    shown = [
+        f"{(gap.end_ns - gap.start_ns) / 1e9:.3f} s from {_seconds(gap.start_ns)}" for gap in gaps
+    ]
+    return f"gap: '{child}' pauses for {_some(shown)}"
+
+
+def _refused_line(child: str, refused: Refused) -> str:
+    counts = ", ".join(f"{count} {reason}" for reason, count in refused.counts.items())
+    return f"refused: transforms of '{child}': {counts}"
+
+
+def _some(texts: tuple[str, ...] | list[str]) -> str:
+    rest = len(texts) - _MOST_SHOWN
+    return ", ".join(texts[:_MOST_SHOWN]) + (f" and {rest} more" if rest > 0 else "")

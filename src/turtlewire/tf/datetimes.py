@@ -1,0 +1,45 @@
+"""Times that are no integers: NumPy's ``datetime64``, and what can be made one, as pandas' times.
+
+NumPy is imported by whoever has such a time, never here.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["nanoseconds", "nanoseconds_array"]
+
+
+def nanoseconds(time: Any, argument: str) -> int:
+    """A ``datetime64``, or a pandas ``Timestamp``, in nanoseconds since 1970.
+
+    Raises:
+        TypeError: It is something else; ``argument`` names it.
+        ValueError: It is NaT, or does not fit into 64 bits.
+    """
+    numpy = sys.modules.get("numpy")
+    moment = time.to_datetime64() if hasattr(time, "to_datetime64") else time
+    if numpy is None or not isinstance(moment, numpy.datetime64):
+        raise TypeError(f"{argument} must be an int of nanoseconds, not {type(time).__name__}")
+    return int(nanoseconds_array(numpy.asarray([moment]))[0])
+
+
+def nanoseconds_array(times: NDArray[np.datetime64]) -> NDArray[np.int64]:
+    """Elements of ``datetime64`` of any unit, in nanoseconds since 1970.
+
+    Raises:
+        ValueError: One is NaT, or does not fit into 64 bits.
+    """
+    import numpy as np
+
+    fine = times.astype("datetime64[ns]")
+    if np.isnat(fine).any():
+        raise ValueError("a time is NaT (not a time)")
+    if (fine.astype(times.dtype) != times).any():
+        raise ValueError("a time does not fit into 64 bits of nanoseconds: 1677 to 2262")
+    return fine.astype(np.int64)

@@ -1,0 +1,148 @@
+"""Walks the records of an MCAP chunk and adds the TFMessages among them to a buffer."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import CdrError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Protocol
+
+    class TakesMessages(Protocol):
+        """A Buffer of either core."""
+
+        def ingest(self, cdr: bytes, static: bool = ..., authority: str = ...) -> int:
+            """Add the transforms of one message."""
+            ...
+
+
+_PREFIX = struct.Struct("<BQ")  # opcode, length
+_MESSAGE = struct.Struct("<BQHIQQ")  # those, channel, sequence, log time, publish time
+_MESSAGE_OPCODE = 5
+_SHORTEST_MESSAGE = _MESSAGE.size - _PREFIX.size
+#: Stamps that fall back by more than this are a jump of time, not messages out of order.
+_JUMP_NS = 1_000_000_000
+#: Of a TFMessage in CDR: the byte order, the number of its transforms, the stamp of the first.
+_HEADS = {0: struct.Struct(">xxxxIiI"), 1: struct.Struct("<xxxxIiI")}
+_NAMES_AT = 16
+_NUMBERS_SIZE = 56
+_SMALLEST = _NAMES_AT + _NUMBERS_SIZE
+
+
+class RecordWalk:
+    """Walks the records of MCAP chunks and adds the TFMessages among them to a buffer.
+
+    One thread at a time may use it. Messages that are no TFMessages are counted by the buffer, as
+    those of ``ingest`` are.
+
+    Args:
+        start_ns: The first log time of the messages that are taken.
+        end_ns: The last log time.
+
+    Attributes:
+        messages: How many messages were taken.
+        jumps: Where stamps fall back by more than a second: log time, the child frame of the
+            message's first transform, and by how much, in nanoseconds.
+        steps_back: The largest step back of the stamps of such a frame, if there is one.
+    """
+
+    def __init__(self, start_ns: int, end_ns: int) -> None:
+        self._start_ns, self._end_ns = start_ns, end_ns
+        self._newest: dict[bytes, int] = {}
+        self._children: dict[bytes, bytes] = {}  # by the names of a message with one transform
+        self.messages = 0
+        self.jumps: list[tuple[int, str, int]] = []
+        self.steps_back: dict[str, int] = {}
+
+    def walk(
+        self,
+        buffer: TakesMessages,
+        records: bytes | memoryview,
+        channels: Mapping[int, tuple[str, bool]],
+    ) -> int:
+        """Add the messages of a chunk's decompressed records.
+
+        Args:
+            buffer: Where to.
+            records: The bytes.
+            channels: By the number of a channel: who sends on it, and whether its transforms are
+                static. Other channels are passed over.
+
+        Returns:
+            Where the first record begins that is cut off, all before it being added; -1 if none is.
+        """
+        data = bytes(records)
+        end, start_ns, end_ns = len(data), self._start_ns, self._end_ns
+        read, fields, prefix = _MESSAGE.unpack_from, _MESSAGE.size, _PREFIX.size
+        at, last = 0, end - fields
+        while at < end:
+            if at > last:  # no room for a message
+                at = _skip(data, at)
+                if at < 0:
+                    return -1 - at
+                continue
+            opcode, length, number, _, log_time, _ = read(data, at)
+            following = at + prefix + length
+            if following > end or (opcode == _MESSAGE_OPCODE and length < _SHORTEST_MESSAGE):
+                return at
+            if opcode == _MESSAGE_OPCODE:
+                channel = channels.get(number)
+                if channel is not None and start_ns <= log_time <= end_ns:
+                    self._take(buffer, log_time, data[at + fields : following], channel)
+            at = following
+        return -1
+
+    def _take(
+        self, buffer: TakesMessages, log_time: int, data: bytes, channel: tuple[str, bool]
+    ) -> None:
+        authority, static = channel
+        self.messages += 1
+        try:
+            buffer.ingest(data, static, authority)
+        except CdrError:
+            return  # the buffer counts them
+        if static or len(data) < _SMALLEST:  # without transforms
+            return
+        count, seconds, nanoseconds = _HEADS[data[1]].unpack_from(data)
+        stamp = seconds * 1_000_000_000 + nanoseconds
+        # The names of a message with one transform lie between its head and its numbers.
+        names = data[_NAMES_AT:-_NUMBERS_SIZE] if count == 1 else b""
+        child = self._children.get(names)
+        if child is None:
+            child = _first_child(data)
+            if names:
+                self._children[names] = child
+        newest = self._newest.get(child)
+        if newest is None or stamp >= newest:
+            self._newest[child] = stamp
+        else:
+            self._note_step_back(log_time, child, stamp, newest - stamp)
+
+    def _note_step_back(self, log_time: int, child: bytes, stamp: int, back: int) -> None:
+        name = child.decode(errors="replace")
+        self.steps_back[name] = max(back, self.steps_back.get(name, 0))
+        if back > _JUMP_NS:
+            self.jumps.append((log_time, name, back))
+            self._newest[child] = stamp
+
+
+def _skip(data: bytes, at: int) -> int:
+    """Where the record behind the one at ``at`` begins, or -1 - at if that one is cut off."""
+    if at + _PREFIX.size > len(data):
+        return -1 - at
+    opcode, length = _PREFIX.unpack_from(data, at)
+    following: int = at + _PREFIX.size + length
+    cut_off = following > len(data) or opcode == _MESSAGE_OPCODE
+    return -1 - at if cut_off else following
+
+
+def _first_child(data: bytes) -> bytes:
+    """The child frame of the first transform of a message."""
+    layout = struct.Struct("<I" if data[1] else ">I")
+    (length,) = layout.unpack_from(data, _NAMES_AT)
+    at = (_NAMES_AT + 4 + length + 3) // 4 * 4
+    (length,) = layout.unpack_from(data, at)
+    return data[at + 4 : at + 4 + max(0, length - 1)]

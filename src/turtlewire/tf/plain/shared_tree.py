@@ -1,0 +1,116 @@
+"""The tree with a lock, so that many threads can share it: asking, waiting and change listeners."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from functools import partial
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, TypeVar
+
+from turtlewire.tf.plain import fork
+from turtlewire.tf.plain.checks import nanoseconds
+from turtlewire.tf.plain.failure import ERRORS, Failure
+from turtlewire.tf.plain.tree import Tree
+from turtlewire.tf.status import LookupStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.errors import TransformException
+
+_Answer = TypeVar("_Answer")
+
+
+class SharedTree:
+    """A tree, the condition that guards it, and the listeners of its changes.
+
+    Args:
+        keep: How long samples are kept, in nanoseconds.
+    """
+
+    def __init__(self, keep: int) -> None:
+        self._tree = Tree(keep)
+        self._changed = threading.Condition()
+        self._listeners: list[Callable[[], object]] = []
+        fork.guard(self._changed)
+
+    def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
+        """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
+
+        Returns:
+            A function that removes the listener again.
+        """
+        if not callable(listener):
+            raise TypeError(f"listener must be callable, not {type(listener).__name__}")
+        self._listeners.append(listener)
+        return partial(self._remove_change_listener, listener)
+
+    def _remove_change_listener(self, listener: Callable[[], object]) -> None:
+        self._listeners = [known for known in self._listeners if known is not listener]
+
+    def _call_listeners(self) -> None:
+        for listener in tuple(self._listeners):
+            _call(listener)
+
+    def wake(self) -> None:
+        """Make every waiting lookup look at pending signals now, and go on waiting if there is none."""
+        with self._changed:
+            self._changed.notify_all()
+
+    def _raising(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
+        try:
+            return self._waiting(ask, timeout_ns)
+        except Failure as failure:
+            raise self._error(failure) from None
+
+    def _checked(self, ask: Callable[[], _Answer]) -> _Answer:
+        """Ask, with the lock held already."""
+        try:
+            return ask()
+        except Failure as failure:
+            raise self._error(failure) from None
+
+    def _error(self, failure: Failure) -> TransformException:
+        error = ERRORS[failure.status](str(failure))
+        error._details = failure.details
+        if failure.status == LookupStatus.UNKNOWN_FRAME:
+            error._details = {**failure.details, "buffer": self}
+        return error
+
+    def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
+        try:
+            self._waiting(ask, timeout_ns)
+        except Failure as failure:
+            return str(failure)
+        return ""
+
+    def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
+        """Ask; as long as the answer is a Failure that data can mend, ask again when data comes in."""
+        (timeout_ns,) = nanoseconds(timeout_ns=timeout_ns)
+        deadline = time.monotonic_ns() + timeout_ns
+        with self._changed:
+            while True:
+                try:
+                    return ask()
+                except Failure as failure:
+                    left = deadline - time.monotonic_ns()
+                    if left <= 0 or failure.hopeless:
+                        raise
+                self._changed.wait(left / 1e9)
+
+
+def _call(listener: Callable[[], object]) -> None:
+    try:
+        listener()
+    except Exception as error:  # noqa: BLE001 - whoever brought the data is not the one to tell
+        sys.unraisablehook(
+            SimpleNamespace(
+                exc_type=type(error),
+                exc_value=error,
+                exc_traceback=error.__traceback__,
+                err_msg=None,
+                object=listener,
+            )
+        )

@@ -1,0 +1,59 @@
+"""Robots as URDF describes them: parser, joint model and forward kinematics.
+
+::
+
+    from turtlewire.urdf import Kinematics, load_urdf
+
+    robot = load_urdf("arm.urdf")
+    kinematics = Kinematics(robot)
+    poses = kinematics.link_poses({"shoulder": [0.0, 0.1], "elbow": 0.5})   # (2, links, 7)
+
+===============  ==============================================================
+module           what it holds
+===============  ==============================================================
+`parser`         `parse_urdf`, `load_urdf`: urdfdom's rules and error texts
+`model`          `Robot`, `Link`, `Joint` and their parts
+`kinematics`     `Kinematics`: poses of all links for many joint states at once
+`mimic`          chains of joints that follow others
+`faults`         `UrdfError`: texts, line and element
+===============  ==============================================================
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.urdf.faults import UrdfError
+from turtlewire.urdf.mimic import Follower, followers_of
+from turtlewire.urdf.model import Joint, JointLimits, Link, Material, Mesh, Mimic, Pose, Robot
+from turtlewire.urdf.parser import load_urdf, parse_urdf
+
+if TYPE_CHECKING:
+    from turtlewire.urdf.kinematics import Kinematics as Kinematics
+
+__all__ = [
+    "Follower",
+    "Joint",
+    "JointLimits",
+    "Kinematics",
+    "Link",
+    "Material",
+    "Mesh",
+    "Mimic",
+    "Pose",
+    "Robot",
+    "UrdfError",
+    "followers_of",
+    "load_urdf",
+    "parse_urdf",
+]
+
+
+def __getattr__(name: str) -> object:
+    # NumPy is loaded only where poses are asked for.
+    if name != "Kinematics":
+        raise AttributeError(f"module 'turtlewire.urdf' has no attribute {name!r}")
+    from turtlewire.urdf.kinematics import Kinematics
+
+    globals()[name] = Kinematics
+    return Kinematics

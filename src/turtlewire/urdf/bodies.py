@@ -1,0 +1,162 @@
+"""Reads ``link`` and ``material`` elements with urdfdom's rules and texts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.urdf.faults import UrdfError, reported
+from turtlewire.urdf.model import (
+    Box,
+    Collision,
+    Cylinder,
+    Inertial,
+    Link,
+    Material,
+    Mesh,
+    Sphere,
+    UrdfWarning,
+    Visual,
+)
+from turtlewire.urdf.values import color_of, number_of, pose_of, vector_of
+
+if TYPE_CHECKING:
+    from turtlewire.urdf.elements import Element
+    from turtlewire.urdf.model import Geometry
+
+__all__ = ["read_link", "read_material"]
+
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def read_link(element: Element, warnings: list[UrdfWarning]) -> Link:
+    """A ``link`` element.
+
+    Args:
+        element: The element.
+        warnings: Gets what urdfdom complains of and accepts.
+
+    Raises:
+        UrdfError: urdfdom refuses the link.
+    """
+    name = element.get("name")
+    if name is None:
+        raise element.error("No name given for the link.")
+    inertial = None
+    if (part := element.first("inertial")) is not None:
+        with reported(f"Could not parse inertial element for Link [{name}]"):
+            inertial = _inertial(part)
+    visuals, collisions = [], []
+    with reported(f"Could not parse visual element for Link [{name}]"):
+        visuals = [_visual(part, warnings) for part in element.all("visual")]
+    with reported(f"Could not parse collision element for Link [{name}]"):
+        collisions = [_collision(part) for part in element.all("collision")]
+    return Link(name, inertial, tuple(visuals), tuple(collisions), element.line)
+
+
+def read_material(element: Element, warnings: list[UrdfWarning]) -> Material:
+    """A ``material`` element; without colour or texture it is a reference to another one.
+
+    Args:
+        element: The element.
+        warnings: Gets a malformed colour, which urdfdom leaves out.
+
+    Raises:
+        UrdfError: The material has no name.
+    """
+    name = element.get("name")
+    if name is None:
+        raise element.error("Material must contain a name attribute")
+    texture, rgba = element.first("texture"), None
+    color = element.first("color")
+    if color is not None:
+        try:
+            before = f"Material [{name}] has malformed color rgba values: "
+            rgba = color_of(color, "rgba", before)
+        except UrdfError as error:
+            warnings.append(UrdfWarning(str(error), error.line, error.element))
+    return Material(name, rgba, None if texture is None else texture.get("filename"))
+
+
+def _inertial(element: Element) -> Inertial:
+    origin = pose_of(element.first("origin"))
+    mass_element = element.first("mass")
+    if mass_element is None:
+        raise element.error("Inertial element must have a mass element")
+    mass = number_of(mass_element, "value", "Inertial: mass [{}] is not a float")
+    if mass is None:
+        raise mass_element.error("Inertial: mass element must have value attribute")
+    inertia = element.first("inertia")
+    if inertia is None:
+        raise element.error("Inertial element must have inertia element")
+    moments = {name: _moment(inertia, name) for name in _MOMENTS}
+    return Inertial(mass=mass, origin=origin, **moments)
+
+
+def _moment(inertia: Element, name: str) -> float:
+    refusal = f"Inertial: inertia element {name} is not a valid double"
+    value = number_of(inertia, name, refusal)
+    if value is None:
+        raise inertia.error(f"Inertial: inertia element missing {name} attribute")
+    return value
+
+
+def _visual(element: Element, warnings: list[UrdfWarning]) -> Visual:
+    origin = pose_of(element.first("origin"))
+    geometry = _geometry(element.first("geometry"))
+    material = None
+    if (part := element.first("material")) is not None:
+        if part.get("name") is None:
+            raise part.error("Visual material must contain a name attribute")
+        material = read_material(part, warnings)
+    return Visual(geometry, origin, element.get("name") or "", material)
+
+
+def _collision(element: Element) -> Collision:
+    origin = pose_of(element.first("origin"))
+    return Collision(_geometry(element.first("geometry")), origin, element.get("name") or "")
+
+
+def _geometry(element: Element | None) -> Geometry | None:
+    if element is None:
+        return None
+    if not element.children:
+        raise element.error("Geometry tag contains no child element.")
+    shape = element.children[0]
+    reader = _SHAPES.get(shape.tag)
+    if reader is None:
+        raise shape.error(f"Unknown geometry type '{shape.tag}'")
+    return reader(shape)
+
+
+def _sphere(element: Element) -> Geometry:
+    radius = number_of(element, "radius", "radius [{}] is not a valid float")
+    if radius is None:
+        raise element.error("Sphere shape must have a radius attribute")
+    return Sphere(radius)
+
+
+def _box(element: Element) -> Geometry:
+    size = vector_of(element, "size")
+    if size is None:
+        raise element.error("Box shape has no size attribute")
+    return Box(size)
+
+
+def _cylinder(element: Element) -> Geometry:
+    if element.get("length") is not None and element.get("radius") is not None:
+        length = number_of(element, "length", "length [{}] is not a valid float")
+        radius = number_of(element, "radius", "radius [{}] is not a valid float")
+        if length is not None and radius is not None:
+            return Cylinder(radius, length)
+    raise element.error("Cylinder shape must have both length and radius attributes")
+
+
+def _mesh(element: Element) -> Geometry:
+    filename = element.get("filename")
+    if filename is None:
+        raise element.error("Mesh must contain a filename attribute")
+    before = "Mesh scale was specified, but could not be parsed: "
+    return Mesh(filename, vector_of(element, "scale", before) or (1.0, 1.0, 1.0))
+
+
+_SHAPES = {"sphere": _sphere, "box": _box, "cylinder": _cylinder, "mesh": _mesh}

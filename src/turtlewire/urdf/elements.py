@@ -1,0 +1,137 @@
+"""XML as a tree of elements that know their line; entities and endless nesting are refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from xml.parsers import expat
+
+from turtlewire.urdf.faults import UrdfError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["MAX_DEPTH", "MAX_ELEMENTS", "Element", "parse_xml"]
+
+#: Elements within elements, as in TinyXML-2, which urdfdom reads with.
+MAX_DEPTH = 500
+MAX_ELEMENTS = 2_000_000
+
+
+class Element:
+    """An element of the file.
+
+    Attributes:
+        tag: Its name, with a namespace's prefix.
+        attributes: Values by name.
+        children: Elements directly below it; text is dropped.
+        line: Where its start tag begins, from 1.
+        parent: The element around it; None for the root.
+    """
+
+    __slots__ = ("attributes", "children", "line", "parent", "tag")
+
+    def __init__(
+        self, tag: str, attributes: dict[str, str], line: int, parent: Element | None
+    ) -> None:
+        self.tag = tag
+        self.attributes = attributes
+        self.line = line
+        self.parent = parent
+        self.children: list[Element] = []
+
+    def get(self, name: str) -> str | None:
+        """The value of an attribute, or None."""
+        return self.attributes.get(name)
+
+    def first(self, tag: str) -> Element | None:
+        """The first child of this name, or None."""
+        return next((child for child in self.children if child.tag == tag), None)
+
+    def all(self, tag: str) -> Iterator[Element]:
+        """All children of this name, in the order of the file."""
+        return (child for child in self.children if child.tag == tag)
+
+    def described(self) -> str:
+        """The start tag with its name, within the nearest element that has a name."""
+        text = self._start_tag()
+        around = self.parent
+        while "name" not in self.attributes and around is not None:
+            if "name" in around.attributes or around.parent is None:
+                return f"{text} in {around._start_tag()}"
+            around = around.parent
+        return text
+
+    def error(self, text: str) -> UrdfError:
+        """An error at this element."""
+        return UrdfError(text, self.line, self.described())
+
+    def _start_tag(self) -> str:
+        name = self.attributes.get("name")
+        return f"<{self.tag}>" if name is None else f'<{self.tag} name="{name}">'
+
+
+class _Builder:
+    def __init__(self, lines_before: int) -> None:
+        self.parser = expat.ParserCreate()
+        self.root: Element | None = None
+        self.open: list[Element] = []
+        self._lines_before = lines_before
+        self._number = 0
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.EntityDeclHandler = self._entity
+
+    @property
+    def line(self) -> int:
+        return self.parser.CurrentLineNumber + self._lines_before
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, self.line, self.open[-1] if self.open else None)
+        self._number += 1
+        if len(self.open) >= MAX_DEPTH:
+            raise element.error(f"Elements are nested more than {MAX_DEPTH} deep")
+        if self._number > MAX_ELEMENTS:
+            raise element.error(f"The file has more than {MAX_ELEMENTS} elements")
+        if self.open:
+            self.open[-1].children.append(element)
+        else:
+            self.root = element
+        self.open.append(element)
+
+    def _end(self, _tag: str) -> None:
+        self.open.pop()
+
+    def _entity(self, name: str, *_: object) -> None:
+        raise UrdfError(f"The declaration of the entity '{name}' is not allowed", self.line)
+
+
+def parse_xml(text: str | bytes) -> Element:
+    """The root element of an XML document.
+
+    Args:
+        text: The document; bytes are in the encoding that the XML declaration names, or UTF-8.
+            White space before the declaration is accepted, as in TinyXML-2.
+
+    Raises:
+        UrdfError: The XML is not well-formed, declares entities or is nested too deeply.
+    """
+    stripped = text.lstrip()
+    before = text[: len(text) - len(stripped)]
+    lines = before.count("\n") if isinstance(before, str) else before.count(b"\n")
+    builder = _Builder(lines)
+    try:
+        builder.parser.Parse(stripped, True)
+    except expat.ExpatError as error:
+        raise _xml_error(error, builder.open, lines) from None
+    except (LookupError, UnicodeError) as error:  # an encoding that Python does not know
+        raise UrdfError(str(error), builder.line) from None
+    assert builder.root is not None, "expat demands a root element"
+    return builder.root
+
+
+def _xml_error(error: expat.ExpatError, opened: list[Element], lines_before: int) -> UrdfError:
+    what = expat.ErrorString(error.code)
+    unclosed = (expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS)
+    if opened and what in unclosed:
+        return opened[-1].error(f"The element <{opened[-1].tag}> is never closed")
+    return UrdfError(f"The XML is not well-formed: {what}", error.lineno + lines_before)

@@ -1,0 +1,50 @@
+"""Errors of a URDF: urdfdom's texts, and the line and element that they are about."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import TurtlewireError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["UrdfError", "reported"]
+
+
+class UrdfError(TurtlewireError, ValueError):
+    """A robot description that urdfdom refuses, or that has no kinematics.
+
+    ``str(error)`` is the first text that urdfdom logs; ``hint`` names the place.
+
+    Attributes:
+        reports: All texts that urdfdom logs, in its order.
+        line: The line of the element, from 1; 0 if the description is empty.
+        element: The element, for example ``<origin> in <joint name="elbow">``; may be empty.
+    """
+
+    def __init__(self, text: str, line: int = 0, element: str = "") -> None:
+        super().__init__(text)
+        self.reports: list[str] = [text]
+        self.line = line
+        self.element = element
+        self.with_hint(self.place)
+
+    @property
+    def place(self) -> str:
+        """Line and element, for example ``line 7 in <origin> in <joint name="elbow">``."""
+        return f"line {self.line} in {self.element}" if self.element else f"line {self.line}"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (str(self), self.line, self.element), {"reports": self.reports})
+
+
+@contextmanager
+def reported(*texts: str) -> Iterator[None]:
+    """Add what urdfdom logs after an error of the block, as it returns from its functions."""
+    try:
+        yield
+    except UrdfError as error:
+        error.reports += texts
+        raise

@@ -1,0 +1,156 @@
+"""Reads ``joint`` elements with urdfdom's rules and texts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from turtlewire.urdf.faults import reported
+from turtlewire.urdf.model import (
+    MOVING_TYPES,
+    Calibration,
+    Dynamics,
+    Joint,
+    JointLimits,
+    Mimic,
+    Safety,
+)
+from turtlewire.urdf.values import number_of, pose_of, vector_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import TypeVar
+
+    from turtlewire.urdf.elements import Element
+    from turtlewire.urdf.model import JointType, Vector
+
+    T = TypeVar("T")
+
+__all__ = ["read_joint"]
+
+_TYPES = MOVING_TYPES | {"fixed", "floating", "planar"}
+_NO_LIMITS = {
+    "revolute": "Joint [{}] is of type REVOLUTE but it does not specify limits",
+    "prismatic": "Joint [{}] is of type PRISMATIC without limits",
+}
+
+
+def read_joint(element: Element) -> Joint:
+    """A ``joint`` element.
+
+    Raises:
+        UrdfError: urdfdom refuses the joint, or it moves along an axis of no direction.
+    """
+    name = element.get("name")
+    if name is None:
+        raise element.error("unnamed joint found")
+    with reported(f"Malformed parent origin element for joint [{name}]"):
+        origin = pose_of(element.first("origin"))
+    parent, child = _end(element, "parent"), _end(element, "child")
+    kind = _type(element, name)
+    axis = _axis(element, name, kind)
+    limits = _part(element, "limit", _limits, f"Could not parse limit element for joint [{name}]")
+    if limits is None and kind in _NO_LIMITS:
+        raise element.error(_NO_LIMITS[kind].replace("{}", name))
+    could_not = "Could not parse {} element for joint "
+    return Joint(
+        name,
+        kind,
+        parent,
+        child,
+        origin,
+        axis,
+        limits,
+        safety=_part(
+            element, "safety_controller", _safety, f"{could_not.format('safety')}[{name}]"
+        ),
+        calibration=_part(
+            element, "calibration", _calibration, f"{could_not.format('calibration')} [{name}]"
+        ),
+        mimic=_part(element, "mimic", _mimic, f"{could_not.format('mimic')} [{name}]"),
+        dynamics=_part(element, "dynamics", _dynamics, f"{could_not.format('dynamics')}[{name}]"),
+        line=element.line,
+    )
+
+
+def _part(
+    element: Element, tag: str, read: Callable[[Element], T], after_an_error: str
+) -> T | None:
+    part = element.first(tag)
+    if part is None:
+        return None
+    with reported(after_an_error):
+        return read(part)
+
+
+def _end(element: Element, tag: str) -> str:
+    # A joint without its ends is refused when the tree is built.
+    part = element.first(tag)
+    return "" if part is None else part.get("link") or ""
+
+
+def _type(element: Element, name: str) -> JointType:
+    kind = element.get("type")
+    if kind is None:
+        raise element.error(f"joint [{name}] has no type, check to see if it's a reference.")
+    if kind not in _TYPES:
+        raise element.error(f"Joint [{name}] has no known type [{kind}]")
+    return cast("JointType", kind)
+
+
+def _axis(element: Element, name: str, kind: str) -> Vector:
+    default = (1.0, 0.0, 0.0)
+    part = element.first("axis")
+    if part is None or kind in {"fixed", "floating"}:
+        return default
+    before = f"Malformed axis element for joint [{name}]: "
+    axis = vector_of(part, "xyz", before) or default
+    if kind in MOVING_TYPES and not any(axis):
+        raise part.error(f"{before}it is zero, which is no direction")
+    return axis
+
+
+def _limits(element: Element) -> JointLimits:
+    lower = number_of(element, "lower", "lower value ({}) is not a valid float")
+    upper = number_of(element, "upper", "upper value ({}) is not a valid float")
+    effort = number_of(element, "effort", "effort value ({}) is not a valid float")
+    if effort is None:
+        raise element.error("joint limit: no effort")
+    velocity = number_of(element, "velocity", "velocity value ({}) is not a valid float")
+    if velocity is None:
+        raise element.error("joint limit: no velocity")
+    return JointLimits(lower or 0.0, upper or 0.0, effort, velocity)
+
+
+def _safety(element: Element) -> Safety:
+    def number(attribute: str) -> float | None:
+        return number_of(element, attribute, attribute + " value ({}) is not a valid float")
+
+    lower, upper = number("soft_lower_limit"), number("soft_upper_limit")
+    k_position, k_velocity = number("k_position"), number("k_velocity")
+    if k_velocity is None:
+        raise element.error("joint safety: no k_velocity")
+    return Safety(k_velocity, k_position or 0.0, lower or 0.0, upper or 0.0)
+
+
+def _calibration(element: Element) -> Calibration:
+    return Calibration(
+        number_of(element, "rising", "risingvalue ({}) is not a valid float"),
+        number_of(element, "falling", "fallingvalue ({}) is not a valid float"),
+    )
+
+
+def _mimic(element: Element) -> Mimic:
+    joint = element.get("joint")
+    if joint is None:
+        raise element.error("joint mimic: no mimic joint specified")
+    multiplier = number_of(element, "multiplier", "multiplier value ({}) is not a valid float")
+    offset = number_of(element, "offset", "offset value ({}) is not a valid float")
+    return Mimic(joint, 1.0 if multiplier is None else multiplier, offset or 0.0)
+
+
+def _dynamics(element: Element) -> Dynamics:
+    damping = number_of(element, "damping", "damping value ({}) is not a valid float")
+    friction = number_of(element, "friction", "friction value ({}) is not a valid float")
+    if damping is None and friction is None:
+        raise element.error("joint dynamics element specified with no damping and no friction")
+    return Dynamics(damping or 0.0, friction or 0.0)

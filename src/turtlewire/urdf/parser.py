@@ -1,0 +1,133 @@
+"""Reads a URDF with the rules and the error texts of urdfdom, and says where an error is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from turtlewire.urdf.bodies import read_link, read_material
+from turtlewire.urdf.elements import Element, parse_xml
+from turtlewire.urdf.faults import UrdfError, reported
+from turtlewire.urdf.joints import read_joint
+from turtlewire.urdf.model import Robot, UrdfWarning
+from turtlewire.urdf.tree import root_of
+from turtlewire.urdf.values import as_number
+
+if TYPE_CHECKING:
+    import os
+
+    from turtlewire.urdf.model import Joint, Link, Material, Visual
+
+__all__ = ["load_urdf", "parse_urdf"]
+
+
+def load_urdf(path: str | os.PathLike[str]) -> Robot:
+    """The robot that a file describes.
+
+    Raises:
+        OSError: The file cannot be read.
+        UrdfError: :func:`parse_urdf` refuses it.
+    """
+    with open(path, "rb") as file:
+        return parse_urdf(file.read())
+
+
+def parse_urdf(text: str | bytes) -> Robot:
+    """The robot that a URDF describes.
+
+    Elements that urdfdom does not know (``gazebo``, ``transmission``, ``ros2_control``) are
+    ignored.
+
+    Args:
+        text: The XML; for xacro files, what ``xacro`` makes of them.
+
+    Raises:
+        UrdfError: urdfdom refuses the description, or the links are no tree, or the XML declares
+            entities. ``line`` and ``element`` of the error say where.
+    """
+    if not text.strip():
+        raise UrdfError("The description is empty")
+    root = parse_xml(text)
+    if root.tag != "robot":
+        raise root.error("Could not find the 'robot' element in the xml file")
+    name = root.get("name")
+    if name is None:
+        raise root.error("No name given for the robot.")
+    _check_version(root)
+    warnings: list[UrdfWarning] = []
+    materials = _materials(root, warnings)
+    links = _links(root, materials, warnings)
+    if not links:
+        raise root.error("No link elements found in urdf file")
+    joints = _joints(root)
+    top = root_of(root, links, joints)
+    return Robot(name, links, joints, materials, top, tuple(warnings))
+
+
+def _check_version(root: Element) -> None:
+    version = root.get("version")
+    if version is None:
+        return
+    parts = version.split(".")
+    if len(parts) != 2 or not all(part.isdecimal() for part in parts):
+        raise root.error("The version attribute should be in the form 'x.y'")
+    if [as_number(part) for part in parts] != [1, 0]:
+        raise root.error("Invalid 'version' specified; only version 1.0 is currently supported")
+
+
+def _materials(root: Element, warnings: list[UrdfWarning]) -> dict[str, Material]:
+    found: dict[str, Material] = {}
+    for element in root.all("material"):
+        with reported("material xml is not initialized correctly"):
+            material = read_material(element, warnings)
+        if material.name in found:
+            raise element.error(f"material '{material.name}' is not unique.")
+        if material.rgba is None and material.texture is None:
+            text = f"Material [{material.name}] color has no rgba"
+            warnings.append(UrdfWarning(text, element.line, element.described()))
+        found[material.name] = material
+    return found
+
+
+def _links(
+    root: Element, materials: dict[str, Material], warnings: list[UrdfWarning]
+) -> dict[str, Link]:
+    found: dict[str, Link] = {}
+    for element in root.all("link"):
+        with reported("link xml is not initialized correctly"):
+            link = read_link(element, warnings)
+        if link.name in found:
+            raise element.error(f"link '{link.name}' is not unique.")
+        visuals = tuple(
+            _with_material(visual, element, materials, warnings) for visual in link.visuals
+        )
+        found[link.name] = replace(link, visuals=visuals) if visuals else link
+    return found
+
+
+def _with_material(
+    visual: Visual, link: Element, materials: dict[str, Material], warnings: list[UrdfWarning]
+) -> Visual:
+    """The visual with the colour of the material of that name; its own material wins."""
+    material = visual.material
+    if material is None:
+        return visual
+    if material.rgba is not None or material.texture is not None:
+        materials.setdefault(material.name, material)
+        return visual
+    if material.name in materials:
+        return replace(visual, material=materials[material.name])
+    text = f"link '{link.get('name')}' material '{material.name}' undefined."
+    warnings.append(UrdfWarning(text, link.line, link.described()))
+    return visual
+
+
+def _joints(root: Element) -> dict[str, Joint]:
+    found: dict[str, Joint] = {}
+    for element in root.all("joint"):
+        with reported("joint xml is not initialized correctly"):
+            joint = read_joint(element)
+        if joint.name in found:
+            raise element.error(f"joint '{joint.name}' is not unique.")
+        found[joint.name] = joint
+    return found

@@ -1,0 +1,42 @@
+"""What a context shares with its nodes."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING
+
+from .announcer import Announcer
+from .participant import Participant
+from .reader import ReaderThread
+
+if TYPE_CHECKING:
+    from .graph import CycloneGraph
+
+__all__ = ["ContextCore"]
+
+
+class ContextCore:
+    """The participant of a context, its reader thread and its announcements.
+
+    Attributes:
+        graph: None until the context is first asked for it: a program that never looks at the
+            graph does not read what peers announce.
+        closing: Whether the context is being closed.
+    """
+
+    def __init__(self, domain_id: int, enclave: str) -> None:
+        self.participant = Participant(domain_id, enclave)
+        self.reader = ReaderThread(self.participant.handle)
+        self.announcer = Announcer(self.participant, self.reader)
+        self.graph: CycloneGraph | None = None
+        self.closing = False
+        self._service_numbers = itertools.count(1)
+
+    def graph_changed(self) -> None:
+        """Tell the graph's listeners; called when a predicate on the graph may have changed."""
+        if self.graph is not None:
+            self.graph.notify_changed()
+
+    def next_service_number(self) -> int:
+        """Numbers the clients and services of this participant."""
+        return next(self._service_numbers)

@@ -1,0 +1,82 @@
+"""Has peers of other vendors say once more what Cyclone did not hear.
+
+A peer tells each new participant at once which endpoints it has, and each new reader what it keeps
+for late joiners. Fast DDS does so before Cyclone has taken note of the peer, so Cyclone drops it.
+Fast DDS then repeats its endpoints after one second and its messages after three, because it does
+not heed the form in which Cyclone asks for what it never heard of (an ACKNACK whose count is 0).
+
+Another participant, or another reader, makes Fast DDS speak at once. Cyclone has taken note of the
+peer by then, and asks for all that was said, in a form that Fast DDS heeds.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import library as dds
+from .ports import is_cyclone, process_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from .participant import Participant
+
+__all__ = ["PATIENCE_NS", "Questions", "SilentPeers"]
+
+#: So long a peer may take before it is asked. Less than the 10 ms after which Cyclone asks by
+#: itself, because then it would ask again only after a second.
+PATIENCE_NS = 2_000_000
+
+
+class Questions(NamedTuple):
+    """Gids of participants that are to be asked, each for something else."""
+
+    endpoints: set[bytes]
+    nodes: set[bytes]
+
+
+class SilentPeers:
+    """Asks each participant of another vendor once for its endpoints and once for its nodes.
+
+    Args:
+        participant: Ours.
+        renew_reader: Replaces the reader of ``ros_discovery_info`` by a new one.
+    """
+
+    def __init__(self, participant: Participant, renew_reader: Callable[[], None]) -> None:
+        self._participant = participant
+        self._renew_reader = renew_reader
+        self._second = 0
+        self._asked = Questions(set(), set())
+
+    def to_ask(self, silent: Iterable[bytes], announcers: Iterable[bytes]) -> Questions:
+        """Which participants have to be asked.
+
+        Args:
+            silent: Gids of the ROS participants whose nodes are not known.
+            announcers: Gids of the known writers of ``ros_discovery_info``.
+        """
+        foreign = {gid for gid in silent if not is_cyclone(gid)}
+        announcing = {process_of(gid) for gid in announcers}
+        heard = {gid for gid in foreign if process_of(gid) in announcing}
+        return Questions(foreign - heard - self._asked.endpoints, heard - self._asked.nodes)
+
+    def ask(self, questions: Questions) -> None:
+        """Ask them."""
+        if questions.endpoints:
+            self._asked.endpoints.update(questions.endpoints)
+            self._open_second()
+        if questions.nodes:
+            self._asked.nodes.update(questions.nodes)
+            self._renew_reader()
+
+    def _open_second(self) -> None:
+        self.close()
+        created = dds.create_participant(self._participant.domain_id, None, None)
+        self._second = dds.check(created, "ask for endpoints")
+
+    def close(self) -> None:
+        """Delete the second participant."""
+        if self._second:
+            dds.delete(self._second)
+            self._second = 0

@@ -1,0 +1,96 @@
+"""Nodes of the in-process middleware."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire import names
+from turtlewire.wire.base import Client, MessageInfo, Node, Publisher, Service, Subscription
+from turtlewire.wire.graph import with_best_available
+from turtlewire.wire.services import TopicClient, TopicService
+
+from .endpoint import EndpointSpec
+from .publisher import LocalPublisher
+from .subscription import LocalSubscription
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import Context, Sink, TypeId
+    from turtlewire.wire.qos import QoS
+
+    from .core import NodeCore
+
+__all__ = ["LocalNode"]
+
+
+class LocalNode(Node):
+    """A node of a context.
+
+    Args:
+        context: The context that makes it.
+        core: What its endpoints are given.
+        on_closed: Called when it is closed.
+    """
+
+    def __init__(
+        self, context: Context, core: NodeCore, on_closed: Callable[[LocalNode], None]
+    ) -> None:
+        self.context = context
+        self.info = core.info
+        self.name = core.info.name
+        self.namespace = core.info.namespace
+        self._core = core
+        self._on_closed = on_closed
+
+    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+        """See :meth:`Node.create_publisher`."""
+        qos = with_best_available(qos, topic, "publisher", self.context)
+        dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
+        return LocalPublisher(self._core, EndpointSpec(topic, dds_topic, type_id, qos))
+
+    def create_subscription(
+        self,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+        sink: Sink | None = None,  # noqa: ARG002 - it would gain nothing here
+    ) -> Subscription:
+        """See :meth:`Node.create_subscription`."""
+        qos = with_best_available(qos, topic, "subscription", self.context)
+        dds_topic = names.topic_to_dds(topic, bare=qos.avoid_ros_namespace_conventions)
+        spec = EndpointSpec(topic, dds_topic, type_id, qos)
+        return LocalSubscription(self._core, spec, on_message)
+
+    def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
+        """See :meth:`Node.create_client`."""
+        requests_, replies_ = _specs(service, request, response, qos)
+        replies = LocalSubscription(self._core, replies_)
+        requests = LocalPublisher(self._core, requests_)
+        return TopicClient(service, int.from_bytes(requests.gid[-8:], "big"), requests, replies)
+
+    def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
+        """See :meth:`Node.create_service`."""
+        requests_, replies_ = _specs(service, request, response, qos)
+        requests = LocalSubscription(self._core, requests_)
+        replies = LocalPublisher(self._core, replies_)
+        return TopicService(service, requests, replies)
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        with self._core.bus.lock:
+            endpoints = list(self._core.endpoints)
+        for endpoint in endpoints:
+            endpoint.close()
+        self._on_closed(self)
+
+
+def _specs(
+    service: str, request: TypeId, response: TypeId, qos: QoS
+) -> tuple[EndpointSpec, EndpointSpec]:
+    """Of a service's requests and of its replies."""
+    return (
+        EndpointSpec(service, names.request_topic(service), request, qos),
+        EndpointSpec(service, names.reply_topic(service), response, qos),
+    )

@@ -1,0 +1,65 @@
+"""Publishers of the in-process middleware."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import WireError
+from turtlewire.wire.base import MessageInfo, Publisher
+from turtlewire.wire.encapsulation import require_message
+from turtlewire.wire.qos import Durability
+
+from .endpoint import LocalEndpoint
+
+if TYPE_CHECKING:
+    from .core import NodeCore
+    from .endpoint import EndpointSpec, Message
+
+__all__ = ["LocalPublisher"]
+
+
+class LocalPublisher(LocalEndpoint, Publisher):
+    """Hands its messages to the queues of the matching subscriptions."""
+
+    def __init__(self, node: NodeCore, spec: EndpointSpec) -> None:
+        super().__init__(spec, node.info, node.bus.lock)
+        self._core = node
+        with self._lock:
+            node.bus.add_publisher(self)
+            node.endpoints.add(self)
+        node.bus.changed()
+
+    def publish(self, cdr: bytes) -> None:
+        """See :meth:`Publisher.publish`."""
+        require_message(cdr, self.topic)
+        now = time.time_ns()
+        message = (cdr, MessageInfo(now, now, self.gid))
+        with self._lock:
+            if self._closed:
+                raise WireError(f"publish on {self.topic}: the publisher is closed")
+            if self.qos.durability == Durability.TRANSIENT_LOCAL:
+                self._queue.append(message)
+            for subscription in self.matched:
+                subscription.receive(message)
+
+    def kept(self) -> list[Message]:
+        """See :meth:`LocalEndpoint.kept`."""
+        oldest = time.time_ns() - self.qos.lifespan_ns if self.qos.lifespan_ns else 0
+        return [message for message in self._queue if message[1].source_timestamp_ns >= oldest]
+
+    def subscription_count(self) -> int:
+        """See :meth:`Publisher.subscription_count`."""
+        return len(self.matched)
+
+    def assert_liveliness(self) -> None:
+        """See :meth:`Publisher.assert_liveliness`; publishers of one process end together."""
+
+    def wait_for_acknowledgments(self, timeout_ns: int) -> bool:  # noqa: ARG002 - see below
+        """See :meth:`Publisher.wait_for_acknowledgments`; messages arrive as they are published."""
+        return True
+
+    def _leave(self) -> None:
+        self._core.endpoints.discard(self)
+        self._core.bus.remove_publisher(self)
+        self._core.bus.changed()

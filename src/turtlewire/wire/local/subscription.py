@@ -1,0 +1,86 @@
+"""Subscriptions of the in-process middleware."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.base import MessageInfo, Subscription
+from turtlewire.wire.qos import Durability
+from turtlewire.wire.report import call_guarded
+
+from .endpoint import LocalEndpoint
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import WaitSet
+
+    from .core import NodeCore
+    from .endpoint import EndpointSpec, Message
+
+__all__ = ["LocalSubscription"]
+
+
+class LocalSubscription(LocalEndpoint, Subscription):
+    """Keeps messages until they are taken.
+
+    Attributes:
+        watchers: The wait sets that it is attached to, and what to call when a message arrives.
+    """
+
+    def __init__(
+        self,
+        node: NodeCore,
+        spec: EndpointSpec,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+    ) -> None:
+        super().__init__(spec, node.info, node.bus.lock)
+        self._core = node
+        self._on_message = on_message
+        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        with self._lock:
+            node.bus.add_subscription(self)
+            node.endpoints.add(self)
+        node.bus.changed()
+
+    def meet(self, other: LocalEndpoint) -> None:
+        """See :meth:`LocalEndpoint.meet`."""
+        super().meet(other)
+        if self.qos.durability == Durability.TRANSIENT_LOCAL:
+            for message in other.kept():
+                self.receive(message)
+
+    def receive(self, message: Message) -> None:
+        """See :meth:`LocalEndpoint.receive`."""
+        self._queue.append(message)
+        if self._on_message is not None:
+            self._core.reader.submit(self._deliver)
+        for notify in self.watchers.values():
+            notify()
+
+    def _deliver(self) -> None:
+        """Hand over all waiting messages; on the reader thread."""
+        assert self._on_message is not None
+        for message in self.take(limit=len(self._queue)):
+            call_guarded(self._on_message, message, self.topic)
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether messages are waiting."""
+        return bool(self._queue)
+
+    def take(self, limit: int = 32) -> list[Message]:
+        """See :meth:`Subscription.take`."""
+        with self._lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    def publisher_count(self) -> int:
+        """See :meth:`Subscription.publisher_count`."""
+        return len(self.matched)
+
+    def _leave(self) -> None:
+        self._core.endpoints.discard(self)
+        self._core.bus.remove_subscription(self)
+        self._core.bus.changed()
+        for wait_set in list(self.watchers):
+            wait_set.detach(self)

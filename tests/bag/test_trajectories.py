@@ -1,0 +1,87 @@
+"""Odometry and poses of a bag as trajectories."""
+
+from __future__ import annotations
+
+import pytest
+from tests.bag.conftest import SECOND, START
+
+from turtlewire import msg
+from turtlewire.bag import BagWriter, load_trajectory, open_bag, pose_topics
+from turtlewire.errors import BagError
+
+PLACES = {
+    "nav_msgs/msg/Odometry": lambda m: (m.pose.pose.position, m.pose.pose.orientation),
+    "geometry_msgs/msg/PoseStamped": lambda m: (m.pose.position, m.pose.orientation),
+    "geometry_msgs/msg/PoseWithCovarianceStamped": lambda m: (
+        m.pose.pose.position,
+        m.pose.pose.orientation,
+    ),
+    "geometry_msgs/msg/TransformStamped": lambda m: (
+        m.transform.translation,
+        m.transform.rotation,
+    ),
+}
+
+
+def stamped(kind, i):
+    message = msg.get_message(kind)()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(
+        START + i * 10_000_000 + 7, SECOND
+    )
+    message.header.frame_id = "odom"
+    if hasattr(message, "child_frame_id"):
+        message.child_frame_id = "base"
+    position, orientation = PLACES[kind](message)
+    position.x, position.z = 0.5 * i, 3.0
+    orientation.w, orientation.z = 0.8, 0.6
+    return message
+
+
+@pytest.fixture
+def path(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/chatter", "std_msgs/msg/String")
+        for kind in PLACES:
+            topic = f"/{kind.rpartition('/')[2].lower()}"
+            writer.add_topic(topic, kind)
+            for i in (*range(50), 49, 30, *range(200, 250)):
+                writer.write(topic, stamped(kind, i), START + i)
+    return tmp_path / "made"
+
+
+@pytest.mark.parametrize("kind", PLACES)
+def test_every_type_with_a_pose(path, kind):
+    trajectory = load_trajectory(path, f"/{kind.rpartition('/')[2].lower()}")
+    assert len(trajectory) == 100
+    assert trajectory.stamps_ns[49] == START + 490_000_007
+    assert trajectory.poses[49].tolist() == [24.5, 0, 3, 0, 0, 0.6, 0.8]
+    assert trajectory.frame_id == "odom"
+    assert trajectory.child_frame_id == ("base" if "Odom" in kind or "Transform" in kind else "")
+    assert trajectory.gaps == ((START + 490_000_007, START + 2 * SECOND + 7),)
+
+
+def test_a_window_and_progress(path):
+    shares = []
+    part = load_trajectory(
+        path, "/odometry", start_ns=START + 10, end_ns=START + 19, progress=shares.append
+    )
+    assert part.positions[:, 0].tolist() == [0.5 * i for i in range(10, 20)]
+    assert shares[-1] == 1.0
+
+
+def test_wrong_topics(path):
+    with open_bag(path) as bag:
+        assert pose_topics(bag) == [
+            "/odometry",
+            "/posestamped",
+            "/posewithcovariancestamped",
+            "/transformstamped",
+        ]
+    with pytest.raises(BagError, match="has no topic /odometri") as error:
+        load_trajectory(path, "/odometri")
+    assert "Did you mean: /odometry" in error.value.hint
+    with pytest.raises(BagError, match="which has no poses") as error:
+        load_trajectory(path, "/chatter")
+    assert "Topics with poses: /odometry" in error.value.hint
+    with pytest.raises(BagError, match="no message of /odometry in that time"):
+        load_trajectory(path, "/odometry", end_ns=5)

@@ -1,0 +1,60 @@
+"""Times as datetime64, wherever a stamp is."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+STAMP = 1_700_000_000_123_456_789
+
+
+@pytest.fixture
+def filled(buffer):
+    for i in range(3):
+        buffer.set_transform("a", "b", STAMP + i, (i, 0, 0), (0, 0, 0, 1))
+    return buffer
+
+
+def test_datetime64_is_a_stamp(filled):
+    time = np.datetime64(STAMP, "ns")
+    later = time + np.timedelta64(1, "ns")
+    assert filled.lookup_transform("a", "b", time).stamp_ns == STAMP
+    assert filled.lookup_transform_full("a", later, "b", time, "a").stamp_ns == STAMP + 1
+    assert filled.can_transform("a", "b", later)
+    assert filled.lookup_batch("a", "b", np.array([time, later]))[:, 0].tolist() == [0, 1]
+    assert filled.lookup_all("a", later)[1][:, 0].max() == 1
+    assert filled.transform_points("a", "b", np.zeros((1, 3)), later).tolist() == [[1, 0, 0]]
+    assert filled.lookup_velocity("b", "a", later, interval_ns=2).shape == (6,)
+    assert filled.extrapolate_transform("a", "b", time + np.timedelta64(4, "ns"), 10).x == 4
+    assert (
+        filled.set_transform("a", "b", time + np.timedelta64(9, "ns"), (9, 0, 0), (0, 0, 0, 1))
+        == ""
+    )
+    assert filled.stamps("b").tolist() == [STAMP, STAMP + 1, STAMP + 2, STAMP + 9]
+
+
+def test_coarser_units_and_pandas(filled):
+    assert (
+        filled.set_transform(
+            "a", "c", np.datetime64("2023-11-14T22:13:20"), (1, 0, 0), (0, 0, 0, 1)
+        )
+        == ""
+    )
+    assert filled.stamps("c").tolist() == [1_700_000_000 * 10**9]
+    timestamp = SimpleNamespace(to_datetime64=lambda: np.datetime64(STAMP, "ns"))
+    assert filled.lookup_transform("a", "b", timestamp).stamp_ns == STAMP
+
+
+@pytest.mark.parametrize("wrong", [np.datetime64("NaT"), np.datetime64("9999-01-01")])
+def test_what_is_no_time(filled, wrong):
+    with pytest.raises(ValueError, match=r"NaT|does not fit"):
+        filled.lookup_transform("a", "b", wrong)
+    with pytest.raises(ValueError, match=r"NaT|does not fit"):
+        filled.lookup_batch("a", "b", np.array([wrong]))
+    for other in (1.5, "now", None, np.timedelta64(1, "s")):
+        with pytest.raises(
+            TypeError, match=f"must be an int of nanoseconds, not {type(other).__name__}"
+        ):
+            filled.lookup_transform("a", "b", other)

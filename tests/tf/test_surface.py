@@ -1,0 +1,159 @@
+"""Operators, containers, pickles and shortcuts of buffers and transforms, on both cores."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation, Slerp
+
+SECOND = 1_000_000_000
+
+
+@pytest.fixture(scope="session")
+def equipped(core):
+    """The core with what `turtlewire.Buffer` offers: only the chosen one has it from the start."""
+    from turtlewire.tf.surface import equip
+
+    equip(core.Buffer, core.Transform)
+    return core
+
+
+def poses():
+    number = st.floats(-5, 5)
+    quaternion = st.tuples(number, number, number, number).filter(lambda q: np.linalg.norm(q) > 0.1)
+    return st.tuples(st.tuples(number, number, number), quaternion)
+
+
+def made(core, names, pose, stamp=0):
+    translation, quaternion = pose
+    return core.Transform(
+        *names, stamp, translation, tuple(quaternion / np.linalg.norm(quaternion))
+    )
+
+
+@given(poses(), poses())
+def test_matmul_multiplies_the_matrices(equipped, first, second):
+    a, b = made(equipped, ("a", "b"), first), made(equipped, ("b", "c"), second)
+    assert (a @ b).as_matrix() == pytest.approx(a.as_matrix() @ b.as_matrix(), abs=1e-9)
+    assert ((a @ b).frame_id, (a @ b).child_frame_id) == ("a", "c")
+    assert (a @ a.inverse()).as_matrix() == pytest.approx(np.eye(4), abs=1e-9)
+
+
+@given(poses(), poses(), st.integers(0, SECOND))
+def test_interpolation_is_lerp_and_slerp(equipped, first, second, at):
+    a = made(equipped, ("a", "b"), first, 10 * SECOND)
+    b = made(equipped, ("a", "b"), second, 11 * SECOND)
+    between = a.interpolate(b, 10 * SECOND + at)
+    assert between == b.interpolate(a, 10 * SECOND + at)
+    u = at / SECOND
+    expected = (1 - u) * np.array(a.translation) + u * np.array(b.translation)
+    assert between.translation == pytest.approx(tuple(expected), abs=1e-9)
+    turns = Rotation.from_quat([a.rotation, b.rotation])
+    if (turns[0].inv() * turns[1]).magnitude() < 3.1:  # a half turn has two ways
+        turned = Slerp([0, 1], turns)([u])[0]
+        assert (turned.inv() * Rotation.from_quat(between.rotation)).magnitude() < 1e-6
+    assert between.stamp_ns == 10 * SECOND + at
+
+
+def test_stamps_of_products(equipped):
+    identity = ((0, 0, 0), (0, 0, 0, 1))
+    a, b = made(equipped, ("a", "b"), identity, 5), made(equipped, ("b", "c"), identity, 3)
+    fixed = made(equipped, ("b", "c"), identity, 0)
+    assert (a @ b).stamp_ns == 3
+    assert (a @ fixed).stamp_ns == 5
+
+
+def test_what_does_not_fit(equipped):
+    identity = ((0, 0, 0), (0, 0, 0, 1))
+    a, c = made(equipped, ("a", "b"), identity, 5), made(equipped, ("c", "b"), identity, 7)
+    with pytest.raises(ValueError, match=r"do not meet: 'b' is not 'c'; inverse\(\)"):
+        a @ c
+    with pytest.raises(TypeError):
+        a @ 3
+    with pytest.raises(ValueError, match="different frames"):
+        a.interpolate(c, 6)
+    with pytest.raises(ValueError, match="9 is not between 5 and 8"):
+        a.interpolate(made(equipped, ("a", "b"), identity, 8), 9)
+
+
+def test_a_buffer_is_a_container_of_frames(equipped):
+    buffer = equipped.Buffer(None)
+    assert (len(buffer), bool(buffer), list(buffer)) == (0, True, [])
+    assert repr(buffer) == "<Buffer: 0 frames, 0 links>"
+    buffer.set_transform("map", "base", 10 * SECOND, (1, 0, 0), (0, 0, 0, 1))
+    buffer.set_transform("map", "base", 12 * SECOND, (2, 0, 0), (0, 0, 0, 1))
+    buffer.set_transform("base", "laser", 0, (0, 1, 0), (0, 0, 0, 1), True)
+    assert set(buffer) == {"map", "base", "laser"}
+    assert "base" in buffer
+    assert "Base" not in buffer
+    assert 3 not in buffer
+    assert repr(buffer) == (
+        "<Buffer: 3 frames, 2 links, 2 samples from 10.000 to 12.000 (2.000 s)>"
+    )
+
+
+def test_a_buffer_is_pickled():
+    from turtlewire import Buffer
+
+    buffer = Buffer(None)
+    for i in range(100):
+        buffer.set_transform("map", "base", i * SECOND, (i, 0, 0), (0, 0, 0, 1))
+    buffer.set_transform("base", "laser", 0, (0, 1, 0), (0, 0, 0, 1), True)
+    copy = pickle.loads(pickle.dumps(buffer))
+    assert copy.cache_time_ns is None
+    assert copy.lookup_transform("map", "laser", 50 * SECOND).translation == (50, 1, 0)
+
+    class Own(Buffer):
+        pass
+
+    with pytest.raises(TypeError, match="cannot pickle Own"):
+        pickle.dumps(Own())
+
+
+def test_shortcuts(tmp_path):
+    from tests.bag.conftest import START, write_bag
+
+    from turtlewire import Buffer
+
+    path = write_bag(tmp_path / "made")
+    buffer = Buffer.from_bag(path)
+    assert buffer.bag_report.messages == 101
+    assert Buffer().bag_report is None
+    trajectory = buffer.trajectory("odom", "camera", rate_hz=10)
+    assert np.diff(trajectory.stamps_ns).tolist() == [SECOND // 10] * 9
+    assert buffer.trajectory("odom", "camera").stamps_ns[0] == START
+    times = np.array(["2023-11-14T22:13:20.1"], dtype="datetime64[ns]")
+    assert buffer.trajectory("odom", "camera", stamps=times).positions[0, 0] == pytest.approx(0.1)
+
+    class Own(Buffer):
+        pass
+
+    assert isinstance(Own.from_bag(path), Own)
+
+
+def test_the_twin_reads_bags(tmp_path):
+    from tests.bag.conftest import write_bag
+
+    path = write_bag(tmp_path / "made")
+    code = (
+        "import sys, turtlewire; b = turtlewire.Buffer.from_bag(sys.argv[1]); print(b.bag_report)"
+    )
+    done = {
+        core: subprocess.run(
+            [sys.executable, "-c", code, str(path)],
+            env={**os.environ, "TURTLEWIRE_CORE": core},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for core in ("python", "")
+    }
+    assert done["python"] == done[""]
+    assert "made: 101 messages" in done[""]
