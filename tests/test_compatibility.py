@@ -211,8 +211,6 @@ bad `--ros-args` abort with 250
   ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
 nothing but the error line follows an unknown name
   ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
-debug lines show `OnProcessExit` and `OnProcessIO` for what a process registers for itself
-  ros2cli/test_golden_cli.py test_commands_without_nodes
 an error in a launch file does not say where
   launch/test_launch_files.py test_errors_in_files_are_named_with_their_lines
 colcon builds a package whose `package.xml` cannot be read, as one that ROS does not find
@@ -235,8 +233,6 @@ YAML aliases may stand for any number of values
   ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
 `interface show` prints upstream's comments
   ros2cli/test_golden_cli.py test_commands_without_nodes
-`static_transform_publisher` listens to `/parameter_events`, as nodes of C++ do
-  ros2cli/test_golden_cli.py test_commands_beside_the_demo
 children's `print()` waits in a buffer
   launch/test_execute_process.py test_print_is_seen_at_once
 a launched program has a pipe as its input

@@ -1,9 +1,11 @@
-"""The error classes that ROS 2 programs reach through ``rclpy._rclpy_pybind11``.
+"""What ROS 2 programs reach through ``rclpy._rclpy_pybind11``: error classes, and an enumeration.
 
 Here they have no C extension behind them.
 """
 
 from __future__ import annotations
+
+from enum import IntEnum
 
 __all__ = [
     "InvalidHandle",
@@ -14,6 +16,7 @@ __all__ = [
     "TimerCancelledError",
     "UnknownROSArgsError",
     "UnsupportedEventTypeError",
+    "rmw_qos_policy_kind_t",
 ]
 
 
@@ -47,3 +50,22 @@ class UnsupportedEventTypeError(RCLError):
 
 class TimerCancelledError(RCLError):
     """A cancelled timer was asked for its next call."""
+
+
+class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801  ROS 2's name, which its text shows
+    """The policies, as events of incompatible QoS name them; equal to ``rclpy.qos.QoSPolicyKind``."""
+
+    RMW_QOS_POLICY_INVALID = 1
+    RMW_QOS_POLICY_DURABILITY = 2
+    RMW_QOS_POLICY_DEADLINE = 4
+    RMW_QOS_POLICY_LIVELINESS = 8
+    RMW_QOS_POLICY_RELIABILITY = 16
+    RMW_QOS_POLICY_HISTORY = 32
+    RMW_QOS_POLICY_LIFESPAN = 64
+    RMW_QOS_POLICY_DEPTH = 128
+    RMW_QOS_POLICY_LIVELINESS_LEASE_DURATION = 256
+    RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+
+    def __str__(self) -> str:
+        """Name of the enumeration and of the value."""
+        return f"{type(self).__name__}.{self.name}"

@@ -12,8 +12,8 @@ from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, EventStatus
 
 from ._execution.entity import Entity, Host, Work
-from ._rclpy_pybind11 import UnsupportedEventTypeError
-from .qos import QoSPolicyKind, qos_policy_name_from_kind
+from ._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
+from .qos import qos_policy_name_from_kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -109,7 +109,7 @@ class QoSRequestedIncompatibleQoSInfo(NamedTuple):
 
     total_count: int
     total_count_change: int
-    last_policy_kind: QoSPolicyKind
+    last_policy_kind: rmw_qos_policy_kind_t
 
 
 class QoSSubscriptionMatchedInfo(NamedTuple):
@@ -136,7 +136,7 @@ _INFOS: dict[EventKind, Callable[[EventStatus], Any]] = {
         status.total_count_change,
     ),
     EventKind.INCOMPATIBLE_QOS: lambda status: QoSRequestedIncompatibleQoSInfo(
-        *status[:2], QoSPolicyKind(status.last_policy_kind)
+        *status[:2], rmw_qos_policy_kind_t(status.last_policy_kind)
     ),
     EventKind.MATCHED: lambda status: QoSSubscriptionMatchedInfo(*status[:4]),
 }

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from enum import IntEnum, IntFlag
+from enum import IntEnum
 
 __all__ = [
     "DurabilityPolicy",
@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 
-class QoSPolicyKind(IntFlag):
+class QoSPolicyKind(IntEnum):
     """The policies, as events name them."""
 
     INVALID = 1

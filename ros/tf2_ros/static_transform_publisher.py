@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.qos import qos_profile_parameter_events
 from rclpy.utilities import remove_ros_args
 from tf_transformations import quaternion_from_euler
 
@@ -159,6 +160,10 @@ class StaticTransformPublisher(Node):
         letters = string.ascii_letters + string.digits
         suffix = "".join(random.choices(letters, k=16))  # noqa: S311 -- no secret
         super().__init__(f"static_transform_publisher_{suffix}")
+        # ROS 2's is a node of C++, and each of those listens to this topic.
+        self.create_subscription(
+            ParameterEvent, "/parameter_events", lambda _: None, qos_profile_parameter_events
+        )
         transform = TransformStamped()
         read_only = ParameterDescriptor(read_only=True)
         for part, names in (("translation", "xyz"), ("rotation", "xyzw")):

@@ -81,6 +81,8 @@ def test_endpoints_that_do_not_match_are_told(world):
         == requested
         == [event_handler.QoSOfferedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)]
     )
+    text = "rmw_qos_policy_kind_t.RMW_QOS_POLICY_RELIABILITY"
+    assert str(offered[0].last_policy_kind) == text
 
 
 def test_ros_2s_warnings(world, capfd):
@@ -97,12 +99,12 @@ def test_ros_2s_warnings(world, capfd):
     texts = sorted(line.partition("[eventful]: ")[2] for line in lines)
     assert texts == [
         (
-            "New publisher discovered on topic '/a', offering incompatible QoS. No messages will "
+            "New publisher discovered on topic 'a', offering incompatible QoS. No messages will "
             "be received from it. "
             "Last incompatible policy: DURABILITY"
         ),
         (
-            "New subscription discovered on topic '/a', requesting incompatible QoS. No messages "
+            "New subscription discovered on topic 'a', requesting incompatible QoS. No messages "
             "will be sent to it. "
             "Last incompatible policy: DURABILITY"
         ),

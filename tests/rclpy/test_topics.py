@@ -303,7 +303,7 @@ def test_incompatible_ends_do_not_match_and_both_are_warned(context, node, execu
     executor.spin_once(timeout_sec=0)
     assert got == []
     assert (
-        "[tested]: New publisher discovered on topic '/number', offering incompatible QoS." in seen
+        "[tested]: New publisher discovered on topic 'number', offering incompatible QoS." in seen
     )
     assert "Last incompatible policy: RELIABILITY" in seen
 

@@ -167,6 +167,23 @@ def test_a_static_transform_is_published_until_stopped(tool, listening):
     )
 
 
+def test_the_static_publisher_listens_to_parameter_events_as_nodes_of_c_plus_plus_do(tool):
+    tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "b")
+    context = wire.open_context()
+    try:
+        assert context.graph.wait_for(
+            lambda: any(
+                (end.topic, end.kind) == ("/parameter_events", "subscription")
+                and end.node is not None
+                and end.node.name.startswith("static_transform_publisher_")
+                for end in context.graph.endpoints()
+            ),
+            60_000_000_000,
+        )
+    finally:
+        context.close()
+
+
 def test_a_frame_cannot_stand_in_itself(tool):
     status, _, err = finish(
         tool("static_transform_publisher", "--frame-id", "a", "--child-frame-id", "a")

@@ -8,11 +8,10 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
-from launch.action import Action
 from launch.child_process import ChildProcess
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
-from launch.events import Shutdown
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
 from launch.events.process import (
     ProcessExited,
     ProcessIO,
@@ -24,6 +23,7 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
+from launch.process_action import ProcessAction
 from launch.process_output import ProcessOutput
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
     from launch.descriptions import Executable
     from launch.event import Event
+    from launch.events import Shutdown
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 __all__ = ["ExecuteLocal"]
 
 
-class ExecuteLocal(Action):
+class ExecuteLocal(ProcessAction):
     """Runs a process on this machine.
 
     When the launch ends, or the process is told to end, it gets SIGINT, then SIGTERM, then SIGKILL.
@@ -291,20 +292,17 @@ class ExecuteLocal(Action):
 
     def _register_handlers(self, context: LaunchContext) -> None:
         """Register for all events of the process; the last one gets an event first."""
-        for is_mine, react in (
-            (self._is_my_end, self._on_exit),
-            (self._is_my_end, self._show_end),
-            (self._is_my_output, self._show_output),
-            (lambda event: isinstance(event, Shutdown), self._on_shutdown),
-            (self._is_for_me, self._on_targeted_event),
+        on_exit = [] if self._on_exit is None else self._on_exit
+        for handler in (
+            OnProcessExit(target_action=self, on_exit=on_exit),
+            OnProcessExit(target_action=self, on_exit=self._show_end),
+            OnProcessIO(
+                target_action=self, on_stdout=self._show_output, on_stderr=self._show_output
+            ),
+            OnShutdown(on_shutdown=self._on_shutdown),
+            EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
         ):
-            context.register_event_handler(EventHandler(matcher=is_mine, entities=react))
-
-    def _is_my_end(self, event: Event) -> bool:
-        return isinstance(event, ProcessExited) and event.action is self
-
-    def _is_my_output(self, event: Event) -> bool:
-        return isinstance(event, ProcessIO) and event.action is self
+            context.register_event_handler(handler)
 
     def _is_for_me(self, event: Event) -> bool:
         return isinstance(event, ProcessTargetedEvent) and event.process_matcher(self)
@@ -328,13 +326,11 @@ class ExecuteLocal(Action):
         event_class = ProcessStdout if fd == 1 else ProcessStderr
         context.emit_event_sync(event_class(text=data, action=self, **self._event_details()))
 
-    def _show_output(self, event: Event, _context: LaunchContext) -> None:
-        assert isinstance(event, ProcessIO)
+    def _show_output(self, event: ProcessIO) -> None:
         self._output.show(1 if event.from_stdout else 2, event.text)
 
-    def _show_end(self, event: Event, _context: LaunchContext) -> None:
+    def _show_end(self, event: ProcessExited, _context: LaunchContext) -> None:
         """Show the last line, even if it is not complete, and how the process ended."""
-        assert isinstance(event, ProcessExited)
         assert self._end_was_handled is not None
         self._output.show_rest()
         if event.returncode == 0:
@@ -350,8 +346,7 @@ class ExecuteLocal(Action):
 
     # the end
 
-    def _on_shutdown(self, event: Event, context: LaunchContext) -> None:
-        assert isinstance(event, Shutdown)
+    def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
         # At Ctrl-C a terminal has sent SIGINT to its whole process group already.
         self._begin_stop(context, send_sigint=not event.due_to_sigint or context.noninteractive)
 

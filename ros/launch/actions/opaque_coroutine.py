@@ -6,8 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
-from launch.event_handler import EventHandler
-from launch.events import Shutdown
+from launch.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterable, Mapping
@@ -54,11 +53,7 @@ class OpaqueCoroutine(Action):
         assert context.asyncio_loop is not None
         args = self._args if self._ignore_context else (context, *self._args)
         self._future = context.asyncio_loop.create_task(self._coroutine(*args, **self._kwargs))
-        context.register_event_handler(
-            EventHandler(
-                matcher=lambda event: isinstance(event, Shutdown), entities=self._on_shutdown
-            )
-        )
+        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
 
     def get_asyncio_future(self) -> asyncio.Task[None] | None:
         """Done when it has returned."""

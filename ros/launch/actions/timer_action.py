@@ -8,7 +8,8 @@ from launch import logging
 from launch.action import Action
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
-from launch.events import Shutdown, TimerEvent
+from launch.event_handlers import OnShutdown
+from launch.events import TimerEvent
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -100,11 +101,7 @@ class TimerAction(Action):
         loop = context.asyncio_loop
         self._completed = loop.create_future()
         context.register_event_handler(EventHandler(matcher=self._is_mine, entities=self._actions))
-        context.register_event_handler(
-            EventHandler(
-                matcher=lambda event: isinstance(event, Shutdown), entities=self._on_shutdown
-            )
-        )
+        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
         self._timer = self._start_time(context, loop)
 
     def seconds(self, context: LaunchContext) -> float:

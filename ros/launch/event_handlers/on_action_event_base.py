@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler, entity_list
+from launch.process_action import ProcessAction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from launch.some_entities_type import SomeEntitiesType
 
 __all__ = ["OnActionEventBase"]
+
+_ROS_NAMES: dict[type[Action], str] = {ProcessAction: "ExecuteLocal"}
 
 
 class OnActionEventBase(BaseEventHandler):
@@ -42,9 +45,9 @@ class OnActionEventBase(BaseEventHandler):
             or isinstance(action_matcher, target_action_cls)
             or action_matcher is None
         ):
+            name = _ROS_NAMES.get(target_action_cls, target_action_cls.__name__)
             raise ValueError(
-                f"action_matcher must be a '{target_action_cls.__name__}' instance or a callable, "
-                f"not {action_matcher!r}"
+                f"action_matcher must be a '{name}' instance or a callable, not {action_matcher!r}"
             )
         self._action_matcher = action_matcher
         self._target_event_cls = target_event_cls

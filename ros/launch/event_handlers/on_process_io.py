@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from launch.actions.execute_local import ExecuteLocal
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessIO
+from launch.process_action import ProcessAction
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,6 +47,6 @@ class OnProcessIO(OnActionEventBase):
             action_matcher=target_action,
             on_event=on_event,
             target_event_cls=ProcessIO,
-            target_action_cls=ExecuteLocal,
+            target_action_cls=ProcessAction,
             **kwargs,
         )

@@ -107,7 +107,9 @@ class NodeEndpoints:
         if overrides is not None:
             profile = overrides.apply("publisher", profile, lambda: self.resolve_topic(topic))
         publisher = self.make_publisher(msg_type, topic, profile, publisher_class)
-        self._own_events(publisher, event_callbacks or PublisherEventCallbacks(), callback_group)
+        self._own_events(
+            publisher, topic, event_callbacks or PublisherEventCallbacks(), callback_group
+        )
         return self._own(Publisher, publisher)
 
     def make_publisher(
@@ -145,7 +147,7 @@ class NodeEndpoints:
             msg_type, topic, callback, profile, callback_group, raw
         )
         self._own_events(
-            subscription, event_callbacks or SubscriptionEventCallbacks(), callback_group
+            subscription, topic, event_callbacks or SubscriptionEventCallbacks(), callback_group
         )
         return self._own(Subscription, subscription)
 
@@ -176,13 +178,14 @@ class NodeEndpoints:
     def _own_events(
         self,
         endpoint: Publisher | Subscription,
+        topic: str,
         event_callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
         callback_group: CallbackGroup | None,
     ) -> None:
         endpoint.event_handlers = event_callbacks.create_event_handlers(
             callback_group or self.default_callback_group,
             endpoint._wire,
-            endpoint.topic,
+            topic,  # ROS 2 names it in its warnings as it was given
             self._core.logger,
         )
         for handler in endpoint.event_handlers:
