@@ -128,7 +128,7 @@ def declare_qos_parameters(
     for policy in options.policy_kinds:
         if policy is QoSPolicyKind.LIFESPAN and entity_type == "subscription":
             continue  # samples live as long as the publisher says
-        field = policy.name.lower()  # type: ignore[union-attr]  # single flags have names
+        field = policy.name.lower()
         setattr(
             qos,
             field,
