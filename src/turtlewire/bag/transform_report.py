@@ -79,10 +79,13 @@ class TransformReport:
         lines += [_refused_line(child, refused) for child, refused in self.refused.items()]
         return [printable(line) for line in lines]
 
-    def __repr__(self) -> str:
+    def headline(self) -> str:
+        """What was read, in one line."""
         topics = ", ".join(f"{topic} ({_publishers(n)})" for topic, n in self.publishers.items())
-        head = f"{printable(self.name)}: {self.messages:,} messages of {printable(topics)}"
-        return "\n".join((head, *_table(self.links), *self.complaints()))
+        return printable(f"{self.name}: {self.messages:,} messages of {topics}")
+
+    def __repr__(self) -> str:
+        return "\n".join((self.headline(), *_table(self.links), *self.complaints()))
 
 
 def describe(buffer: Buffer, report: TransformReport) -> None:

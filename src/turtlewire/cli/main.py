@@ -8,6 +8,7 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
 from turtlewire.cli.parser import Parser, seconds
 from turtlewire.cli.pipes import leave_pipe
 
@@ -25,8 +26,8 @@ def main(argv: list[str] | None = None) -> int:
 
     Returns:
         The exit status: of ``doctor``, 1 if it found a problem; of ``frames``, 1 if there was no
-        transform to print once, and 2 if the network cannot be joined; 130 after Ctrl-C, and 141
-        if the reader of the output has closed it.
+        transform to print once; 2 if the network cannot be joined, or a file cannot be read; 130
+        after Ctrl-C, and 141 if the reader of the output has closed it.
     """
     parser = _parser()
     if "_ARGCOMPLETE" in os.environ:
@@ -57,12 +58,17 @@ def _parser() -> Parser:
     )
     _add_doctor(commands)
     _add_frames(commands)
+    add_bag_commands(commands)
     return parser
 
 
 def _add_doctor(commands: Any) -> None:
-    summary = "Find what is wrong with the setup, the graph and the transforms"
+    summary = "Find what is wrong with the setup, the graph and the transforms, or with a bag"
     parser = commands.add_parser("doctor", help=summary, description=summary, allow_abbrev=False)
+    bag = parser.add_argument(
+        "bag", nargs="?", metavar="BAG", help="Examine this bag, and no network"
+    )
+    bag.completer = complete_bags
     parser.add_argument(
         "--listen",
         type=seconds,
@@ -70,7 +76,7 @@ def _add_doctor(commands: Any) -> None:
         help="Listen to the transforms for S seconds (default: 2; less if all are static)",
     )
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
-    parser.set_defaults(run=_doctor, parser=parser)
+    parser.set_defaults(run=reporting_errors("doctor", _doctor), parser=parser)
 
 
 def _add_frames(commands: Any) -> None:
@@ -123,7 +129,14 @@ def _frame_names(**_: Any) -> list[str]:
 def _doctor(args: argparse.Namespace) -> int:
     from turtlewire.cli.doctor import as_json, examine, report
 
-    findings = examine(args.listen)
+    if args.bag is None:
+        findings = examine(args.listen)
+    else:
+        if args.listen is not None:
+            args.parser.error("a bag is not listened to: leave out --listen")
+        from turtlewire.cli.bag_findings import examine_bag
+
+        findings = examine_bag(args.bag)
     print(as_json(findings) if args.json else report(findings))
     return 1 if any(finding.is_problem for finding in findings) else 0
 

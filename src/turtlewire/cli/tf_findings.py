@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from turtlewire.cli.tf_traffic import TfTraffic
     from turtlewire.wire.base import Graph
 
-__all__ = ["tf_findings"]
+__all__ = ["tf_findings", "traffic_findings"]
 
 _STALE_NS = 2_000_000_000
 _WALL_TIME_FROM_NS = 10**9 * 10**9  # the year 2001; simulated time begins at zero
@@ -42,12 +42,12 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     """
     if not tf_publishers(graph):
         return [note("No node publishes transforms.", _START_BROADCASTER)]
-    return [
-        *_publisher_findings(graph, traffic),
-        *_tree_findings(traffic),
-        *_clock_findings(traffic),
-        *_step_findings(traffic),
-    ]
+    return [*_publisher_findings(graph, traffic), *traffic_findings(traffic)]
+
+
+def traffic_findings(traffic: TfTraffic) -> list[Finding]:
+    """The faults that need no graph: of the tree, of clocks, and of steps in time and space."""
+    return [*_tree_findings(traffic), *_clock_findings(traffic), *_step_findings(traffic)]
 
 
 def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:

@@ -15,15 +15,25 @@ from turtlewire.wire.qos import Durability, QoS
 if TYPE_CHECKING:
     from turtlewire.wire.base import Context, EndpointInfo, Graph, MessageInfo
 
-__all__ = ["TfListener", "TfTraffic", "frame_names", "tf_publishers"]
+__all__ = [
+    "FASTEST_M_S",
+    "JITTER_NS",
+    "LEAP_M",
+    "TfListener",
+    "TfTraffic",
+    "frame_names",
+    "tf_publishers",
+]
 
 _TYPE = "tf2_msgs/msg/TFMessage"
 #: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
 #: late joiners, and a user does not wait longer for a TAB.
 _COMPLETION_NS = 150_000_000
-_JITTER_NS = 1_000_000
-_LEAP_M = 0.5
-_FASTEST_M_S = 100.0
+#: Steps back of stamps that are as small as a clock's jitter are no fault.
+JITTER_NS = 1_000_000
+#: A frame leaps if it moves by more than this, and faster than any robot.
+LEAP_M = 0.5
+FASTEST_M_S = 100.0
 
 
 class TfTraffic:
@@ -64,11 +74,11 @@ class TfTraffic:
     def _note_step(self, child: str, parent: str, stamp: int, place: Any) -> None:
         last_parent, last_stamp, last = self._last.get(child, (parent, stamp, place))
         self._last[child] = (parent, stamp, place)
-        if last_stamp - stamp > _JITTER_NS:
+        if last_stamp - stamp > JITTER_NS:
             self.back_ns[child] = max(last_stamp - stamp, self.back_ns.get(child, 0))
         leap = math.dist((place.x, place.y, place.z), (last.x, last.y, last.z))
         if parent == last_parent and leap > max(
-            _LEAP_M, _FASTEST_M_S * abs(stamp - last_stamp) / 1e9
+            LEAP_M, FASTEST_M_S * abs(stamp - last_stamp) / 1e9
         ):
             self.leaps_m[child] = max(leap, self.leaps_m.get(child, 0.0))
 

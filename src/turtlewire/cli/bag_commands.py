@@ -1,0 +1,241 @@
+"""The parsers of `turtlewire bag`, `trajectory` and `compare`; their code is imported when run."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.cli.parser import seconds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["add_bag_commands", "complete_bags", "reporting_errors"]
+
+_FORMATS = ("tum", "kitti", "euroc", "csv")
+_ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
+_RELATIONS = (
+    "trans_part",
+    "rot_part",
+    "full",
+    "angle_rad",
+    "angle_deg",
+    "point_distance",
+    "point_distance_error_ratio",
+)
+_SOURCES = (
+    "A trajectory is a file (TUM, KITTI, EuRoC, CSV), or of a bag BAG:/topic (odometry or poses) "
+    "or BAG:target:source (transforms, looked up at the reference's stamps)."
+)
+
+
+def add_bag_commands(commands: Any) -> None:
+    """Add `bag`, `trajectory` and `compare` to the commands of `turtlewire`."""
+    _add_bag(commands)
+    _add_trajectory(commands)
+    _add_compare(commands)
+
+
+def _add_bag(commands: Any) -> None:
+    summary = "Look into bags"
+    parser = commands.add_parser("bag", help=summary, description=summary, allow_abbrev=False)
+    parser.set_defaults(run=lambda _: parser.print_help() or 0, parser=parser)
+    verbs = parser.add_subparsers(
+        title="Commands", metavar="Call `turtlewire bag <command> -h` for more detailed usage."
+    )
+    summary = "Show the tree of frames of a bag: rates, times, gaps, and what looks wrong"
+    tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
+    _add_file(tf, "file", "FILE", "A bag: a folder, a .mcap or a .db3 file")
+    tf.add_argument(
+        "--topic", action="append", metavar="T", help="Where transforms are (default: /tf)"
+    )
+    tf.add_argument(
+        "--static-topic",
+        action="append",
+        metavar="T",
+        help="Where static transforms are (default: /tf_static)",
+    )
+    tf.add_argument("--json", action="store_true", help="Print one JSON object")
+    tf.set_defaults(run=reporting_errors("bag tf", _bag_tf), parser=tf)
+
+
+def _add_trajectory(commands: Any) -> None:
+    summary = "Show, draw and convert the path of a frame"
+    parser = commands.add_parser("trajectory", help=summary, description=summary)
+    _add_file(parser, "file", "FILE", "A bag, or a file with a trajectory (TUM, KITTI, EuRoC, CSV)")
+    names = parser.add_argument(
+        "names",
+        nargs="*",
+        metavar="NAME",
+        help="Of a bag: a topic with odometry or poses; or the target and the source frame",
+    )
+    names.completer = _complete_names
+    output = parser.add_argument("-o", "--output", metavar="FILE", help="Write the trajectory")
+    output.completer = complete_bags
+    parser.add_argument(
+        "--format",
+        choices=_FORMATS,
+        help="Format of the output (default: by the ending of its name, else tum)",
+    )
+    parser.add_argument(
+        "--rate",
+        type=_positive,
+        metavar="HZ",
+        help="Look transforms up at this rate (default: at the stamps of their samples)",
+    )
+    parser.add_argument(
+        "--max-gap",
+        type=seconds,
+        metavar="S",
+        help="Longer pauses are gaps (default: ten times the median pause, at least 0.5)",
+    )
+    plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
+    plot.completer = complete_bags
+    parser.add_argument(
+        "--kind",
+        choices=("path", "positions", "angles", "speeds"),
+        default="path",
+        help="What is drawn (default: %(default)s)",
+    )
+    parser.add_argument("--json", action="store_true", help="Print one JSON object")
+    parser.set_defaults(run=reporting_errors("trajectory", _trajectory), parser=parser)
+
+
+def _add_compare(commands: Any) -> None:
+    summary = "Compare trajectories with a reference: absolute and relative pose errors"
+    parser = commands.add_parser(
+        "compare", help=summary, description=f"{summary}.", epilog=_SOURCES
+    )
+    _add_file(parser, "reference", "REFERENCE", "The reference, for example ground truth")
+    _add_file(parser, "estimates", "ESTIMATE", "What is compared with it", nargs="+")
+    parser.add_argument(
+        "--align", choices=_ALIGNMENTS, default="none", help="How (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--poses-to-align", type=int, metavar="N", help="Align by the first N poses (default: all)"
+    )
+    parser.add_argument(
+        "--relation",
+        choices=_RELATIONS,
+        default="trans_part",
+        help="What is measured (default: %(default)s)",
+    )
+    _add_pairing(parser)
+    plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
+    plot.completer = complete_bags
+    parser.add_argument(
+        "--kind",
+        choices=("path", "error-path", "errors", "box", "histogram"),
+        help="What is drawn (default: error-path; of several estimates path)",
+    )
+    parser.add_argument(
+        "--plane", default="xy", metavar="AXES", help="Of paths (default: %(default)s)"
+    )
+    parser.add_argument("--json", action="store_true", help="Print a JSON list")
+    parser.set_defaults(run=reporting_errors("compare", _compare), parser=parser)
+
+
+def _add_pairing(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--delta",
+        type=_positive,
+        default=1,
+        metavar="D",
+        help="How far the poses of a pair are apart, for the relative error (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--delta-unit",
+        choices=("f", "m", "d", "r"),
+        default="f",
+        help="Frames, metres, degrees or radians (default: %(default)s)",
+    )
+    parser.add_argument("--all-pairs", action="store_true", help="A pair begins at each pose")
+    parser.add_argument(
+        "--max-diff",
+        type=seconds,
+        default=0.01,
+        metavar="S",
+        help="Stamps that differ by more are no pair (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--offset",
+        type=float,
+        default=0.0,
+        metavar="S",
+        help="Added to the stamps of the estimates (default: %(default)s)",
+    )
+
+
+def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None = None) -> None:
+    argument = parser.add_argument(name, metavar=metavar, help=text, nargs=nargs)
+    argument.completer = complete_bags
+
+
+def complete_bags(prefix: str, **_: Any) -> list[str]:
+    """For the shell: files and folders."""
+    from turtlewire.cli.trajectory_sources import complete_files
+
+    return complete_files(prefix)
+
+
+def _complete_names(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    from turtlewire.cli.trajectory_sources import complete_names
+    from turtlewire.errors import BagError
+
+    try:
+        return complete_names(parsed_args.file)
+    except (BagError, OSError):
+        return []
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
+    return value
+
+
+def reporting_errors(
+    command: str, run: Callable[[argparse.Namespace], int]
+) -> Callable[[argparse.Namespace], int]:
+    """The function, but what it cannot read is one line on stderr and the exit status 2."""
+
+    def guarded(args: argparse.Namespace) -> int:
+        from turtlewire.errors import BagError, TransformException
+        from turtlewire.printable import printable_lines
+
+        try:
+            return run(args)
+        except (BagError, TransformException, OSError, ValueError) as error:
+            text = f"{error} {getattr(error, 'hint', '') or ''}".rstrip()
+            print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
+            return 2
+
+    return guarded
+
+
+def _bag_tf(args: argparse.Namespace) -> int:
+    from turtlewire.cli.bag_tf import show_transforms
+
+    topics, static = args.topic or ["/tf"], args.static_topic or ["/tf_static"]
+    print(show_transforms(args.file, topics, static, as_json=args.json))
+    return 0
+
+
+def _trajectory(args: argparse.Namespace) -> int:
+    from turtlewire.cli.trajectory_command import run_trajectory
+
+    if len(args.names) > 2:
+        args.parser.error(f"expected a topic or two frames, got {len(args.names)} names")
+    return run_trajectory(args)
+
+
+def _compare(args: argparse.Namespace) -> int:
+    from turtlewire.cli.compare_command import run_compare
+
+    return run_compare(args)

@@ -1,0 +1,115 @@
+"""Faults of a bag and of the transforms in it: what the doctor finds without a network."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from turtlewire.bag import load_transforms, open_bag
+from turtlewire.cli.finding import Finding, note, problem
+from turtlewire.cli.tf_findings import traffic_findings
+from turtlewire.cli.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
+from turtlewire.errors import BagError
+from turtlewire.wire.qos import Durability
+
+if TYPE_CHECKING:
+    from turtlewire.bag import Bag, TransformReport
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["examine_bag"]
+
+_REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; what is whole is read without it, too."
+_DAMAGED = "What is whole was read. Copy the file again, or record again."
+_NO_TF = "Record /tf and /tf_static, or name other topics: turtlewire bag tf --topic T {}"
+_LATCH = (
+    "Its publisher is not transient_local, so listeners that came late, the recorder too, may lack "
+    "transforms: use a StaticTransformBroadcaster."
+)
+_ONE_TOPIC = "A frame must have one publisher: stop the others."
+_ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
+_REFUSED = "Mend the node that publishes it; listeners ignore such transforms."
+_GAP = "Lookups within a gap interpolate across it; trajectories leave it out."
+_FOREIGN = "Another type is published on the topic, or the recorder was cut off."
+
+
+def examine_bag(path: str) -> list[Finding]:
+    """Examine a bag and its transforms.
+
+    Raises:
+        BagError: It is no bag.
+        OSError: It cannot be read.
+    """
+    found = []
+    with open_bag(path) as bag:
+        end_ns = bag.end_ns
+        found += _bag_findings(bag, path)
+        has_tf = {"/tf", "/tf_static"} & bag.topics.keys()
+        if not has_tf:
+            found += [problem(text, _DAMAGED) for text in bag.problems]
+            return [*found, note("The bag has no transforms.", _NO_TF.format(path))]
+    try:
+        buffer, report = load_transforms(path)
+    except BagError as error:
+        return [*found, problem(str(error), error.hint)]
+    found += [problem(text, _DAMAGED) for text in report.problems]
+    return [*found, *_report_findings(report), *traffic_findings(_traffic(buffer, report, end_ns))]
+
+
+def _bag_findings(bag: Bag, path: str) -> list[Finding]:
+    found = []
+    if os.path.isdir(path) and not os.path.exists(os.path.join(path, "metadata.yaml")):
+        found.append(note("The bag has no metadata.yaml.", _REINDEX.format(path)))
+    static = bag.topics.get("/tf_static")
+    volatile = (
+        [qos for qos in static.qos if qos.durability == Durability.VOLATILE] if static else []
+    )
+    if volatile:
+        found.append(problem("/tf_static was published as volatile.", _LATCH))
+    return found
+
+
+def _report_findings(report: TransformReport) -> list[Finding]:
+    found = []
+    if report.malformed is not None and report.malformed.messages:
+        count, last, topic = report.malformed
+        found.append(problem(f"{count} messages of {topic} are no TFMessage: {last}.", _FOREIGN))
+    for conflict in report.conflicts:
+        remedy = _ONE_PARENT if conflict.kind == "two parents" else _ONE_TOPIC
+        found.append(problem(conflict.text, remedy))
+    for child, refused in report.refused.items():
+        counts = ", ".join(f"{count} {reason}" for reason, count in refused.counts.items())
+        found.append(problem(f"Transforms of '{child}' are refused: {counts}.", _REFUSED))
+    for child, gaps in report.gaps.items():
+        longest = max(gap.end_ns - gap.start_ns for gap in gaps) / 1e9
+        times = "once" if len(gaps) == 1 else f"{len(gaps)} times"
+        text = f"'{child}' pauses {times}, for up to {longest:.3f} s."
+        found.append(note(text, _GAP))
+    return found
+
+
+def _traffic(buffer: Buffer, report: TransformReport, end_ns: int) -> TfTraffic:
+    """What a listener would have noted."""
+    traffic = TfTraffic()
+    traffic.ended_ns = end_ns
+    for link in report.links:
+        traffic.parents[link.child_frame] = {link.parent_frame}
+        if not link.static:
+            traffic.newest_ns[link.child_frame] = link.newest_ns
+            leap = _largest_leap(buffer, link.child_frame)
+            if leap:
+                traffic.leaps_m[link.child_frame] = leap
+    traffic.back_ns = {child: back for child, back in report.steps_back.items() if back > JITTER_NS}
+    return traffic
+
+
+def _largest_leap(buffer: Buffer, child: str) -> float:
+    """The largest step within one parent that was faster than any robot, in metres."""
+    largest = 0.0
+    for _, stamps, poses in buffer.samples(child):
+        steps = np.linalg.norm(np.diff(poses[:, :3], axis=0), axis=1)
+        allowed = np.maximum(LEAP_M, FASTEST_M_S * np.diff(stamps) / 1e9)
+        leaps = steps[steps > allowed]
+        largest = max(largest, float(leaps.max(initial=0.0)))
+    return largest

@@ -1,0 +1,88 @@
+"""`turtlewire bag tf`: the tree of frames of a bag, with rates and gaps."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.bag import load_transforms
+from turtlewire.cli.frame_picture import take_picture
+from turtlewire.printable import printable
+
+if TYPE_CHECKING:
+    from turtlewire.bag import TransformReport
+    from turtlewire.cli.frame_picture import Picture
+
+__all__ = ["show_transforms"]
+
+
+def show_transforms(
+    path: str, topics: list[str], static_topics: list[str], *, as_json: bool
+) -> str:
+    """The transforms of a bag, as text or as one JSON object.
+
+    Args:
+        path: The bag.
+        topics: Where transforms were published.
+        static_topics: Where static transforms were published.
+        as_json: Whether JSON is wanted.
+
+    Raises:
+        BagError: It is no bag, or has no transforms.
+        OSError: It cannot be read.
+    """
+    buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
+    now_ns = max((link.newest_ns for link in report.links), default=0)
+    picture = take_picture(buffer, now_ns)
+    return _json(picture, report) if as_json else "\n".join(_lines(picture, report))
+
+
+def _lines(picture: Picture, report: TransformReport) -> list[str]:
+    links = {link.child_frame: link for link in report.links}
+    rows = [("frame", "rate", "samples", "from [s]", "to [s]", "gaps")]
+    for row in picture.rows:
+        link = links.get(row.frame)
+        name = row.branch + printable(row.frame)
+        if link is None or link.static:
+            rows.append((name, "static" if link else "", "", "", "", ""))
+            continue
+        times = f"{link.oldest_ns / 1e9:.3f}", f"{link.newest_ns / 1e9:.3f}"
+        gaps = str(len(report.gaps.get(row.frame, ())) or "")
+        rows.append((name, f"{link.rate_hz:.1f} Hz", f"{link.samples:,}", *times, gaps))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    table = [
+        "  ".join((row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:]))).rstrip()
+        for row in rows
+    ]
+    loops = [f"loop: {printable(' -> '.join((*loop, loop[0])))}" for loop in picture.loops]
+    return [report.headline(), *table, *loops, *report.complaints()]
+
+
+def _json(picture: Picture, report: TransformReport) -> str:
+    links = {link.child_frame: link for link in report.links}
+    frames: list[dict[str, Any]] = []
+    for row in picture.rows:
+        frame: dict[str, Any] = {"frame": row.frame, "parent": row.parent or None}
+        if row.frame in links:
+            link = links[row.frame]
+            frame |= {
+                "static": link.static,
+                "rate": link.rate_hz,
+                "samples": link.samples,
+                "oldest_ns": link.oldest_ns,
+                "newest_ns": link.newest_ns,
+                "gaps": report.gaps.get(row.frame, []),
+            }
+        frames.append(frame)
+    found = {
+        "bag": report.name,
+        "messages": report.messages,
+        "publishers": report.publishers,
+        "frames": frames,
+        "loops": picture.loops,
+        "jumps": [jump._asdict() for jump in report.jumps],
+        "conflicts": [conflict._asdict() for conflict in report.conflicts],
+        "refused": {child: refused.counts for child, refused in report.refused.items()},
+        "problems": report.problems,
+    }
+    return json.dumps(found)

@@ -1,0 +1,129 @@
+"""`turtlewire compare`: APE and RPE of estimates against a reference."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
+from turtlewire.printable import printable
+from turtlewire.trajectory import (
+    compare,
+    plot_box,
+    plot_error_path,
+    plot_errors,
+    plot_histogram,
+    plot_path,
+)
+
+if TYPE_CHECKING:
+    import argparse
+
+    from turtlewire.trajectory import Comparison, Errors, Plot
+
+__all__ = ["run_compare"]
+
+
+def run_compare(args: argparse.Namespace) -> int:
+    """Compare, draw what was asked for, and print the statistics.
+
+    Raises:
+        BagError: A source is no bag, or lacks the topic.
+        OSError: A file cannot be read or written.
+        TransformException: Frames are unknown or not connected.
+        ValueError: No stamps match, or the alignment is not possible.
+    """
+    reader = TrajectoryReader()
+    source = parse_source(args.reference)
+    reference = reader.read(source)
+    compared: dict[str, Comparison] = {}
+    for text in args.estimates:
+        estimate_source = parse_source(text)
+        estimate = reader.read(estimate_source, like=reference)
+        compared[str(estimate_source)] = compare(
+            reference,
+            estimate,
+            args.align,
+            max_diff_ns=round(args.max_diff * 1e9),
+            offset_ns=round(args.offset * 1e9),
+            poses_to_align=args.poses_to_align,
+        )
+    if args.plot:
+        _draw(args, compared).save(args.plot)
+    if args.json:
+        print(json.dumps([_figures(args, name, each) for name, each in compared.items()]))
+    else:
+        blocks = [_text(args, name, each) for name, each in compared.items()]
+        print("\n".join(blocks), end="")
+    return 0
+
+
+def _ape(args: argparse.Namespace, comparison: Comparison) -> Errors:
+    # What only pairs have is, for poses, the distance that it is made of.
+    ratio = args.relation == "point_distance_error_ratio"
+    return comparison.ape("point_distance" if ratio else args.relation)
+
+
+def _rpe(args: argparse.Namespace, comparison: Comparison) -> Errors:
+    return comparison.rpe(
+        args.relation, delta=args.delta, unit=args.delta_unit, all_pairs=args.all_pairs
+    )
+
+
+def _figures(args: argparse.Namespace, name: str, comparison: Comparison) -> dict[str, Any]:
+    return {
+        "reference": args.reference,
+        "estimate": name,
+        "pairs": len(comparison.reference),
+        "relation": args.relation,
+        "align": comparison.align,
+        "scale": comparison.alignment.scale,
+        "rotation": comparison.alignment.rotation.tolist(),
+        "translation": comparison.alignment.translation.tolist(),
+        "ape": _ape(args, comparison).statistics._asdict(),
+        "rpe": _rpe(args, comparison).statistics._asdict(),
+    }
+
+
+def _text(args: argparse.Namespace, name: str, comparison: Comparison) -> str:
+    scale = f", scale {comparison.alignment.scale:.6f}" if comparison.align == "sim3" else ""
+    head = (
+        f"{printable(name)} against {printable(args.reference)}\n"
+        f"{len(comparison.reference):,} pairs of poses, aligned: {comparison.align}{scale}\n"
+    )
+    ape, rpe = _ape(args, comparison), _rpe(args, comparison)
+    return (
+        f"{head}\n{_title(ape)}\n{ape.table()}\n"
+        f"{_title(rpe)} over {args.delta:g} {_UNITS[args.delta_unit]}\n{rpe.table()}"
+    )
+
+
+_UNITS = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
+
+
+def _title(errors: Errors) -> str:
+    return f"{errors.name} {errors.relation}" + (f" ({errors.unit})" if errors.unit else "")
+
+
+def _draw(args: argparse.Namespace, compared: dict[str, Comparison]) -> Plot:
+    kind = args.kind or ("error-path" if len(compared) == 1 else "path")
+    first = next(iter(compared.values()))
+    if kind == "path":
+        named = {_short(name): each.estimate for name, each in compared.items()}
+        return plot_path(named, first.reference, args.plane)
+    errors = {_short(name): _ape(args, each) for name, each in compared.items()}
+    if kind == "box":
+        return plot_box(errors)
+    if kind == "histogram":
+        return plot_histogram(errors)
+    if len(compared) > 1:
+        raise ValueError(f"'{kind}' shows one estimate; for several there are path, box, histogram")
+    (only,) = errors.values()
+    if kind == "errors":
+        return plot_errors(only, first.reference.stamps_ns)
+    return plot_error_path(first.reference, first.estimate, only, args.plane)
+
+
+def _short(name: str) -> str:
+    return os.path.basename(name) or name

@@ -1,0 +1,91 @@
+"""`turtlewire trajectory`: shows, draws and converts the path of a frame."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
+from turtlewire.printable import printable
+from turtlewire.trajectory import write_trajectory
+
+if TYPE_CHECKING:
+    import argparse
+
+    from turtlewire.trajectory import Trajectory
+
+__all__ = ["run_trajectory"]
+
+_MOST_GAPS = 10
+
+
+def run_trajectory(args: argparse.Namespace) -> int:
+    """Read a trajectory, write what was asked for, and print what it is like.
+
+    Raises:
+        BagError: It is no bag, or lacks the topic.
+        OSError: A file cannot be read or written.
+        TransformException: The frames are unknown or not connected.
+        ValueError: It is no trajectory, or nothing moves.
+    """
+    source = Source(args.file, tuple(args.names))
+    max_gap_ns = None if args.max_gap is None else round(args.max_gap * 1e9)
+    trajectory = TrajectoryReader(max_gap_ns).read(source, rate_hz=args.rate)
+    written = []
+    if args.output:
+        kind = write_trajectory(trajectory, args.output, args.format)
+        written.append(f"{args.output} ({kind})")
+    if args.plot:
+        trajectory.plot(args.kind).save(args.plot)
+        written.append(args.plot)
+    if args.json:
+        print(json.dumps(_figures(source, trajectory) | {"written": written}))
+    else:
+        print("\n".join(_lines(source, trajectory, written)))
+    return 0
+
+
+def _figures(source: Source, trajectory: Trajectory) -> dict[str, object]:
+    stamps, speeds = trajectory.stamps_ns, trajectory.speeds
+    return {
+        "source": str(source),
+        "frame": trajectory.frame_id,
+        "child_frame": trajectory.child_frame_id,
+        "poses": len(trajectory),
+        "path_length": trajectory.path_length,
+        "duration": trajectory.duration_ns / 1e9,
+        "start_ns": int(stamps[0]) if len(stamps) else None,
+        "end_ns": int(stamps[-1]) if len(stamps) else None,
+        "rate": (len(stamps) - 1) * 1e9 / trajectory.duration_ns if len(stamps) > 1 else None,
+        "mean_speed": float(np.mean(speeds)) if len(speeds) else None,
+        "max_speed": float(speeds.max()) if len(speeds) else None,
+        "gaps": trajectory.gaps,
+    }
+
+
+def _lines(source: Source, trajectory: Trajectory, written: list[str]) -> list[str]:
+    what = printable(str(source))
+    if trajectory.child_frame_id:
+        what = printable(f"'{trajectory.child_frame_id}' in '{trajectory.frame_id}' ({source})")
+    if not len(trajectory):
+        return [f"{what}: no poses"]
+    figures = _figures(source, trajectory)
+    rows = {
+        "poses": f"{len(trajectory):,}",
+        "path": f"{trajectory.path_length:.3f} m",
+        "duration": f"{trajectory.duration_ns / 1e9:.3f} s",
+        "from": f"{trajectory.stamps_ns[0] / 1e9:.6f} s",
+        "to": f"{trajectory.stamps_ns[-1] / 1e9:.6f} s",
+    }
+    if len(trajectory) > 1:
+        rows["rate"] = f"{figures['rate']:.1f} Hz"
+        rows["speed"] = f"{figures['mean_speed']:.3f} m/s, at most {figures['max_speed']:.3f} m/s"
+    lines = [what, *(f"  {name:9} {value}" for name, value in rows.items())]
+    for gap in trajectory.gaps[:_MOST_GAPS]:
+        pause = (gap.end_ns - gap.start_ns) / 1e9
+        lines.append(f"  gap       {pause:.3f} s from {gap.start_ns / 1e9:.6f} s: no poses")
+    if len(trajectory.gaps) > _MOST_GAPS:
+        lines.append(f"  and {len(trajectory.gaps) - _MOST_GAPS} more gaps")
+    return lines + [f"  written   {name}" for name in written]

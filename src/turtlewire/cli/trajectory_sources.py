@@ -1,0 +1,136 @@
+"""Where a trajectory on the command line comes from: a file, a bag's topic or its transforms."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from turtlewire.tf.buffer import Buffer
+    from turtlewire.trajectory import Trajectory
+
+__all__ = ["Source", "TrajectoryReader", "complete_files", "complete_names", "parse_source"]
+
+#: How much of a bag completion looks at.
+_COMPLETION_NS = 10_000_000_000
+
+
+class Source(NamedTuple):
+    """A file with a trajectory, or a bag with the names of what moves.
+
+    Attributes:
+        path: The file or folder.
+        names: Nothing for a file; a topic; or target frame and source frame.
+    """
+
+    path: str
+    names: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return ":".join((self.path, *self.names))
+
+    @property
+    def is_transform(self) -> bool:
+        """Whether it is a chain of transforms, which answers at any time."""
+        return len(self.names) == 2
+
+
+def parse_source(text: str) -> Source:
+    """``FILE``, ``BAG:/topic`` or ``BAG:target:source``; a path may hold colons itself."""
+    parts = text.split(":")
+    for count in (0, 1, 2):
+        path = ":".join(parts[: len(parts) - count])
+        if path and os.path.exists(path):
+            return Source(path, tuple(parts[len(parts) - count :]))
+    return Source(text)
+
+
+class TrajectoryReader:
+    """Reads trajectories; a bag whose transforms are wanted twice is read once.
+
+    Args:
+        max_gap_ns: Longer pauses are gaps; None: see `turtlewire.trajectory.sample_trajectory`.
+    """
+
+    def __init__(self, max_gap_ns: int | None = None) -> None:
+        self._max_gap_ns = max_gap_ns
+        self._buffers: dict[str, Buffer] = {}
+
+    def read(
+        self, source: Source, like: Trajectory | None = None, rate_hz: float | None = None
+    ) -> Trajectory:
+        """The trajectory.
+
+        Args:
+            source: Where it is.
+            like: Transforms are looked up at the stamps of this one.
+            rate_hz: Transforms are looked up at this rate.
+
+        Raises:
+            BagError: It is no bag, or lacks the topic.
+            OSError: It cannot be read.
+            TransformException: The frames are unknown or not connected.
+            ValueError: It is no trajectory, or nothing moves.
+        """
+        from turtlewire.bag import load_trajectory
+        from turtlewire.trajectory import read_trajectory
+
+        if not source.names:
+            if _is_bag(source.path):
+                raise ValueError(_names_are_missing(source.path))
+            return read_trajectory(source.path)
+        if not source.is_transform:
+            return load_trajectory(source.path, source.names[0], max_gap_ns=self._max_gap_ns)
+        return self._buffer(source.path).trajectory(
+            *source.names,
+            stamps=None if like is None else like.stamps_ns,
+            rate_hz=rate_hz,
+            max_gap_ns=self._max_gap_ns,
+        )
+
+    def _buffer(self, path: str) -> Buffer:
+        from turtlewire.tf.buffer import Buffer
+
+        if path not in self._buffers:
+            self._buffers[path] = Buffer.from_bag(path)
+        return self._buffers[path]
+
+
+def _is_bag(path: str) -> bool:
+    return os.path.isdir(path) or path.removesuffix(".zstd").endswith((".mcap", ".db3"))
+
+
+def _names_are_missing(path: str) -> str:
+    from turtlewire.bag import open_bag, pose_topics
+
+    with open_bag(path) as bag:
+        topics = pose_topics(bag)
+    has = f"topics with poses: {', '.join(topics)}" if topics else "no topic with poses"
+    return (
+        f"{path} is a bag: name a topic, or a target and a source frame. It has {has}; "
+        f"`turtlewire bag tf {path}` shows its frames"
+    )
+
+
+def complete_files(prefix: str, **_: object) -> list[str]:
+    """For the shell: files and folders."""
+    from argcomplete.completers import FilesCompleter
+
+    return list(FilesCompleter()(prefix))
+
+
+def complete_names(path: str) -> list[str]:
+    """For the shell: the topics with poses of a bag, and the frames at its beginning.
+
+    A name with control characters is left out: the shell would act on them.
+    """
+    from turtlewire.bag import load_transforms, open_bag, pose_topics
+    from turtlewire.errors import BagError
+
+    with open_bag(path) as bag:
+        names = pose_topics(bag)
+        end_ns = bag.start_ns + _COMPLETION_NS
+    with suppress(BagError):  # there may be no transforms
+        names += load_transforms(path, end_ns=end_ns, progress=lambda _: None)[0]
+    return sorted(name for name in names if name.isprintable())

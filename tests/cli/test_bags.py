@@ -1,0 +1,221 @@
+"""`turtlewire bag tf`, `trajectory`, `compare` and `doctor` on bags and files."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from types import SimpleNamespace
+
+import pytest
+from tests.bag.conftest import GOLDEN, SECOND, START, transform, write_bag
+from tests.cli.test_main import offered
+
+from turtlewire import msg
+from turtlewire.bag import BagWriter
+from turtlewire.cli.main import main
+from turtlewire.trajectory import read_kitti, read_tum, write_tum
+
+
+def run(capsys, *words):
+    try:
+        status = main([str(word) for word in words])
+    except SystemExit as end:
+        status = end.code
+    said = capsys.readouterr()
+    return SimpleNamespace(status=status, out=said.out, err=said.err)
+
+
+@pytest.fixture
+def bag(tmp_path):
+    return write_bag(tmp_path / "made")
+
+
+def test_the_tree_of_a_bag(capsys):
+    done = run(capsys, "bag", "tf", GOLDEN / "d_mcap")
+    assert done.status == 0
+    lines = done.out.splitlines()
+    assert lines[0] == "d_mcap: 198 messages of /tf (1 publisher), /tf_static (2 publishers)"
+    assert "│  │  ├─ basket                   static" in done.out
+    assert any(line.startswith("   ├─ nozzle") and " 6.4 Hz       64 " in line for line in lines)
+    assert "gap: 'scarecrow' pauses for 3.328 s from 1795317833.768244304" in lines
+
+
+def test_the_tree_as_json(capsys, bag):
+    found = json.loads(run(capsys, "bag", "tf", bag, "--json").out)
+    by_name = {frame["frame"]: frame for frame in found["frames"]}
+    assert by_name["base_link"]["samples"] == 100
+    assert by_name["base_link"]["parent"] == "odom"
+    assert by_name["odom"] == {"frame": "odom", "parent": None}
+    assert by_name["camera"]["static"]
+    assert (found["messages"], found["problems"], found["conflicts"]) == (101, [], [])
+
+
+def test_other_topics(capsys, tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/r1/tf", "tf2_msgs/msg/TFMessage")
+        writer.write("/r1/tf", transform(1), 1)
+    done = run(capsys, "bag", "tf", tmp_path / "made")
+    assert done.status == 2
+    assert "Topics of type tf2_msgs/msg/TFMessage in it: /r1/tf." in done.err
+    assert "base_link" in run(capsys, "bag", "tf", tmp_path / "made", "--topic", "/r1/tf").out
+
+
+def test_a_trajectory_is_shown_written_and_drawn(capsys, bag, tmp_path):
+    out, picture = tmp_path / "out.kitti", tmp_path / "out.svg"
+    done = run(
+        capsys, "trajectory", bag, "odom", "camera", "--rate", 10, "-o", out, "--plot", picture
+    )
+    assert done.status == 0
+    assert "  poses     10\n" in done.out
+    assert "  rate      10.0 Hz\n" in done.out
+    assert f"  written   {out} (kitti)\n" in done.out
+    written = read_kitti(out, tmp_path / "out_times.txt")
+    assert written.stamps_ns.tolist() == [START + i * SECOND // 10 for i in range(10)]
+    assert picture.read_text().startswith("<svg")
+    converted = run(capsys, "trajectory", out, "-o", tmp_path / "out.tum", "--json")
+    assert json.loads(converted.out)["poses"] == 10
+    assert len(read_tum(tmp_path / "out.tum")) == 10
+
+
+def test_a_topic_and_its_gaps(capsys, tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/odom", "nav_msgs/msg/Odometry")
+        for i in (*range(50), *range(100, 150)):
+            odometry = msg.get_message("nav_msgs/msg/Odometry")()
+            odometry.header.stamp.sec, odometry.header.stamp.nanosec = divmod(
+                START + i * 20_000_000, SECOND
+            )
+            odometry.pose.pose.orientation.w = 1.0
+            writer.write("/odom", odometry, START + i)
+    done = run(capsys, "trajectory", tmp_path / "made", "/odom")
+    assert "gap       1.020 s from 1700000000.980000 s: no poses" in done.out
+    found = json.loads(run(capsys, "trajectory", tmp_path / "made", "/odom", "--json").out)
+    assert found["gaps"] == [[START + 980_000_000, START + 2 * SECOND]]
+    whole = run(capsys, "trajectory", tmp_path / "made", "/odom", "--max-gap", 2)
+    assert "no poses" not in whole.out
+
+
+def test_comparing(capsys, bag, tmp_path):
+    reference = tmp_path / "reference.tum"
+    run(capsys, "trajectory", bag, "odom", "base_link", "-o", reference)
+    estimate = f"{bag}:odom:camera"
+    done = run(capsys, "compare", reference, estimate)
+    assert done.status == 0
+    assert "100 pairs of poses, aligned: none" in done.out
+    assert "APE trans_part (m)\n       max\t0.000000\n" in done.out
+    assert "RPE trans_part (m) over 1 frames\n       max\t0.000000\n" in done.out
+    for kind in ("path", "errors", "error-path", "box", "histogram"):
+        picture = tmp_path / f"{kind}.svg"
+        assert (
+            run(capsys, "compare", reference, estimate, "--plot", picture, "--kind", kind).status
+            == 0
+        )
+        assert picture.read_text().startswith("<svg")
+    (found,) = json.loads(
+        run(capsys, "compare", reference, estimate, "--align", "yaw", "--json").out
+    )
+    assert (found["pairs"], found["align"], found["scale"]) == (100, "yaw", 1.0)
+    assert found["ape"]["rmse"] < 1e-9
+    two = run(capsys, "compare", reference, estimate, f"{bag}:odom:base_link", "--json")
+    assert len(json.loads(two.out)) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ("trajectory BAG odom camra", "Did you mean 'camera'?"),
+        ("trajectory BAG", "is a bag: name a topic, or a target and a source frame"),
+        ("trajectory BAG a b c", "expected a topic or two frames, got 3 names"),
+        ("trajectory BAG odom camera --rate 0", "'0' is not a number above 0"),
+        ("trajectory BAG odom camera --plot a.png", "a.png does not end in .svg"),
+        ("trajectory BAG /chatter", "which has no poses"),
+        ("trajectory nothing", "No such file"),
+        ("compare BAG:odom:camera BAG:odom:camera --align se3", "Degenerate covariance rank"),
+        ("compare BAG:odom:camera BAG:odom:camera --algn se3", "Did you mean: --align"),
+        ("compare BAG:odom:camera", "the following arguments are required: ESTIMATE"),
+        ("bag tff BAG", "Did you mean: tf"),
+        ("bag tf nothing", "there is no bag at nothing"),
+        ("doctor nothing", "there is no bag at nothing"),
+        ("doctor BAG --listen 2", "a bag is not listened to"),
+    ],
+)
+def test_mistakes(capsys, bag, words, text):
+    done = run(capsys, *(word.replace("BAG", str(bag)) for word in words.split()))
+    assert done.status == 2
+    assert text in done.err
+    assert "Traceback" not in done.err
+    assert not done.out
+
+
+def test_two_estimates_have_no_single_error_path(capsys, bag, tmp_path):
+    sources = [f"{bag}:odom:camera"] * 2 + [f"{bag}:odom:base_link"]
+    done = run(capsys, "compare", *sources, "--plot", tmp_path / "a.svg", "--kind", "errors")
+    assert done.status == 2
+    assert "'errors' shows one estimate" in done.err
+
+
+def test_the_doctor_finds_on_a_bag_what_it_finds_live(capsys):
+    done = run(capsys, "doctor", GOLDEN / "d_mcap")
+    assert done.status == 1
+    for text in (
+        "PROBLEM: The frames form 2 separate trees, with the roots elsewhere, world.",
+        "PROBLEM: The stamps of 'boom_left' jump back, by up to 0.214 s.",
+        "PROBLEM: Transforms of 'nozzle' are refused: 1 nan_value.",
+        "note: 'scarecrow' pauses once, for up to 3.328 s.",
+        "note: The newest transform of 'weathercock' is 3.1 s old.",
+        "note: The frame 'drone' leaps by up to 0.5 m between transforms.",
+    ):
+        assert text in done.out
+
+
+def test_the_doctor_finds_faults_of_the_bag(capsys, bag):
+    assert run(capsys, "doctor", bag).out == "No problems found.\n"
+    (bag / "metadata.yaml").unlink()
+    done = run(capsys, "doctor", bag)
+    assert (done.status, done.err) == (0, "")
+    assert "note: The bag has no metadata.yaml." in done.out
+    (file,) = bag.glob("*.mcap")
+    file.write_bytes(file.read_bytes()[:5000])
+    done = run(capsys, "doctor", bag, "--json")
+    assert done.status == 1
+    assert "made_0.mcap" in json.loads(done.out)["findings"][0]["text"]
+
+
+def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):
+    with BagWriter(tmp_path / "none") as writer:
+        writer.add_topic("/chatter", "std_msgs/msg/String")
+    assert "note: The bag has no transforms." in run(capsys, "doctor", tmp_path / "none").out
+    with BagWriter(tmp_path / "odd") as writer:
+        for topic in ("/tf", "/tf_static"):
+            writer.add_topic(topic, "tf2_msgs/msg/TFMessage")
+        for i in range(20):
+            writer.write("/tf", transform(i, ("odom", "map")[i % 2]), i)
+        writer.write("/tf_static", transform(0, "base_link", "wheel"), 1)
+        writer.write("/tf", transform(0, "base_link", "wheel"), 30)
+        writer.write("/tf", b"nonsense", 31)
+    done = run(capsys, "doctor", tmp_path / "odd")
+    assert "'base_link' goes back and forth between the parents 'map' and 'odom'" in done.out
+    assert "'wheel' is sent by '/tf' and '/tf_static'" in done.out
+    assert "1 messages of /tf are no TFMessage" in done.out
+
+
+def test_tab(tmp_path, bag, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    answers = tmp_path / "answers"
+    assert {"bag", "trajectory", "compare", "doctor", "frames"} <= set(
+        offered("turtlewire ", answers)
+    )
+    assert offered("turtlewire bag ", answers) == ["tf"]
+    assert "made/" in offered("turtlewire bag tf m", answers)
+    assert offered("turtlewire trajectory made c", answers) == ["camera"]
+    assert offered("turtlewire trajectory made odom ba", answers) == ["base_link"]
+    assert "se3" in offered("turtlewire compare a b --align ", answers)
+    shutil.rmtree(bag)
+    assert offered("turtlewire trajectory made c", answers) == []
+
+
+def test_a_path_with_a_colon(capsys, tmp_path, bag):
+    run(capsys, "trajectory", bag, "odom", "camera", "-o", tmp_path / "a.tum")
+    odd = tmp_path / "a:b.tum"
+    write_tum(read_tum(tmp_path / "a.tum"), odd)
+    assert run(capsys, "compare", odd, odd).status == 0
