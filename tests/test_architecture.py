@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import configparser
 import importlib
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -136,3 +137,32 @@ def test_lint_tells_of_an_interface_file_that_the_generator_would_write_otherwis
 
 def test_lint_checks_the_interface_files():
     assert "\nscripts/generate-interfaces --check\n" in (ROOT / "scripts/lint").read_text()
+
+
+#: Its modules are ROS 2's and stand in ARCHITECTURE.md.
+WITHOUT_MAP = {"rclpy"}
+
+
+def mapped(house):
+    """Packages with a layout map: the two distributions' top packages, and the engine's rooms."""
+    rooms = {name for name in house.paths if name.count(".") < 2 and name.startswith("turtlewire.")}
+    tops = {name.partition(".")[0] for name in house.paths} | rooms
+    inner = {"turtlewire.tf.plain", "turtlewire.wire.cyclone", "turtlewire.wire.local"}
+    packages = {name for name in tops if house.paths[name].name == "__init__.py"}
+    return sorted((packages | inner) - WITHOUT_MAP)
+
+
+def test_the_docstring_of_a_package_lists_its_modules(house):
+    wrong = {}
+    for package in mapped(house):
+        docstring = ast.get_docstring(house.trees[package]) or ""
+        rows = re.findall(r"^(`\w+`(?:, `\w+`)*)  ", docstring, re.MULTILINE)
+        listed = re.findall(r"`(\w+)`", "".join(rows))
+        inside = sorted(
+            name.removeprefix(f"{package}.")
+            for name in house.paths
+            if name.rpartition(".")[0] == package
+        )
+        if sorted(listed) != inside:
+            wrong[package] = sorted(set(listed) ^ set(inside))
+    assert wrong == {}

@@ -1,4 +1,13 @@
-"""The index of installed packages and their resources."""
+"""The index of installed packages and their resources.
+
+==============  =======================================
+module          what it holds
+==============  =======================================
+`packages`      prefixes and share folders of packages
+`resources`     resources of the index, a file for each
+`search_paths`  the prefixes that are searched
+==============  =======================================
+"""
 
 from __future__ import annotations
 

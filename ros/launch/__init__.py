@@ -1,4 +1,34 @@
-"""Starts, watches and stops groups of processes that a launch file describes."""
+"""Starts, watches and stops groups of processes that a launch file describes.
+
+=================================  ========================================================
+module                             what it holds
+=================================  ========================================================
+`launch_service`                   the event loop, the order of events, signals
+`launch_context`                   what the entities of a launch see of it
+`_kernel`                          the state of one launch, and the protocols of its parts
+`launch_description`               a list of entities
+`launch_description_entity`        the base of descriptions and actions
+`launch_description_source`        where a description comes from
+`launch_description_sources`       Python files, and files of any parser
+`launch_introspector`              a description as a tree, for ``ros2 launch --print``
+`launch_argument`                  a declared argument
+`action`, `actions`                the base of all actions; one module for each action
+`condition`, `conditions`          the base of conditions; if, unless, equals
+`event`, `events`                  the base of events; one module for each
+`event_handler`, `event_handlers`  reactions to events; the ones that ROS 2 names
+`substitution`, `substitutions`    the base of texts known at run time; one module for each
+`descriptions`                     executables to run
+`frontend`                         what the parsers of XML and YAML share
+`child_process`                    a child process on the event loop
+`process_output`, `output_lines`   output of a process: logged; split into lines
+`logging`                          the screen, ``launch.log`` and files of single processes
+`utilities`                        helpers of actions and substitutions
+`invalid_launch_file_error`        the error of launch files that no loader can read
+`some_actions_type`                the type of arguments that are actions
+`some_entities_type`               the type of arguments that are entities
+`some_substitutions_type`          the type of arguments that are text or substitutions
+=================================  ========================================================
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,19 @@
-"""ROS nodes, parameters, remappings and namespaces in launch files."""
+"""ROS nodes, parameters, remappings and namespaces in launch files.
+
+===========================================  =====================================================
+module                                       what it holds
+===========================================  =====================================================
+`actions`                                    nodes, containers, namespaces, parameters
+`descriptions`                               parameters, and nodes in containers
+`_node`                                      what actions and descriptions of nodes share
+`event_handlers`, `events`                   state transitions of lifecycle nodes
+`parameter_descriptions`, `parameters_type`  parameters with a type, files of parameters
+`remap_rule_type`                            the type of remapping rules
+`ros_adapters`                               the launch's own node, for services and subscriptions
+`substitutions`                              packages, executables and parameters
+`utilities`                                  parameters, names and remappings made ready
+===========================================  =====================================================
+"""
 
 from __future__ import annotations
 

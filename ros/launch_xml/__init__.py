@@ -1,4 +1,13 @@
-"""Launch files in XML."""
+"""Launch files in XML.
+
+============================  ====================
+module                        what it holds
+============================  ====================
+`parser`                      reads the text
+`entity`                      one XML element
+`launch_description_sources`  launch files by path
+============================  ====================
+"""
 
 from __future__ import annotations
 

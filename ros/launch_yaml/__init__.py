@@ -1,4 +1,13 @@
-"""Launch files in YAML."""
+"""Launch files in YAML.
+
+============================  ====================
+module                        what it holds
+============================  ====================
+`parser`                      reads the text
+`entity`                      one mapping
+`launch_description_sources`  launch files by path
+============================  ====================
+"""
 
 from __future__ import annotations
 

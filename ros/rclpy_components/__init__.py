@@ -1,4 +1,12 @@
-"""Several nodes in one process: a container that loads node classes when it is asked to."""
+"""Several nodes in one process: a container that loads node classes when it is asked to.
+
+=====================  ====================================================
+module                 what it holds
+=====================  ====================================================
+`component_container`  the executables: a process that waits for components
+`component_manager`    `ComponentManager`: loads and unloads node classes
+=====================  ====================================================
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,17 @@
-"""rosbag2's Python interface, on turtlewire's bags."""
+"""rosbag2's Python interface, on turtlewire's bags.
+
+==================================  ================================================
+module                              what it holds
+==================================  ================================================
+`_reader`, `_writer`                readers and writers, message by message
+`_info`                             reads metadata; counts requests and responses
+`_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
+`_storage`, `_compression_options`  options; the engine's types translated
+`_reindexer`                        makes ``metadata.yaml`` anew
+`_message_definitions`              definitions of types from this installation
+`_service_events`                   topics of service introspection
+==================================  ================================================
+"""
 
 from rosbag2_py._compression_options import (
     CompressionMode,

@@ -1,4 +1,14 @@
-"""Messages as text, text as messages, and interface classes by name."""
+"""Messages as text, text as messages, and interface classes by name.
+
+=============================  ======================================
+module                         what it holds
+=============================  ======================================
+`convert`                      messages as YAML, CSV and dictionaries
+`set_message`                  messages filled from dictionaries
+`get_interfaces`               installed interfaces and their files
+`import_message`, `utilities`  classes by their names
+=============================  ======================================
+"""
 
 from __future__ import annotations
 

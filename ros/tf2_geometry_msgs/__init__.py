@@ -6,6 +6,17 @@ covariance), velocities, wrenches, polygons and transforms.
 
 The functions named ``X_from_Y`` turn messages into NumPy arrays and back; they, and NumPy, are
 loaded when they are first used.
+
+============================  ==========================================
+module                        what it holds
+============================  ==========================================
+`registration`                registers the transforms of all types
+`vectors`, `poses`, `twists`  the transforms, by kind of message
+`motion`                      a transform applied to plain floats
+`headers`                     headers of results
+`numpy_bridge`                ``X_from_Y``: messages as arrays, and back
+`tf2_geometry_msgs`           ROS 2's module of this name
+============================  ==========================================
 """
 
 from __future__ import annotations

@@ -1,4 +1,13 @@
-"""tf2_py as in ROS 2: the BufferCore, and the exceptions of tf2."""
+"""tf2_py as in ROS 2: the BufferCore, and the exceptions of tf2.
+
+=============  ===============================
+module         what it holds
+=============  ===============================
+`buffer_core`  `BufferCore`
+`messages`     results as ``TransformStamped``
+`times`        times of messages and of rclpy
+=============  ===============================
+"""
 
 from __future__ import annotations
 

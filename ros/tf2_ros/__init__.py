@@ -1,4 +1,24 @@
-"""tf2_ros as in ROS 2: buffers that are filled from the wire, and broadcasters."""
+"""tf2_ros as in ROS 2: buffers that are filled from the wire, and broadcasters.
+
+================================  ===========================================================
+module                            what it holds
+================================  ===========================================================
+`buffer`                          `Buffer`: a node's buffer
+`buffer_interface`                `BufferInterface`: what all buffers share; registered types
+`buffer_client`, `buffer_server`  lookups in a buffer of another process
+`transform_listener`              `TransformListener`: fills a buffer from the wire
+`transform_broadcaster`           `TransformBroadcaster`
+`static_transform_broadcaster`    `StaticTransformBroadcaster`: also for later subscriptions
+`message_filter`                  holds messages back until they can be transformed
+`transform_futures`, `deadlines`  futures of transforms; their timeouts
+`spinning`                        an executor in a thread of its own
+`notebook`                        a ``TransformStamped`` in Jupyter
+`tf2_echo`, `tf2_monitor`         the tools of these names
+`static_transform_publisher`      the executable of this name
+`buffer_server_node`              the executable ``buffer_server``
+`command_line`                    command lines of the tools
+================================  ===========================================================
+"""
 
 from __future__ import annotations
 

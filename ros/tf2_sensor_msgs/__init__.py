@@ -1,6 +1,13 @@
 """Point clouds in another frame, as ROS 2's package of this name; normals are turned along.
 
 Importing it makes ``tf2_ros.Buffer.transform`` take ``sensor_msgs.msg.PointCloud2``.
+
+=================  ===========================
+module             what it holds
+=================  ===========================
+`clouds`           transforms of point clouds
+`tf2_sensor_msgs`  ROS 2's module of this name
+=================  ===========================
 """
 
 from __future__ import annotations

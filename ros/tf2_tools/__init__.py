@@ -1,1 +1,9 @@
-"""Tools for tf2: view_frames draws the tree of frames."""
+"""Tools for tf2: view_frames draws the tree of frames.
+
+=============  ====================================
+module         what it holds
+=============  ====================================
+`view_frames`  the executable: listens, then draws
+`dot`, `pdf`   the tree as Graphviz text and as PDF
+=============  ====================================
+"""

@@ -8,6 +8,15 @@ x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
 
 What deals with one quaternion works on plain floats, so that a node that only needs
 :func:`quaternion_from_euler` starts without NumPy; everything else loads it at its first use.
+
+==============  =========================================
+module          what it holds
+==============  =========================================
+`_quaternions`  one quaternion at a time, on plain floats
+`_matrices`     4x4 matrices, made and taken apart
+`_arrays`       vectors, interpolation, random rotations
+`_arcball`      rotations with the mouse
+==============  =========================================
 """
 
 from __future__ import annotations

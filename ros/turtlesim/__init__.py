@@ -1,4 +1,26 @@
-"""turtlesim: the simulator of ROS 2's tutorials, with its screen in the browser."""
+"""turtlesim: the simulator of ROS 2's tutorials, with its screen in the browser.
+
+===================================  =========================================================
+module                               what it holds
+===================================  =========================================================
+`turtlesim_node`                     the simulator's node
+`model`, `physics`                   the turtles and their world; the formulas of one tick
+`crowd`                              many turtles in one tick
+`path`, `path_bulk`, `pen_line`      pixels that pens paint: one line, many lines, their shape
+`turtle_endpoints`, `rotate_action`  topics and services of one turtle; its action
+`missing_turtles`                    turtles that are referenced but were never spawned
+`screen`                             the page in the browser
+`drawing`                            what the pens have drawn, for browsers that connect later
+`page_commands`, `page_actions`      what the page asks for: parsed, done
+`page_rotations`                     rotations that a page asks for
+`transform_view`                     frames and transforms on the page
+`turtle_teleop_key`                  drives a turtle from a terminal
+`draw_square`, `mimic`               ROS 2's two example nodes
+`cpp_node`                           a node that looks like ROS 2's C++ nodes
+`testing`                            simulator and nodes of a test in lock-step
+`msg`, `srv`, `action`               generated interfaces
+===================================  =========================================================
+"""
 
 import os
 import sys

@@ -1,5 +1,13 @@
 """The prefix of this distribution's ROS packages: where they are, and what can be run.
 
-`prefix` finds packages, `executables` what they contain to run, `guard` starts ``ros2``,
-`process_family` ends what a command started, `colcon_interfaces` builds interface packages.
+====================================  ====================================================
+module                                what it holds
+====================================  ====================================================
+`prefix`                              finds packages: colcon workspaces, this prefix, pip
+`executables`                         what ``ros2 run PACKAGE EXECUTABLE`` runs
+`guard`                               starts ``ros2``, and refuses a mix with a real ROS 2
+`process_family`, `process_guardian`  stop all that a command started
+`colcon_interfaces`                   builds interface packages of a workspace
+`manifest`                            the error in a ``package.xml``
+====================================  ====================================================
 """

@@ -1,4 +1,21 @@
-"""ROS 2's transform system for Python, without a ROS installation."""
+"""ROS 2's transform system for Python, without a ROS installation.
+
+============  ==================================================================
+module        what it holds
+============  ==================================================================
+`bag`         rosbag2 folders, MCAP and sqlite3, read and written
+`cli`         the ``turtlewire`` command: ``doctor`` and ``frames``
+`errors`      every error that turtlewire raises on purpose
+`msg`         interface definitions, message classes, CDR and type hashes
+`printable`   text from other processes, made safe for a terminal
+`suggestion`  the nearest names to one that does not exist
+`testing`     a domain, a filled buffer and waiting, for users' tests
+`tf`          the transform buffer, the listener that fills it, and its pictures
+`trajectory`  poses over time: sampled, in files, compared
+`web`         a small HTTP and WebSocket server for this machine's browsers
+`wire`        the middleware: bytes, QoS, names and the graph
+============  ==================================================================
+"""
 
 from __future__ import annotations
 

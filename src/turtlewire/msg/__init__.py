@@ -11,6 +11,27 @@ Definitions, message classes, the CDR codec and type hashes.
     twist = msg.deserialize(Twist, data)
 
 Classes are made when they are asked for first, codecs when they are used first.
+
+====================  =================================================================
+module                what it holds
+====================  =================================================================
+`definition`          what an interface file says, after parsing
+`types`               types of fields, named as in ROS 2's ``rosidl_parser.definition``
+`parser`              texts of ``.msg``, ``.srv`` and ``.action`` files to definitions
+`registry`            definitions by name, parsed at first use
+`message`             `Message`, the base of all message classes
+`classes`             the classes of messages, services and actions, made at first use
+`values`              defaults of fields, and bulk numbers as arrays
+`checks`              ROS 2's checks at every assignment (``check_fields``)
+`cdr`                 `serialize` and `deserialize`
+`encoder`, `decoder`  generated code from messages to CDR bytes and back
+`wide_text`           ``wstring`` on the wire
+`diagnosis`           which field of a message or of its bytes is wrong
+`type_hash`           type hashes (RIHS01)
+`shell`               lazy classes of modules such as ``geometry_msgs.msg``
+`generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
+`__main__`            ``python -m turtlewire.msg DIR``
+====================  =================================================================
 """
 
 from __future__ import annotations

@@ -13,4 +13,21 @@ Many classes are called some kind of Buffer. From the inside out:
 ``tf2_ros.Buffer``        ROS 2's buffer: a ``BufferCore`` that transforms messages of any type
 ``tf2_ros.BufferClient``  the same interface (``BufferInterface``) to a buffer in another process
 ========================  ======================================================================
+
+=========================  =================================================================
+module                     what it holds
+=========================  =================================================================
+`buffer`                   `Buffer`: the compiled core, or its plain twin
+`plain`                    the plain-Python twin of the compiled core
+`status`                   `LookupStatus`: one answer of a batch lookup
+`listener`                 `TransformListener`: puts the bytes of TF messages into buffers
+`publisher_names`          the node that published a message
+`links`, `inspection`      the links of a buffer as rows, and as objects with rates and ages
+`conversions`              quaternions, Euler angles, matrices and poses as arrays
+`arrays`                   a transform as an array
+`frame_tree`               the frames with the figures of their links, for pictures
+`tidy_tree`                positions of the nodes of a drawn tree
+`tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text as SVG
+`notebook`                 how buffers and transforms show themselves in Jupyter
+=========================  =================================================================
 """

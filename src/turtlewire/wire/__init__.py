@@ -1,6 +1,23 @@
 """Middleware: moves bytes, knows QoS, names and the graph; knows no messages.
 
 :func:`open_context` joins a domain. The contract of what it returns is :mod:`turtlewire.wire.base`.
+
+===============  ================================================================
+module           what it holds
+===============  ================================================================
+`base`           the contract that every middleware fulfils
+`qos`            `QoS`, with the numbers of ROS 2's rmw
+`names`          rules and expansion of ROS names, and their spelling on the wire
+`environment`    the environment variables that decide whom a process talks to
+`graph`          what the graphs of all middlewares share; ``ros_discovery_info``
+`conflicts`      two types on one topic, two nodes of one name
+`encapsulation`  the four bytes in front of every serialized message
+`events`         counters of endpoints' events
+`services`       services over two topics
+`report`         warnings on stderr, each printed once
+`cyclone`        Cyclone DDS
+`local`          the in-process middleware
+===============  ================================================================
 """
 
 from __future__ import annotations

@@ -1,15 +1,31 @@
 """The buffer in plain Python, for machines without a compiler, and for reading.
 
-It gives the same answers as the compiled core, whose files have the same names: ``pose`` is the
-arithmetic, ``link`` one link's history, ``tree`` the search between two frames, ``failure`` and
-``report`` tf2's words, ``refusals`` what was not taken, ``tf_message`` the bytes of a TFMessage,
-``buffer`` the public class with its lock and its waiting, ``record_walk`` a bag's chunks.
+It gives the same answers as the compiled core, whose files have the same names.
+
+=====================  ==================================================
+module                 what it holds
+=====================  ==================================================
+`pose`                 arithmetic of poses as plain tuples
+`link`                 the history of one link
+`tree`                 the tree of frames and tf2's search in it
+`shared_tree`          the tree with a lock, waiting and listeners
+`buffer`               the public class
+`batch`                its methods that take and return arrays
+`inspection`           its methods that show, remove and load samples
+`arguments`, `checks`  arguments that are arrays; all others
+`transform`            the result of a lookup
+`failure`              why a lookup has no answer, in tf2's words
+`refusals`             refused transforms, counted by frame
+`report`               tf2's texts about the whole tree
+`tf_message`           decodes ``tf2_msgs/msg/TFMessage``
+`record_walk`          the chunks of a bag
+`fork`                 keeps the locks of buffers usable after ``fork()``
+=====================  ==================================================
 """
 
 from __future__ import annotations
 
 from turtlewire.tf.plain.buffer import Buffer
-from turtlewire.tf.plain.record_walk import RecordWalk
 from turtlewire.tf.plain.transform import Transform
 
-__all__ = ["Buffer", "RecordWalk", "Transform"]
+__all__ = ["Buffer", "Transform"]

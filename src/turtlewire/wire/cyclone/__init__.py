@@ -8,4 +8,27 @@ C, without the GIL, and taken by Python threads.
 
 A process must not fork after it opened a context (start children with ``spawn`` or ``subprocess``):
 Cyclone's threads do not survive a fork.
+
+========================  =======================================================
+module                    what it holds
+========================  =======================================================
+`library`                 finds and loads ``libddsc``, and declares its functions
+`configuration`           Cyclone's configuration for a domain
+`context`, `core`         one participant; what it shares with its nodes
+`participant`             the DDS participant and its topics
+`node`                    makes endpoints, and announces them
+`announcer`               publishes ``ros_discovery_info``
+`endpoint`                what publishers and subscriptions have in common
+`publisher`, `writing`    bytes to a DDS writer
+`subscription`, `taking`  bytes from a DDS reader
+`inlet`                   messages that Cyclone's thread hands to a native sink
+`native`                  the compiled half of this package, or None
+`services`                services as rmw_cyclonedds spells them
+`waiting`                 wait sets
+`reader`                  the one Python thread of a context
+`graph`                   the graph as this participant sees it
+`qos`                     QoS as Cyclone's objects, and back
+`log`                     Cyclone's warnings, explained and bounded
+`ports`                   the processes of this host that take part in a domain
+========================  =======================================================
 """
