@@ -26,12 +26,18 @@ NOT_IMPORTED = {"turtlewire_ros.colcon_interfaces"}
 
 
 @pytest.fixture(scope="module")
-def architecture():
+def script():
+    """Imports a module of the folder ``scripts``."""
     sys.path.insert(0, str(ROOT / "scripts"))
     try:
-        yield importlib.import_module("architecture")
+        yield importlib.import_module
     finally:
         sys.path.remove(str(ROOT / "scripts"))
+
+
+@pytest.fixture(scope="module")
+def architecture(script):
+    return script("architecture")
 
 
 @pytest.fixture(scope="module")
@@ -166,3 +172,14 @@ def test_the_docstring_of_a_package_lists_its_modules(house):
         if sorted(listed) != inside:
             wrong[package] = sorted(set(listed) ^ set(inside))
     assert wrong == {}
+
+
+def test_a_line_may_have_a_hundred_characters(script):
+    columns = script("columns")
+    assert not columns.too_long("a.py", "x " * 50)
+    assert columns.too_long("a.py", "x " * 50 + "y")
+    assert columns.too_long("tests/a.py", "'" + "x " * 50 + "'")
+    assert columns.too_long("page.md", "word " * 21)
+    assert not columns.too_long("page.md", "| a row " * 20 + "|")
+    assert not columns.too_long("a.py", "call(" + "x, " * 30 + ")  # noqa: S102 - a reason")
+    assert "scripts/columns.py" in (ROOT / "scripts/lint").read_text()

@@ -58,7 +58,7 @@ class TurtlewireError(Exception):
     hint: str = ""
 
     def with_hint(self, hint: str) -> TurtlewireError:
-        """Attach ``hint`` and return the same error, so that ``raise error.with_hint(...)`` reads well."""
+        """Attach ``hint`` and return the same error, for ``raise error.with_hint(...)``."""
         self.hint = hint
         if hint and hasattr(self, "add_note"):
             self.add_note(hint)
@@ -100,7 +100,7 @@ class TransformException(TurtlewireError):
 
     @property
     def hint(self) -> str:
-        """One or two plain sentences that say what exists and what to do; empty when there is nothing to add."""
+        """What exists and what to do, in one or two sentences; may be empty."""
         if "_hint" not in self.__dict__:
             self.__dict__["_hint"] = self._make_hint() if self._details else ""
         text: str = self.__dict__["_hint"]
@@ -177,7 +177,10 @@ class LookupException(TransformException):
         frame, buffer = self.frame, self._details["buffer"]
         names = buffer.frame_strings() if buffer is not None else []
         if not names:
-            return "No transform has arrived yet. Is a broadcaster running, and does a TransformListener fill this buffer?"
+            return (
+                "No transform has arrived yet. Is a broadcaster running, and does a "
+                "TransformListener fill this buffer?"
+            )
         near = difflib.get_close_matches(frame, names, 3, 0.5)
         if near:
             return f"Did you mean {' or '.join(map(repr, near))}?"
@@ -221,7 +224,10 @@ class BackwardExtrapolationException(ExtrapolationException):
     def _make_hint(self) -> str:
         gap = (self.oldest_ns - self.requested_ns) / 1e9
         kept = (self.newest_ns - self.oldest_ns) / 1e9
-        return f"The oldest data of {self._link()} is {gap:.6g} s younger than the time asked for; {kept:.6g} s of it are kept."
+        return (
+            f"The oldest data of {self._link()} is {gap:.6g} s younger than the time asked for; "
+            f"{kept:.6g} s of it are kept."
+        )
 
 
 class ForwardExtrapolationException(ExtrapolationException):
@@ -240,10 +246,16 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
     def _make_hint(self) -> str:
         if not self._details["has_data"]:
-            return f"Nothing is known of the transform of '{self.child_frame}' since the buffer was cleared."
+            return (
+                f"Nothing is known of the transform of '{self.child_frame}' since the buffer was "
+                "cleared."
+            )
         gap = (self.requested_ns - self.newest_ns) / 1e9
         side = "older" if gap > 0 else "younger"
-        return f"There is one sample of {self._link()}, {abs(gap):.6g} s {side} than the time asked for; two are needed around it."
+        return (
+            f"There is one sample of {self._link()}, {abs(gap):.6g} s {side} than the time asked "
+            "for; two are needed around it."
+        )
 
 
 class InvalidArgumentException(TransformException):

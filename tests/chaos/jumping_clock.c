@@ -9,10 +9,10 @@
 #include <sys/mman.h>
 #include <time.h>
 
-typedef int (*gettime)(clockid_t, struct timespec *);
-typedef int (*timedwait)(pthread_cond_t *, pthread_mutex_t *, const struct timespec *);
+typedef int (*gettime)(clockid_t, struct timespec*);
+typedef int (*timedwait)(pthread_cond_t*, pthread_mutex_t*, const struct timespec*);
 
-static volatile const int64_t *offset;
+static volatile const int64_t* offset;
 static gettime real_gettime;
 static timedwait real_timedwait;
 
@@ -23,17 +23,16 @@ __attribute__((constructor)) static void attach(void) {
   real_timedwait = (timedwait)dlvsym(RTLD_NEXT, "pthread_cond_timedwait", "GLIBC_2.3.2");
 }
 
-int clock_gettime(clockid_t clock, struct timespec *now) {
+int clock_gettime(clockid_t clock, struct timespec* now) {
   int result = real_gettime(clock, now);
-  if (clock == CLOCK_REALTIME && result == 0)
-    now->tv_sec += *offset;
+  if (clock == CLOCK_REALTIME && result == 0) now->tv_sec += *offset;
   return result;
 }
 
-int pthread_cond_timedwait(pthread_cond_t *cond, pthread_mutex_t *mutex,
-                           const struct timespec *deadline) {
+int pthread_cond_timedwait(pthread_cond_t* cond, pthread_mutex_t* mutex,
+                           const struct timespec* deadline) {
   struct timespec real = *deadline;
-  if (real.tv_sec > 500000000) // a deadline of the steady clock is the computer's uptime
+  if (real.tv_sec > 500000000)  // a deadline of the steady clock is the computer's uptime
     real.tv_sec -= *offset;
   return real_timedwait(cond, mutex, &real);
 }

@@ -34,7 +34,9 @@ def generate_launch_description():
     return LaunchDescription([
         *[LogInfo(msg=f"line {number} " + "x" * 100) for number in range(20)],
         talk,
-        RegisterEventHandler(OnProcessExit(target_action=talk, on_exit=[EmitEvent(event=Shutdown())])),
+        RegisterEventHandler(
+            OnProcessExit(target_action=talk, on_exit=[EmitEvent(event=Shutdown())])
+        ),
     ])
 """
 

@@ -11,7 +11,9 @@ from launch.substitutions import TextSubstitution
 
 XML = """
 <launch>
-  <arg name="who" default="world" description="Whom it\\'s for"><choice value="world"/><choice value="turtle"/></arg>
+  <arg name="who" default="world" description="Whom it\\'s for">
+    <choice value="world"/><choice value="turtle"/>
+  </arg>
   <let name="greeting" value="hello $(var who)"/>
   <log message="$(var greeting)"/>
   <log message="never" if="false"/>
@@ -25,14 +27,17 @@ XML = """
     <log message="$(var greeting) $(env TURTLE_FRONTEND none)"/>
   </group>
   <group scoped="false"><let name="left" value="1"/></group>
-  <group forwarding="false"><keep name="left" value="$(var left)2"/><log message="$(var left) $(var greeting gone)"/></group>
+  <group forwarding="false">
+    <keep name="left" value="$(var left)2"/>
+    <log message="$(var left) $(var greeting gone)"/>
+  </group>
   <log message="$(var greeting) $(env TURTLE_FRONTEND)"/>
   <reset><keep name="who" value="$(var who)"/></reset>
   <log message="$(var left gone)"/>
   <reset_env/>
   <log message="$(env TURTLE_FRONTEND gone)"/>
-  <executable cmd="sh -c 'echo &quot;$TURTLE $0&quot; $(var who)' '$(var who)'" name="exe" output="screen"
-              cwd="/" output_format="OUT {line}">
+  <executable cmd="sh -c 'echo &quot;$TURTLE $0&quot; $(var who)' '$(var who)'" name="exe"
+              output="screen" cwd="/" output_format="OUT {line}">
     <env name="TURTLE" value="green"/>
   </executable>
   <timer period="0.01"><log message="later"/></timer>
@@ -40,7 +45,8 @@ XML = """
 """
 YAML = """
 launch:
-- arg: {name: who, default: world, description: "Whom it\\\\'s for", choice: [{value: world}, {value: turtle}]}
+- arg: {name: who, default: world, description: "Whom it\\\\'s for",
+        choice: [{value: world}, {value: turtle}]}
 - let: {name: greeting, value: hello $(var who)}
 - log: {message: $(var greeting)}
 - log: {message: never, if: "false"}
@@ -53,7 +59,11 @@ launch:
   - unset_env: {name: TURTLE_FRONTEND}
   - log: {message: $(var greeting) $(env TURTLE_FRONTEND none)}
 - group: {scoped: false, children: [{let: {name: left, value: "1"}}]}
-- group: {forwarding: false, children: [{keep: {name: left, value: $(var left)2}}, {log: {message: $(var left) $(var greeting gone)}}]}
+- group:
+    forwarding: false
+    children:
+    - keep: {name: left, value: $(var left)2}
+    - log: {message: $(var left) $(var greeting gone)}
 - log: {message: $(var greeting) $(env TURTLE_FRONTEND)}
 - reset: [{keep: {name: who, value: $(var who)}}]
 - log: {message: $(var left gone)}
@@ -86,7 +96,10 @@ def launch_file(launch, tmp_path, language):
 
 
 def test_shutdown(launch_file):
-    xml = '<launch><timer period="1000"><log message="never"/></timer><shutdown reason="enough"/></launch>'
+    xml = (
+        '<launch><timer period="1000"><log message="never"/></timer>'
+        '<shutdown reason="enough"/></launch>'
+    )
     yaml = (
         "launch:\n- timer: {period: 1000.0, children: [{log: {message: never}}]}\n- shutdown: "
         "{reason: enough}\n"

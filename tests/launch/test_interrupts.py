@@ -16,7 +16,8 @@ from launch import LaunchDescription
 from launch.actions import ExecuteProcess, LogInfo, TimerAction
 
 def child(code, **options):
-    return ExecuteProcess(cmd=[sys.executable, "-c", code], name="child", output="screen", **options)
+    command = [sys.executable, "-c", code]
+    return ExecuteProcess(cmd=command, name="child", output="screen", **options)
 
 WAITS = '''
 import signal

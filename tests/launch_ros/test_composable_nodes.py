@@ -176,13 +176,17 @@ def test_the_end_of_the_launch_ends_the_wait_for_a_container(launch):
 @pytest.mark.parametrize("language", ["xml", "yaml"])
 def test_launch_files_in_other_languages(launch, tmp_path, language):
     xml = """<launch>
-      <node_container pkg="rclpy_components" exec="component_container" name="box" namespace="" output="screen">
+      <node_container pkg="rclpy_components" exec="component_container" name="box" namespace=""
+                      output="screen">
         <composable_node pkg="shows" plugin="shows.Shows" name="n" namespace="ns">
-          <param name="speed" value="3"/> <remap from="a" to="b"/> <extra_arg name="use_intra_process_comms" value="true"/>
+          <param name="speed" value="3"/> <remap from="a" to="b"/>
+          <extra_arg name="use_intra_process_comms" value="true"/>
         </composable_node>
         <composable_node pkg="shows" plugin="shows.Shows" if="false"/>
       </node_container>
-      <load_composable_node target="/box"><composable_node pkg="shows" plugin="shows.Shows" name="late"/></load_composable_node>
+      <load_composable_node target="/box">
+        <composable_node pkg="shows" plugin="shows.Shows" name="late"/>
+      </load_composable_node>
     </launch>"""
     yaml = """launch:
 - node_container:
@@ -192,10 +196,12 @@ def test_launch_files_in_other_languages(launch, tmp_path, language):
     namespace: ""
     output: screen
     composable_node:
-    - {pkg: shows, plugin: shows.Shows, name: n, namespace: ns, param: [{name: speed, value: 3}], remap: [{from: a, to: b}],
-       extra_arg: [{name: use_intra_process_comms, value: true}]}
+    - {pkg: shows, plugin: shows.Shows, name: n, namespace: ns, param: [{name: speed, value: 3}],
+       remap: [{from: a, to: b}], extra_arg: [{name: use_intra_process_comms, value: true}]}
     - {pkg: shows, plugin: shows.Shows, if: "false"}
-- load_composable_node: {target: /box, composable_node: [{pkg: shows, plugin: shows.Shows, name: late}]}
+- load_composable_node:
+    target: /box
+    composable_node: [{pkg: shows, plugin: shows.Shows, name: late}]
 """
     path = tmp_path / f"x.launch.{language}"
     path.write_text(xml if language == "xml" else yaml)

@@ -29,7 +29,9 @@ SHOW = """#!/usr/bin/env python3
 import json, os, sys
 arguments = sys.argv[1:]
 files = [arguments[at + 1] for at, word in enumerate(arguments) if word == "--params-file"]
-print(json.dumps({"arguments": arguments, "files": [open(path).read() for path in files], "log": os.environ.get("ROS_LOG_DIR")}))
+texts = [open(path).read() for path in files]
+log = os.environ.get("ROS_LOG_DIR")
+print(json.dumps({"arguments": arguments, "files": texts, "log": log}))
 """
 
 
@@ -355,7 +357,8 @@ XML = """
   <set_parameter name="label" value="'2'"/>
   <set_use_sim_time value="true"/>
   <set_remap from="a" to="b"/>
-  <node pkg="shows" exec="show" name="n" namespace="arm" output="screen" args="one 'two words' $(var three 3)" ros_args="--log-level info">
+  <node pkg="shows" exec="show" name="n" namespace="arm" output="screen"
+        args="one 'two words' $(var three 3)" ros_args="--log-level info">
     <param name="int" value="5"/>
     <param name="text" value="'5'"/>
     <param name="typed" value="007" type="str"/>
@@ -363,7 +366,10 @@ XML = """
     <param name="texts" value="'a', b" value-sep=", "/>
     <param name="substituted" value="$(var five 5)"/>
     <param name="as_text" value="$(var five 5)" type="str"/>
-    <param name="group"><param name="inner" value="true"/><param name="deeper"><param name="x" value="1.5"/></param></param>
+    <param name="group">
+      <param name="inner" value="true"/>
+      <param name="deeper"><param name="x" value="1.5"/></param>
+    </param>
     <remap from="c" to="d"/>
     <env name="ROS_LOG_DIR" value="/mine"/>
   </node>
@@ -392,7 +398,8 @@ launch:
     - {name: texts, value: [a, b]}
     - {name: substituted, value: $(var five 5)}
     - {name: as_text, value: $(var five 5), type: str}
-    - {name: group, param: [{name: inner, value: true}, {name: deeper, param: [{name: x, value: 1.5}]}]}
+    - name: group
+      param: [{name: inner, value: true}, {name: deeper, param: [{name: x, value: 1.5}]}]
     remap: [{from: c, to: d}]
     env: [{name: ROS_LOG_DIR, value: /mine}]
 """

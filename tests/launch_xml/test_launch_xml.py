@@ -52,7 +52,8 @@ def test_attributes_that_are_missing_or_of_another_type(entity):
         element.get_attr("b", data_type=list[BaseEntity])
     with pytest.raises(
         TypeError,
-        match="Attribute 'a' of Entity 'launch' expected to be of type '<class 'bool'>' but got 'x'",
+        match="Attribute 'a' of Entity 'launch' expected to be of type "
+        "'<class 'bool'>' but got 'x'",
     ):
         element.get_attr("a", data_type=bool, can_be_str=False)
 
@@ -66,7 +67,8 @@ def test_what_nobody_asked_for_is_refused(entity):
         entity("<launch><b/></launch>").assert_entity_completely_parsed()
 
 
-BOMB = """<!DOCTYPE lolz [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;"><!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;">]>
+BOMB = """<!DOCTYPE lolz [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">
+<!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;">]>
 <launch><log message="&c;"/></launch>"""
 EXTERNAL = '<!DOCTYPE x [<!ENTITY secret SYSTEM "file:///etc/passwd">]><launch><log message="&secret;"/></launch>'
 REMOTE = '<!DOCTYPE launch SYSTEM "http://127.0.0.1:9/evil.dtd"><launch/>'

@@ -95,7 +95,8 @@ print(Sphere(), AddSphere.Request(), Roll.Goal(distance=2.0), Everything.LIMIT, 
 message = Everything(wide="äö", few=[Sphere()], blob=b"ab", short="abcde")
 again = msg.deserialize(Everything, msg.serialize(message))
 assert msg.serialize(again) == msg.serialize(message)
-print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw, again.pair[1].radius, again.blob)
+print(again.three.tolist(), again.numbers.tolist(), again.words, again.raw,
+      again.pair[1].radius, again.blob)
 print(msg.interface_names()["my_interfaces"])
 """
     environment = {**os.environ, "PYTHONPATH": str(generated)}
@@ -173,7 +174,10 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
         if "error" in line and "user.py" in line
     ]
     assert errors == [
-        '12: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  [arg-type]',
+        (
+            '12: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  '
+            "[arg-type]"
+        ),
         '13: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
     ]
 

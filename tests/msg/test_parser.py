@@ -84,7 +84,10 @@ def test_defaults(line, default):
 
 
 def test_constants():
-    text = 'int32 LIMIT=12\nstring NAME = "a=b" # why\nfloat32 A_1=-0.5\nbyte OK=0\nbool YES=true\nuint8 x\n'
+    text = (
+        'int32 LIMIT=12\nstring NAME = "a=b" # why\nfloat32 A_1=-0.5\nbyte OK=0\n'
+        "bool YES=true\nuint8 x\n"
+    )
     definition = parse_message("demo_interfaces/msg/X", text)
     assert {constant.name: constant.value for constant in definition.constants} == {
         "LIMIT": 12,

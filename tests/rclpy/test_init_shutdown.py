@@ -259,7 +259,8 @@ import rclpy, sys
 from rclpy.node import Node
 rclpy.init()
 node = Node("light")
-heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasses", "subprocess", "uuid", "http", "yaml"}
+heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasses",
+         "subprocess", "uuid", "http", "yaml"}
 print(sorted(heavy & set(sys.modules)))
 """
     assert (

@@ -113,7 +113,8 @@ def main():
     future = minimal_client.send_request(int(sys.argv[1]), int(sys.argv[2]))
     rclpy.spin_until_future_complete(minimal_client, future)
     response = future.result()
-    print("Result of add_two_ints: for %d + %d = %d" % (minimal_client.req.a, minimal_client.req.b, response.sum))
+    request = minimal_client.req
+    print("Result of add_two_ints: for %d + %d = %d" % (request.a, request.b, response.sum))
     minimal_client.destroy_node()
     rclpy.shutdown()
 

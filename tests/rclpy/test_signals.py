@@ -203,7 +203,8 @@ def test_signals_end_waits_that_are_no_spin(start, waiting):
         rclpy.init()
         node = rclpy.create_node("tested")
         client = node.create_client(Trigger, "nobody")
-        client.call_async(Trigger.Request())  # an interrupt in exec(), which makes the encoder, decides CPython's exit status
+        # The encoder is made now: an interrupt in its exec() would decide CPython's exit status.
+        client.call_async(Trigger.Request())
         try:
             print("up")
             print({waiting})
@@ -277,7 +278,8 @@ def test_signal_options(program):
         for options in SignalHandlerOptions:
             rclpy.init(signal_handler_options=options)
             now = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
-            print(get_current_signal_handlers_options().name, [a is not b for a, b in zip(before, now)])
+            changed = [a is not b for a, b in zip(before, now)]
+            print(get_current_signal_handlers_options().name, changed)
             rclpy.shutdown()
         print([signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before)
         context = rclpy.Context()

@@ -59,7 +59,9 @@ class Talker(Node):
     def heard(self, message: String) -> None:
         self.get_logger().info(message.data)
 
-    def add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
+    def add(
+        self, request: AddTwoInts.Request, response: AddTwoInts.Response
+    ) -> AddTwoInts.Response:
         response.sum = request.a + request.b
         return response
 

@@ -100,8 +100,8 @@ try:
     main({words!r})
 except SystemExit:
     pass
-heavy = {{"numpy", "asyncio", "rclpy", "rich", "yaml", "launch", "turtlewire.msg"}} & set(sys.modules)
-print("loaded:", sorted(heavy))
+heavy = {{"numpy", "asyncio", "rclpy", "rich", "yaml", "launch", "turtlewire.msg"}}
+print("loaded:", sorted(heavy & set(sys.modules)))
 """
     result = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True

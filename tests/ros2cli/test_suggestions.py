@@ -48,29 +48,22 @@ def errors(capsys, *words):
         ("pkg prefix turtlesm", "Package not found", "turtlesim"),
         ("pkg xml turtlesm", "Package not found", "turtlesim"),
         ("pkg executables turtlesm", "Package 'turtlesm' not found", "turtlesim"),
-        (
-            ("interface "
-            "show "
-            "geometry_msgs/msg/Twst"), "unknown interface 'geometry_msgs/msg/Twst'", "geometry_msgs/msg/Twist"),
+        ("interface show geometry_msgs/msg/Twst",
+            "unknown interface 'geometry_msgs/msg/Twst'", "geometry_msgs/msg/Twist"),
         ("interface proto std_msgs/msg/Strng",
             ("AttributeError: module 'std_msgs.msg' has no attribute "
             "'Strng'"), "std_msgs/msg/String"),
         ("interface package geometry_msg", "Unknown package 'geometry_msg'", "geometry_msgs"),
-        (
-            ("topic pub /x "
-            "geometry_msgs/msg/Twits"), "The passed message type is invalid", "geometry_msgs/msg/Twist"),
-        (
-            ("topic echo /x "
-            "geometry_msgs/msg/Twits"), "The passed message type is invalid", "geometry_msgs/msg/Twist"),
-        (
-            ("service call /x "
-            "turtlesim/srv/Spwn"), "The passed service type is invalid", "turtlesim/srv/Spawn"),
-        (
-            ("action "
-            "send_goal "
-            "/x "
-            "turtlesim/action/RotatAbsolute {}"), "The passed action type is invalid", "turtlesim/action/RotateAbsolute"),
-        ("service call /x turtlesim/srv/Spawn {nme:1}", "Failed to populate field: 'Spawn_Request' object has no attribute 'nme'", "name"),
+        ("topic pub /x geometry_msgs/msg/Twits",
+            "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        ("topic echo /x geometry_msgs/msg/Twits",
+            "The passed message type is invalid", "geometry_msgs/msg/Twist"),
+        ("service call /x turtlesim/srv/Spwn",
+            "The passed service type is invalid", "turtlesim/srv/Spawn"),
+        ("action send_goal /x turtlesim/action/RotatAbsolute {}",
+            "The passed action type is invalid", "turtlesim/action/RotateAbsolute"),
+        ("service call /x turtlesim/srv/Spawn {nme:1}",
+            "Failed to populate field: 'Spawn_Request' object has no attribute 'nme'", "name"),
     ],
 )  # fmt: skip
 def test_names_that_are_known_without_nodes(capsys, line, message, near):

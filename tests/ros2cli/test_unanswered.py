@@ -41,7 +41,8 @@ def server(run):
     ("words", "server_name"),
     [
         (("service", "call", "/sleep", "std_srvs/srv/Empty"), "service '/sleep'"),
-        (("action", "send_goal", "/count", "example_interfaces/action/Fibonacci", "{}"), "action '/count'"),
+        (("action", "send_goal", "/count", "example_interfaces/action/Fibonacci", "{}"),
+            "action '/count'"),
     ],
 )  # fmt: skip
 def test_a_killed_server_ends_the_wait(run, server, words, server_name):
@@ -55,17 +56,17 @@ def test_a_killed_server_ends_the_wait(run, server, words, server_name):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        ("service call /sleep std_srvs/srv/SetBool", "The service '/sleep' has the type std_srvs/srv/Empty, not std_srvs/srv/SetBool"),
+        ("service call /sleep std_srvs/srv/SetBool",
+            "The service '/sleep' has the type std_srvs/srv/Empty, not std_srvs/srv/SetBool"),
         ("service call /slep std_srvs/srv/Empty", "Did you mean: /sleep"),
         ("service call /qqqq std_srvs/srv/Empty", "Known services: /sleep"),
         ("action send_goal /qqqq example_interfaces/action/Fibonacci {}", "Known actions: /count"),
-        (
-            ("action "
-            "send_goal "
-            "/count "
-            "turtlesim/action/RotateAbsolute {}"), "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
-        ("topic echo /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
-        ("topic pub /rosout std_msgs/msg/String", "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
+        ("action send_goal /count turtlesim/action/RotateAbsolute {}",
+            "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
+        ("topic echo /rosout std_msgs/msg/String",
+            "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
+        ("topic pub /rosout std_msgs/msg/String",
+            "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_at_once(run, server, words, told):

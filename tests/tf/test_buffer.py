@@ -226,14 +226,20 @@ class TestRefusals:
                 "a",
                 (0, 0, 0),
                 NO_TURN,
-                'TF_SELF_TRANSFORM: Ignoring transform from authority "me" with frame_id and  child_frame_id "a"',
+                (
+                    'TF_SELF_TRANSFORM: Ignoring transform from authority "me" with frame_id and  '
+                    'child_frame_id "a"'
+                ),
             ),
             (
                 "a",
                 "",
                 (0, 0, 0),
                 NO_TURN,
-                'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "me" because child_frame_id not set ',
+                (
+                    'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "me" because '
+                    "child_frame_id not set "
+                ),
             ),
             (
                 "/",

@@ -110,9 +110,9 @@ def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlew
         "robo\ufffd": {"bad_name": 1},
         "cart": {"bad_name": 1},
     }
-    assert (
-        refused["cart"].last
-        == 'Ignoring transform from authority "broken": a frame id must be UTF-8 text without NUL, of at most 4096 bytes'
+    assert refused["cart"].last == (
+        'Ignoring transform from authority "broken": '
+        "a frame id must be UTF-8 text without NUL, of at most 4096 bytes"
     )
 
 

@@ -20,6 +20,7 @@ from turtlewire.wire.base import TypeId
 
 ROUNDS = 60
 over = threading.Event()
+MALFORMED = b"\\x00\\x01\\x00\\x00\\xff\\xff\\xff\\x7f"
 
 def messages():
     for second in range(1, 1000):
@@ -29,12 +30,13 @@ def messages():
             transform.header.frame_id, transform.child_frame_id = "world", f"frame{number}"
             transform.header.stamp.sec = second
             message.transforms.append(transform)
-        yield msg.serialize(message) if second % 7 else b"\\x00\\x01\\x00\\x00\\xff\\xff\\xff\\x7f"  # what only Python says no to
+        yield msg.serialize(message) if second % 7 else MALFORMED
 
 def publish():
     context = wire.open_context()
     prepared = list(messages())
-    while not over.is_set():  # a new publisher again and again: the first messages of each take the long way
+    while not over.is_set():
+        # A new publisher each time, because its first messages go through Python.
         node = context.create_node("publisher")
         publisher = node.create_publisher("/tf", TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME)), QOS)
         for data in random.sample(prepared, 100):

@@ -88,7 +88,10 @@ def test_can_transform(buffer: tf2_py.BufferCore) -> None:
     assert buffer.can_transform_core("map", "camera", Time()) == (1, "")
     assert buffer.can_transform_core("map", "nobody", Time()) == (
         0,
-        'Invalid frame ID "nobody" passed to canTransform argument source_frame - frame does not exist',
+        (
+            'Invalid frame ID "nobody" passed to canTransform argument source_frame - '
+            "frame does not exist"
+        ),
     )
     assert buffer.can_transform_full_core(
         "base", Time(seconds=2), "base", Time(seconds=1), "map"

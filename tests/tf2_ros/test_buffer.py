@@ -69,7 +69,10 @@ def test_can_transform_is_a_number_or_a_tuple(buffer, stamped):
     known, reason = buffer.can_transform("world", "nothing", Time(), Duration(), True)
     assert (known, reason) == (
         0,
-        'Invalid frame ID "nothing" passed to canTransform argument source_frame - frame does not exist',
+        (
+            'Invalid frame ID "nothing" passed to canTransform argument source_frame - '
+            "frame does not exist"
+        ),
     )
     assert buffer.can_transform_full("world", at(1), "wall", at(2), "world") == 1
     assert (

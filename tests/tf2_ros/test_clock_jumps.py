@@ -37,7 +37,8 @@ from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 now, x = float(sys.argv[1]), float(sys.argv[2])
 rclpy.init()
 node = Node("world")
-clock, points = node.create_publisher(Clock, "/clock", 10), node.create_publisher(PointStamped, "point", 10)
+clock = node.create_publisher(Clock, "/clock", 10)
+points = node.create_publisher(PointStamped, "point", 10)
 broadcaster, static = TransformBroadcaster(node), StaticTransformBroadcaster(node)
 
 
@@ -89,7 +90,13 @@ import tf2_geometry_msgs
 rclpy.init(args=["filtering", "--ros-args", "-p", "use_sim_time:=true"])
 node, buffer = Node("filtering"), Buffer()
 TransformListener(buffer, node)
-filters = [MessageFilter(Subscriber(node, PointStamped, "point"), buffer, "world", 100, node, timeout=Duration(seconds=20)) for _ in "ab"]
+filters = [
+    MessageFilter(
+        Subscriber(node, PointStamped, "point"), buffer, "world", 100, node,
+        timeout=Duration(seconds=20),
+    )
+    for _ in "ab"
+]
 
 
 def handle(point, _same):

@@ -13,7 +13,8 @@ def test_one_link_as_ros_2_writes_it():
     tree = FrameTree([Link("turtle1", "world", "default_authority", False, 62.7, 12.5, 7.25, 5.25)])
     assert dot_from_tree(tree, "100.000000") == (
         "digraph G {\n"
-        '"world" -> "turtle1"[label=" Broadcaster: default_authority\\nAverage rate: 62.700\\nBuffer length: 5.250\\n'
+        '"world" -> "turtle1"[label=" Broadcaster: default_authority\\n'
+        "Average rate: 62.700\\nBuffer length: 5.250\\n"
         'Most recent transform: 12.500000\\nOldest transform: 7.250000\\n"];\n'
         "edge [style=invis];\n"
         ' subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'

@@ -24,9 +24,11 @@ node = TurtlesimNode(headless=True)
 user = rclpy.create_node("user")
 user.create_subscription(Pose, "/turtle7/pose", print, 1)
 names = dict(user.get_topic_names_and_types()) | dict(user.get_service_names_and_types())
-print(names["/turtle1/pose"], names["/turtle1/color_sensor"], names["/spawn"], names["/turtle1/rotate_absolute/_action/feedback"])
+print(names["/turtle1/pose"], names["/turtle1/color_sensor"], names["/spawn"],
+      names["/turtle1/rotate_absolute/_action/feedback"])
 print(type_name(Pose), type_name(turtlesim.srv.Spawn), type_name(turtlesim.action.RotateAbsolute))
-print(find_missing(node.context.wire.graph.endpoints(), "/", ["turtle1"]), node._missing.hint("turtle7").partition("/spawn ")[2].split()[0])
+print(find_missing(node.context.wire.graph.endpoints(), "/", ["turtle1"]),
+      node._missing.hint("turtle7").partition("/spawn ")[2].split()[0])
 """
 
 

@@ -31,7 +31,8 @@ def pixel(page, canvas: str, x: float, y: float) -> tuple[int, ...]:
     code = """([id, x, y]) => {
         const canvas = document.getElementById(id);
         const scale = canvas.width / 500;
-        const [column, row] = [x * 45 + 0.5, (499 / 45 - y) * 45 + 0.5].map((value) => Math.round(value * scale));
+        const pixels = [x * 45 + 0.5, (499 / 45 - y) * 45 + 0.5];
+        const [column, row] = pixels.map((value) => Math.round(value * scale));
         return [...canvas.getContext('2d').getImageData(column, row, 1, 1).data];
     }"""
     return tuple(page.evaluate(code, [canvas, x, y]))

@@ -151,7 +151,9 @@ def test_long_names_and_many_turtles_fit(simulator, open_page, width):
         const { FramesPanel } = await import('/js/frames_panel.js');
         const name = (k) => `a_frame_with_a_very_long_name_as_${k}_optical_link`;
         const frames = [0, 1, 2, 3].map((k) => [name(k + 1), name(k), 10, k]);
-        const relation = { error: `"${name(1)}" passed to lookupTransform argument source_frame does not exist. `, hint: name(2) };
+        const argument = `"${name(1)}" passed to lookupTransform argument source_frame`;
+        const error = `${argument} does not exist. `;
+        const relation = { error, hint: name(2) };
         new FramesPanel(() => null).show({ frames, target: name(0), source: name(1), relation });
     }""")
     assert page.evaluate("document.documentElement.scrollWidth") <= width

@@ -55,7 +55,8 @@ def test_transforms_in_words(js):
     said = js(
         """
         const { transformInWords } = await import('/js/words.js');
-        return given.map(([translation, z_w]) => transformInWords('turtle1', 'turtle2', { translation, rotation: [0, 0, ...z_w] }));
+        return given.map(([translation, z_w]) => transformInWords(
+            'turtle1', 'turtle2', { translation, rotation: [0, 0, ...z_w] }));
         """,
         [case[:2] for case in SENTENCES],
     )
@@ -65,12 +66,14 @@ def test_transforms_in_words(js):
 PLAYBACK = """
     const { Playback } = await import('/js/frames.js');
     const playback = new Playback();
-    const pose = (tick) => new Float32Array([tick * 0.032 + (tick > given.jump ? 5 : 0), 1, 0, 2, 0]);
+    const x = (tick) => tick * 0.032 + (tick > given.jump ? 5 : 0);
+    const pose = (tick) => new Float32Array([x(tick), 1, 0, 2, 0]);
     const frame = (tick) => ({ tick, version: 0, turtleCount: 1, poses: pose(tick) });
     const seen = [];
     let sent = 0;
     for (let now = 0; now < 2000; now += given.display) {
-        while (16 * given.ticks * sent + given.late[sent % given.late.length] <= now) playback.push(frame(given.ticks * sent++));
+        const due = () => 16 * given.ticks * sent + given.late[sent % given.late.length];
+        while (due() <= now) playback.push(frame(given.ticks * sent++));
         const poses = playback.sample(now);
         if (poses) seen.push(poses[0].x);
     }
@@ -131,7 +134,8 @@ def test_the_drawing_forgets_its_oldest_half_when_it_is_full(js):
         const { Trails } = await import('/js/trails.js');
         const trails = new Trails();
         const many = 150_000;
-        const strokes = { count: many, points: new Float32Array(5 * many), pens: new Uint32Array(5 * many) };
+        const points = new Float32Array(5 * many);
+        const strokes = { count: many, points, pens: new Uint32Array(5 * many) };
         for (let k = 0; k < 3; k += 1) trails.append(strokes);
         return trails.count;
         """

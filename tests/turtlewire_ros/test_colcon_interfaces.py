@@ -67,13 +67,15 @@ source {prefix}/setup.bash
 colcon build > build.log 2>&1 || {{ cat build.log; exit 1; }}
 tail -1 build.log | cut -d[ -f1
 source install/local_setup.bash
-python -c 'from my_interfaces.msg import Sphere; from my_interfaces.srv import AddSphere; from my_interfaces.action import Roll
+python -c 'from my_interfaces.msg import Sphere
+from my_interfaces.srv import AddSphere; from my_interfaces.action import Roll
 print(Sphere(radius=2.0), AddSphere.Request().sphere.radius, Roll.Result().where == Sphere())
 from more_interfaces.msg import Pair; print(Pair().spheres[1] == Sphere())'
 ros2 interface show my_interfaces/msg/Sphere
 ros2 pkg prefix more_interfaces
 ros2 topic echo --once /sphere my_interfaces/msg/Sphere > heard.txt &
-ros2 topic pub --once -w 1 /sphere my_interfaces/msg/Sphere '{{center: {{x: 1.0}}, radius: 5}}' > said.txt
+ros2 topic pub --once -w 1 /sphere my_interfaces/msg/Sphere \\
+    '{{center: {{x: 1.0}}, radius: 5}}' > said.txt
 wait
 cat heard.txt
 colcon build --packages-select more_interfaces > build.log 2>&1 || {{ cat build.log; exit 1; }}

@@ -74,7 +74,10 @@ def test_rosdep_finds_its_cache(wheel):
 def test_shell_files_set_the_environment_once(wheel, tmp_path, name):
     for file in ("setup.bash", "local_setup.bash", "local_setup.sh"):
         (tmp_path / file).write_bytes(wheel.read(DATA + file))
-    show = 'echo "$AMENT_PREFIX_PATH|$ROS_DISTRO|$ROS_VERSION|$ROS_PYTHON_VERSION|$ROS_HOME|$ROS_LOG_DIR"'
+    show = (
+        'echo "$AMENT_PREFIX_PATH|$ROS_DISTRO|$ROS_VERSION|$ROS_PYTHON_VERSION|$ROS_HOME|'
+        '$ROS_LOG_DIR"'
+    )
     shell = "bash" if name.endswith("bash") else "sh"
     script = f"set -eu; . {tmp_path}/{name}; . {tmp_path}/{name}; {show}"
     environment = {

@@ -109,7 +109,8 @@ pip = "import os, sys, time; os.write(int(sys.argv[1]), b'pip runs'); time.sleep
 import os, subprocess
 told, tell = os.pipe()
 start = subprocess.Popen
-subprocess.Popen = lambda command, **options: start([*command, str(tell)], pass_fds=[tell], **options)
+subprocess.Popen = lambda command, **options: start(
+    [*command, str(tell)], pass_fds=[tell], **options)
 module.show_progress = lambda text: text and print(os.read(told, 100).decode(), flush=True)
 module.main = lambda extras: module.checked([sys.executable, "-c", pip])
 sys.exit(module.run([]))

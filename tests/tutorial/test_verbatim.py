@@ -18,9 +18,15 @@ ROS2 = Path(sys.executable).parent / "ros2"
 VERBATIM = HERE / "verbatim" / "learning_tf2_py"
 GOLDEN = HERE.parent / "golden" / "tutorial" / "main"
 LISTINGS = {
-    "learning_tf2_py/turtle_tf2_broadcaster.py": "c3f2063ce831a95193191752eba4c8d7227d6ce85de754019467be162ae0f8ab",
-    "learning_tf2_py/turtle_tf2_listener.py": "092ec3f9d2a181b4bccb2c851a05054db6fbc6e86449b9ecee8acefc55117892",
-    "launch/turtle_tf2_demo.launch.py": "6b4c39bd73a786080deff6e04930817069a525fa61bf7d0b57344021e7bb8017",
+    "learning_tf2_py/turtle_tf2_broadcaster.py": (
+        "c3f2063ce831a95193191752eba4c8d7227d6ce85de754019467be162ae0f8ab"
+    ),
+    "learning_tf2_py/turtle_tf2_listener.py": (
+        "092ec3f9d2a181b4bccb2c851a05054db6fbc6e86449b9ecee8acefc55117892"
+    ),
+    "launch/turtle_tf2_demo.launch.py": (
+        "6b4c39bd73a786080deff6e04930817069a525fa61bf7d0b57344021e7bb8017"
+    ),
 }
 COULD_NOT = (
     r"^\[turtle_tf2_listener-4\] \[INFO\] \[(\d+\.\d+)\] \[listener\]: (Could not retrieve "

@@ -255,7 +255,8 @@ def test_a_domain_that_is_full_says_so():
     code = (
         "from turtlewire.wire.cyclone import participant; participant.max_processes = lambda _: 1\n"
     )
-    code += "from turtlewire.wire import open_context; c = open_context(); print('there', flush=True); input()"
+    code += "from turtlewire.wire import open_context; c = open_context()\n"
+    code += "print('there', flush=True); input()"
     limit = "<Discovery><MaxAutoParticipantIndex>1</MaxAutoParticipantIndex></Discovery>"
     variables = os.environ | {"ROS_DOMAIN_ID": OWN_DOMAIN, "CYCLONEDDS_URI": limit}
     command = [sys.executable, "-c", code]

@@ -30,8 +30,10 @@ LATCHED = QoS(depth=100, durability=Durability.TRANSIENT_LOCAL)
 LIVE = QoS(depth=100)
 #: What a real rmw_cyclonedds tells Cyclone in LOCALHOST range.
 RMW_CYCLONEDDS_LOCALHOST = (
-    "<General><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    '<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="localhost"/></Peers></Discovery>'
+    "<General><AllowMulticast>false</AllowMulticast></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+    '<Peers><Peer address="localhost"/></Peers></Discovery>'
 )
 TYPES = {
     "tf": "tf2_msgs/msg/TFMessage",
@@ -229,9 +231,8 @@ def test_payloads_that_are_no_messages_are_dropped_and_said_once(
                 except CdrError:
                     errors += 1
     assert received == ["good"]
-    assert (
-        errors == 2
-    )  # the big-endian one comes with the header of a little-endian one: to us its string is far too long
+    # The big-endian message has a little-endian header, so its string seems far too long.
+    assert errors == 2
     assert capfd.readouterr().err.count("dropped a message on /broken") == 1
 
 

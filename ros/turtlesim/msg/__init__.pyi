@@ -14,7 +14,14 @@ class Color(Message):
     r: int
     g: int
     b: int
-    def __init__(self, *, r: int = ..., g: int = ..., b: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        r: int = ...,
+        g: int = ...,
+        b: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Pose(Message):
     x: float
@@ -22,4 +29,13 @@ class Pose(Message):
     theta: float
     linear_velocity: float
     angular_velocity: float
-    def __init__(self, *, x: float = ..., y: float = ..., theta: float = ..., linear_velocity: float = ..., angular_velocity: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x: float = ...,
+        y: float = ...,
+        theta: float = ...,
+        linear_velocity: float = ...,
+        angular_velocity: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -1,4 +1,5 @@
-# The environment of this prefix, for shells that cannot tell where a sourced file lies: TURTLEWIRE_PREFIX says so.
+# The environment of this prefix, for shells that cannot tell where a sourced file lies:
+# TURTLEWIRE_PREFIX says so.
 # shellcheck shell=sh
 _turtlewire_prefix="${AMENT_CURRENT_PREFIX:-${TURTLEWIRE_PREFIX:-${VIRTUAL_ENV:-}}}"
 if [ ! -f "$_turtlewire_prefix/local_setup.sh" ]; then

@@ -5,9 +5,13 @@ if [ "${VIRTUAL_ENV:-}" != "$_turtlewire_root" ] && [ -f "$_turtlewire_root/bin/
 fi
 . "$_turtlewire_root/local_setup.bash"
 case "$_turtlewire_root" in
-*\ *) echo "turtlewire: there is a space in $_turtlewire_root; the install/*setup.bash that colcon makes with it will not work" >&2 ;;
+*\ *)
+    echo "turtlewire: there is a space in $_turtlewire_root; the install/*setup.bash that colcon" \
+        "makes with it will not work" >&2
+    ;;
 esac
 unset _turtlewire_root
 if [ -n "${PS1:-}" ] && command -v register-python-argcomplete > /dev/null; then
-    eval "$(register-python-argcomplete --no-defaults ros2 turtlewire)" # completion by TAB, in interactive shells
+    # Completion by TAB, in interactive shells.
+    eval "$(register-python-argcomplete --no-defaults ros2 turtlewire)"
 fi

@@ -1,4 +1,4 @@
-# source <venv>/setup.fish: what `source /opt/ros/jazzy/setup.bash` is in bash on a machine with ROS.
+# source <venv>/setup.fish: for fish, what /opt/ros/jazzy/setup.bash is on a machine with ROS.
 set -l root (builtin realpath (dirname (status filename)))
 if test "$VIRTUAL_ENV" != $root; and test -f $root/bin/activate.fish
     source $root/bin/activate.fish

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["module_stub"]
 
+_LINE_LENGTH = 100
+
 
 def module_stub(package: str, kind: str, names: Iterable[str]) -> str:
     """Text of the stub of one module.
@@ -74,10 +76,17 @@ class _StubWriter:
         parameters = [
             f"{field.name}: {self.accepted(field.type)} = ..." for field in definition.fields
         ]
-        self.lines.append(
-            f"    def __init__(self, *, {', '.join([*parameters, 'check_fields: bool = ...'])}) "
-            "-> None: ..."
-        )
+        self.method("__init__", ["*", *parameters, "check_fields: bool = ..."])
+
+    def method(self, name: str, parameters: list[str]) -> None:
+        """A method that returns None, in one line if it fits."""
+        line = f"    def {name}({', '.join(['self', *parameters])}) -> None: ..."
+        if len(line) <= _LINE_LENGTH:
+            self.lines.append(line)
+        else:
+            self.lines.append(f"    def {name}(")
+            self.lines += [f"        {parameter}," for parameter in ["self", *parameters]]
+            self.lines.append("    ) -> None: ...")
 
     def field(self, field: Field) -> None:
         if element_code(field.type):
@@ -121,9 +130,11 @@ class _StubWriter:
 
     def parts(self, name: str, base: str, *parts: str) -> None:
         arguments = [part for part in parts if part != "Event"]
+        bases = f"{base}[{', '.join(f'{name}_{part}' for part in arguments)}]"
+        line = f"class {name}({bases}):"
         self.lines += [
             "",
-            f"class {name}({base}[{', '.join(f'{name}_{part}' for part in arguments)}]):",
+            *([line] if len(line) <= _LINE_LENGTH else [f"class {name}(", f"    {bases}", "):"]),
             *(f"    {part}: TypeAlias = {name}_{part}" for part in parts),
         ]
 

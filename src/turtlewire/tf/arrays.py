@@ -1,4 +1,7 @@
-"""Poses as NumPy arrays. The only module of the buffer that imports NumPy, and only when an array is asked for."""
+"""Poses as NumPy arrays.
+
+The buffer imports NumPy only here, and only when an array is asked for.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,10 @@ def pose_array(
 
 
 def pose_matrix(transform: HasPose) -> NDArray[np.float64]:
-    """The homogeneous matrix of a transform, shape ``(4, 4)``, acting on column vectors from the left."""
+    """The homogeneous matrix of a transform, shape ``(4, 4)``.
+
+    It multiplies column vectors from the left.
+    """
     x, y, z, w = transform.rotation
     matrix = np.eye(4)
     matrix[:3, :3] = (

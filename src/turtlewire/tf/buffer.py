@@ -21,8 +21,9 @@ __all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
 
 _UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 _ADVICE = (
-    "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same answers). "
-    "For the fast one install a C++ compiler and Python's headers (Debian: apt install g++ python3-dev) and install turtlewire again."
+    "turtlewire: the compiled core is not built, the plain-Python one is used (slower, same "
+    "answers). For the fast one install a C++ compiler and Python's headers (Debian: apt install "
+    "g++ python3-dev) and install turtlewire again."
 )
 
 

@@ -69,7 +69,9 @@ def matrix_from_quaternion(quaternion: ArrayLike) -> Array:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Array:
-    """Quaternions, shape ``(..., 4)``, of rotation matrices, shape ``(..., 3, 3)``; what they scale or shear is not looked for.
+    """Quaternions, shape ``(..., 4)``, of rotation matrices, shape ``(..., 3, 3)``.
+
+    Scale and shear are not detected.
 
     Raises:
         ValueError: The last two axes are not 3 by 3.

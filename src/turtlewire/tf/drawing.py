@@ -9,9 +9,12 @@ from xml.sax.saxutils import escape
 __all__ = ["Box", "Drawing", "Line", "Shape", "Text", "svg_from_drawing", "text_width"]
 
 _ASCII_WIDTHS = (
-    "278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 556 556 556 556 556 556 556 556 556 556 278 278 584 584 584 556 "
-    "1015 667 667 722 722 667 611 778 722 278 500 667 556 833 722 778 667 778 722 667 611 722 667 944 667 667 611 278 278 278 469 556 "
-    "333 556 556 500 556 556 278 556 556 222 222 500 222 833 556 556 556 556 333 500 278 556 500 722 500 500 500 334 260 334 584"
+    "278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 "
+    "556 556 556 556 556 556 556 556 556 556 278 278 584 584 584 556 "
+    "1015 667 667 722 722 667 611 778 722 278 500 667 556 833 722 778 "
+    "667 778 722 667 611 722 667 944 667 667 611 278 278 278 469 556 "
+    "333 556 556 500 556 556 278 556 556 222 222 500 222 833 556 556 "
+    "556 556 333 500 278 556 500 722 500 500 500 334 260 334 584"
 )
 #: Of Helvetica and its like, in thousandths of the size, from the space on.
 _WIDTHS = tuple(map(int, _ASCII_WIDTHS.split()))
@@ -74,7 +77,8 @@ def svg_from_drawing(drawing: Drawing) -> str:
     """The drawing as a complete SVG document, which may stand in a page as it is."""
     width, height = f"{drawing.width:.0f}", f"{drawing.height:.0f}"
     opening = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        f'viewBox="0 0 {width} {height}" '
         'style="max-width:100%;height:auto" font-family="Helvetica, Arial, sans-serif">'
     )
     return "\n".join([opening, *map(_element, drawing.shapes), "</svg>\n"])
@@ -83,11 +87,20 @@ def svg_from_drawing(drawing: Drawing) -> str:
 def _element(shape: Shape) -> str:
     if isinstance(shape, Box):
         x, y, width, height = (f"{value:.1f}" for value in shape[:4])
-        return f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="4" fill="#ffffff" stroke="{shape.colour}"/>'
+        return (
+            f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="4" fill="#ffffff" '
+            f'stroke="{shape.colour}"/>'
+        )
     if isinstance(shape, Line):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
         dashes = ' stroke-dasharray="5 3"' if shape.dashed else ""
-        return f'<polyline points="{points}" fill="none" stroke="{shape.colour}" stroke-width="{shape.width:g}"{dashes}/>'
+        return (
+            f'<polyline points="{points}" fill="none" stroke="{shape.colour}" '
+            f'stroke-width="{shape.width:g}"{dashes}/>'
+        )
     weight = ' font-weight="bold"' if shape.bold else ""
     text = escape(_NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", shape.text))
-    return f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill="{shape.colour}"{weight}>{text}</text>'
+    return (
+        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" '
+        f'fill="{shape.colour}"{weight}>{text}</text>'
+    )

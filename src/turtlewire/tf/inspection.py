@@ -1,4 +1,4 @@
-"""What is going on in a buffer: who sends which link how often, what was refused and why, and who contradicts whom.
+"""What a buffer has received: senders and rates of links, refused transforms, and conflicts.
 
 Also saves a buffer to a file and loads it again.
 """
@@ -45,7 +45,11 @@ class Refused(NamedTuple):
     """What was refused of one child frame."""
 
     counts: dict[str, int]
-    """By reason: self_transform, no_child_frame, no_parent_frame, nan_value, old_data, reserved_name, bad_name."""
+    """Counts by reason.
+
+    The reasons are self_transform, no_child_frame, no_parent_frame, nan_value, old_data,
+    reserved_name and bad_name.
+    """
     last: str
     """The reason of the last one in tf2's words."""
 
@@ -97,23 +101,32 @@ def conflicts(buffer: Buffer) -> list[Conflict]:
         names = sorted({sender.name for sender in active})
         parents = sorted({sender.parent_frame for sender in active})
         if len(names) > 1:
-            text = f"'{link.child_frame}' is sent by {' and '.join(map(repr, names))}; each frame should have one publisher."
+            text = (
+                f"'{link.child_frame}' is sent by {' and '.join(map(repr, names))}; "
+                "each frame should have one publisher."
+            )
             found.append(Conflict("two publishers", link.child_frame, text))
         if len(parents) > 1 and (link.static or link.parent_changes > 1):
             both = " and ".join(map(repr, parents))
-            text = f"'{link.child_frame}' goes back and forth between the parents {both}; a frame has one parent."
+            text = (
+                f"'{link.child_frame}' goes back and forth between the parents {both}; "
+                "a frame has one parent."
+            )
             found.append(Conflict("two parents", link.child_frame, text))
     return found
 
 
 def save(buffer: Buffer, path: str | PathLike[str]) -> None:
-    """Write all samples and static transforms to a file (NumPy's ``.npz``, without pickled objects)."""
+    """Write all samples and static transforms to a file.
+
+    The format is NumPy's ``.npz``, without pickled objects.
+    """
     with open(path, "wb") as file:
         _write(buffer, file)
 
 
 def dumps(buffer: Buffer) -> bytes:
-    """The same as bytes."""
+    """The bytes that :func:`save` writes."""
     import io
 
     file = io.BytesIO()

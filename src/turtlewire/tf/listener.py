@@ -1,4 +1,6 @@
-"""Fills buffers from the wire: the bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
+"""Fills buffers from the wire.
+
+The bytes of each ``TFMessage`` go into the buffer as they are, on a thread of the wire.
 
 No message object is made and no executor takes part, so a lookup may wait for data wherever it is
 called. All buffers of one context that listen to a topic share one subscription, and each keeps its
@@ -108,7 +110,9 @@ class _Arrivals:
 
 
 class _Feed:
-    """What a subscription calls, on the reader thread: hands the bytes to all members, with the publisher's name.
+    """Hands the bytes of a message, with the publisher's name, to all members.
+
+    The subscription calls it on the reader thread.
 
     Attributes:
         intake: Does the same without Python, once it knows the publisher's name; None with the

@@ -60,7 +60,7 @@ def buffer_svg(buffer: HasLinks) -> str:
 
 
 def transform_html(transform: Stamped) -> str:
-    """A transform in numbers, and the axes of its two frames as a picture, if there is room for them on a page."""
+    """A transform in numbers, and a picture of the axes of its two frames if they fit on a page."""
     target, source = escape(transform.frame_id), escape(transform.child_frame_id)
     roll, pitch, yaw = (
         f"{math.degrees(angle):.2f}"
@@ -81,7 +81,8 @@ def transform_html(transform: Stamped) -> str:
     )
     return (
         '<div style="display:flex;align-items:center;gap:1em">'
-        f"<table><caption>Where <b>{source}</b> is, seen from <b>{target}</b></caption>{cells}</table>"
+        f"<table><caption>Where <b>{source}</b> is, seen from <b>{target}</b></caption>"
+        f"{cells}</table>"
         f"{picture}</div>"
     )
 

@@ -16,7 +16,9 @@ _MOST = 1000  # publishers come and go; beyond this many, all are looked up anew
 
 
 class PublisherNames(dict[bytes, str]):
-    """The full name of the node that owns a publisher, by gid; the gid in hex until the graph knows the node. Thread-safe.
+    """Full names of the nodes that own publishers, by gid. Thread-safe.
+
+    The gid in hex stands for the name until the graph knows the node.
 
     A name that is known costs the lookup in a dict.
 

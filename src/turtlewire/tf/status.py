@@ -8,7 +8,7 @@ __all__ = ["LookupStatus"]
 
 
 class LookupStatus(IntEnum):
-    """Whether a lookup had an answer, and why not; each corresponds to an exception of a single lookup."""
+    """The outcome of one lookup of a batch; each failure has its exception in single lookups."""
 
     OK = 0
     EMPTY_NAME = 1

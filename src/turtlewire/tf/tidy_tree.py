@@ -1,4 +1,7 @@
-"""Where the nodes of a tree stand: children beside each other under the middle of their parent, subtrees as close as they can."""
+"""Positions of the nodes of a drawn tree.
+
+Children stand beside each other, centred below their parent, and subtrees as close as possible.
+"""
 
 from __future__ import annotations
 

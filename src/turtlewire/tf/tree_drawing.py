@@ -1,4 +1,7 @@
-"""The picture of a tree of frames: a card for each frame, with the figures of the link to its parent."""
+"""The picture of a tree of frames.
+
+Each frame is a card with the figures of the link to its parent.
+"""
 
 from __future__ import annotations
 

@@ -16,7 +16,13 @@ __all__ = [
 class GoalInfo(Message):
     goal_id: unique_identifier_msgs.msg.UUID
     stamp: builtin_interfaces.msg.Time
-    def __init__(self, *, goal_id: unique_identifier_msgs.msg.UUID = ..., stamp: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_id: unique_identifier_msgs.msg.UUID = ...,
+        stamp: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GoalStatus(Message):
     STATUS_UNKNOWN: ClassVar[int]
@@ -28,8 +34,19 @@ class GoalStatus(Message):
     STATUS_ABORTED: ClassVar[int]
     goal_info: GoalInfo
     status: int
-    def __init__(self, *, goal_info: GoalInfo = ..., status: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_info: GoalInfo = ...,
+        status: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GoalStatusArray(Message):
     status_list: list[GoalStatus]
-    def __init__(self, *, status_list: list[GoalStatus] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        status_list: list[GoalStatus] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -13,7 +13,12 @@ __all__ = [
 
 class CancelGoal_Request(Message):
     goal_info: action_msgs.msg.GoalInfo
-    def __init__(self, *, goal_info: action_msgs.msg.GoalInfo = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_info: action_msgs.msg.GoalInfo = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class CancelGoal_Response(Message):
     ERROR_NONE: ClassVar[int]
@@ -22,13 +27,26 @@ class CancelGoal_Response(Message):
     ERROR_GOAL_TERMINATED: ClassVar[int]
     return_code: int
     goals_canceling: list[action_msgs.msg.GoalInfo]
-    def __init__(self, *, return_code: int = ..., goals_canceling: list[action_msgs.msg.GoalInfo] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        return_code: int = ...,
+        goals_canceling: list[action_msgs.msg.GoalInfo] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class CancelGoal_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[CancelGoal_Request]
     response: list[CancelGoal_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[CancelGoal_Request] = ..., response: list[CancelGoal_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[CancelGoal_Request] = ...,
+        response: list[CancelGoal_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class CancelGoal(Service[CancelGoal_Request, CancelGoal_Response]):
     Request: TypeAlias = CancelGoal_Request

@@ -23,13 +23,26 @@ class ListNodes_Response(Message):
     def unique_ids(self) -> array.array[int]: ...
     @unique_ids.setter
     def unique_ids(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, full_node_names: list[str] = ..., unique_ids: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        full_node_names: list[str] = ...,
+        unique_ids: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListNodes_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[ListNodes_Request]
     response: list[ListNodes_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListNodes_Request] = ..., response: list[ListNodes_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[ListNodes_Request] = ...,
+        response: list[ListNodes_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListNodes(Service[ListNodes_Request, ListNodes_Response]):
     Request: TypeAlias = ListNodes_Request
@@ -45,20 +58,47 @@ class LoadNode_Request(Message):
     remap_rules: list[str]
     parameters: list[rcl_interfaces.msg.Parameter]
     extra_arguments: list[rcl_interfaces.msg.Parameter]
-    def __init__(self, *, package_name: str = ..., plugin_name: str = ..., node_name: str = ..., node_namespace: str = ..., log_level: int = ..., remap_rules: list[str] = ..., parameters: list[rcl_interfaces.msg.Parameter] = ..., extra_arguments: list[rcl_interfaces.msg.Parameter] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        package_name: str = ...,
+        plugin_name: str = ...,
+        node_name: str = ...,
+        node_namespace: str = ...,
+        log_level: int = ...,
+        remap_rules: list[str] = ...,
+        parameters: list[rcl_interfaces.msg.Parameter] = ...,
+        extra_arguments: list[rcl_interfaces.msg.Parameter] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoadNode_Response(Message):
     success: bool
     error_message: str
     full_node_name: str
     unique_id: int
-    def __init__(self, *, success: bool = ..., error_message: str = ..., full_node_name: str = ..., unique_id: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        error_message: str = ...,
+        full_node_name: str = ...,
+        unique_id: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoadNode_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[LoadNode_Request]
     response: list[LoadNode_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadNode_Request] = ..., response: list[LoadNode_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[LoadNode_Request] = ...,
+        response: list[LoadNode_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoadNode(Service[LoadNode_Request, LoadNode_Response]):
     Request: TypeAlias = LoadNode_Request
@@ -72,13 +112,26 @@ class UnloadNode_Request(Message):
 class UnloadNode_Response(Message):
     success: bool
     error_message: str
-    def __init__(self, *, success: bool = ..., error_message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        error_message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UnloadNode_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[UnloadNode_Request]
     response: list[UnloadNode_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[UnloadNode_Request] = ..., response: list[UnloadNode_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[UnloadNode_Request] = ...,
+        response: list[UnloadNode_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UnloadNode(Service[UnloadNode_Request, UnloadNode_Response]):
     Request: TypeAlias = UnloadNode_Request

@@ -15,7 +15,13 @@ __all__ = [
 class DiagnosticArray(Message):
     header: std_msgs.msg.Header
     status: list[DiagnosticStatus]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., status: list[DiagnosticStatus] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        status: list[DiagnosticStatus] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class DiagnosticStatus(Message):
     OK: ClassVar[bytes]
@@ -27,7 +33,16 @@ class DiagnosticStatus(Message):
     message: str
     hardware_id: str
     values: list[KeyValue]
-    def __init__(self, *, level: bytes = ..., name: str = ..., message: str = ..., hardware_id: str = ..., values: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        level: bytes = ...,
+        name: str = ...,
+        message: str = ...,
+        hardware_id: str = ...,
+        values: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class KeyValue(Message):
     key: str

@@ -19,13 +19,26 @@ class AddDiagnostics_Request(Message):
 class AddDiagnostics_Response(Message):
     success: bool
     message: str
-    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class AddDiagnostics_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[AddDiagnostics_Request]
     response: list[AddDiagnostics_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddDiagnostics_Request] = ..., response: list[AddDiagnostics_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[AddDiagnostics_Request] = ...,
+        response: list[AddDiagnostics_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class AddDiagnostics(Service[AddDiagnostics_Request, AddDiagnostics_Response]):
     Request: TypeAlias = AddDiagnostics_Request
@@ -39,13 +52,27 @@ class SelfTest_Response(Message):
     id: str
     passed: bytes
     status: list[diagnostic_msgs.msg.DiagnosticStatus]
-    def __init__(self, *, id: str = ..., passed: bytes = ..., status: list[diagnostic_msgs.msg.DiagnosticStatus] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        id: str = ...,
+        passed: bytes = ...,
+        status: list[diagnostic_msgs.msg.DiagnosticStatus] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SelfTest_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SelfTest_Request]
     response: list[SelfTest_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SelfTest_Request] = ..., response: list[SelfTest_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SelfTest_Request] = ...,
+        response: list[SelfTest_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SelfTest(Service[SelfTest_Request, SelfTest_Response]):
     Request: TypeAlias = SelfTest_Request

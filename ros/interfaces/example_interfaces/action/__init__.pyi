@@ -36,23 +36,48 @@ class Fibonacci_Feedback(Message):
 class Fibonacci_FeedbackMessage(Message):
     goal_id: unique_identifier_msgs.msg.UUID
     feedback: Fibonacci_Feedback
-    def __init__(self, *, goal_id: unique_identifier_msgs.msg.UUID = ..., feedback: Fibonacci_Feedback = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_id: unique_identifier_msgs.msg.UUID = ...,
+        feedback: Fibonacci_Feedback = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_SendGoal_Request(Message):
     goal_id: unique_identifier_msgs.msg.UUID
     goal: Fibonacci_Goal
-    def __init__(self, *, goal_id: unique_identifier_msgs.msg.UUID = ..., goal: Fibonacci_Goal = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_id: unique_identifier_msgs.msg.UUID = ...,
+        goal: Fibonacci_Goal = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_SendGoal_Response(Message):
     accepted: bool
     stamp: builtin_interfaces.msg.Time
-    def __init__(self, *, accepted: bool = ..., stamp: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        accepted: bool = ...,
+        stamp: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_SendGoal_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Fibonacci_SendGoal_Request]
     response: list[Fibonacci_SendGoal_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_SendGoal_Request] = ..., response: list[Fibonacci_SendGoal_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Fibonacci_SendGoal_Request] = ...,
+        response: list[Fibonacci_SendGoal_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_SendGoal(Service[Fibonacci_SendGoal_Request, Fibonacci_SendGoal_Response]):
     Request: TypeAlias = Fibonacci_SendGoal_Request
@@ -61,18 +86,36 @@ class Fibonacci_SendGoal(Service[Fibonacci_SendGoal_Request, Fibonacci_SendGoal_
 
 class Fibonacci_GetResult_Request(Message):
     goal_id: unique_identifier_msgs.msg.UUID
-    def __init__(self, *, goal_id: unique_identifier_msgs.msg.UUID = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_id: unique_identifier_msgs.msg.UUID = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_GetResult_Response(Message):
     status: int
     result: Fibonacci_Result
-    def __init__(self, *, status: int = ..., result: Fibonacci_Result = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        status: int = ...,
+        result: Fibonacci_Result = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_GetResult_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Fibonacci_GetResult_Request]
     response: list[Fibonacci_GetResult_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Fibonacci_GetResult_Request] = ..., response: list[Fibonacci_GetResult_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Fibonacci_GetResult_Request] = ...,
+        response: list[Fibonacci_GetResult_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Fibonacci_GetResult(Service[Fibonacci_GetResult_Request, Fibonacci_GetResult_Response]):
     Request: TypeAlias = Fibonacci_GetResult_Request

@@ -49,7 +49,13 @@ class Byte(Message):
 class ByteMultiArray(Message):
     layout: MultiArrayLayout
     data: list[bytes]
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: list[bytes] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: list[bytes] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Char(Message):
     data: int
@@ -68,7 +74,13 @@ class Float32MultiArray(Message):
     def data(self) -> array.array[float]: ...
     @data.setter
     def data(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Float64(Message):
     data: float
@@ -80,7 +92,13 @@ class Float64MultiArray(Message):
     def data(self) -> array.array[float]: ...
     @data.setter
     def data(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int8(Message):
     data: int
@@ -92,7 +110,13 @@ class Int8MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int16(Message):
     data: int
@@ -104,7 +128,13 @@ class Int16MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int32(Message):
     data: int
@@ -116,7 +146,13 @@ class Int32MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int64(Message):
     data: int
@@ -128,18 +164,37 @@ class Int64MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiArrayDimension(Message):
     label: str
     size: int
     stride: int
-    def __init__(self, *, label: str = ..., size: int = ..., stride: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        label: str = ...,
+        size: int = ...,
+        stride: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiArrayLayout(Message):
     dim: list[MultiArrayDimension]
     data_offset: int
-    def __init__(self, *, dim: list[MultiArrayDimension] = ..., data_offset: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        dim: list[MultiArrayDimension] = ...,
+        data_offset: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class String(Message):
     data: str
@@ -155,7 +210,13 @@ class UInt8MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt16(Message):
     data: int
@@ -167,7 +228,13 @@ class UInt16MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt32(Message):
     data: int
@@ -179,7 +246,13 @@ class UInt32MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt64(Message):
     data: int
@@ -191,7 +264,13 @@ class UInt64MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class WString(Message):
     data: str

@@ -25,7 +25,14 @@ class AddTwoInts_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[AddTwoInts_Request]
     response: list[AddTwoInts_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[AddTwoInts_Request] = ..., response: list[AddTwoInts_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[AddTwoInts_Request] = ...,
+        response: list[AddTwoInts_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class AddTwoInts(Service[AddTwoInts_Request, AddTwoInts_Response]):
     Request: TypeAlias = AddTwoInts_Request
@@ -39,13 +46,26 @@ class SetBool_Request(Message):
 class SetBool_Response(Message):
     success: bool
     message: str
-    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetBool_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetBool_Request]
     response: list[SetBool_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetBool_Request] = ...,
+        response: list[SetBool_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetBool(Service[SetBool_Request, SetBool_Response]):
     Request: TypeAlias = SetBool_Request
@@ -58,13 +78,26 @@ class Trigger_Request(Message):
 class Trigger_Response(Message):
     success: bool
     message: str
-    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Trigger_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Trigger_Request]
     response: list[Trigger_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Trigger_Request] = ...,
+        response: list[Trigger_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Trigger(Service[Trigger_Request, Trigger_Response]):
     Request: TypeAlias = Trigger_Request

@@ -67,11 +67,26 @@ class TransitionDescription(Message):
     transition: Transition
     start_state: State
     goal_state: State
-    def __init__(self, *, transition: Transition = ..., start_state: State = ..., goal_state: State = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        transition: Transition = ...,
+        start_state: State = ...,
+        goal_state: State = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TransitionEvent(Message):
     timestamp: int
     transition: Transition
     start_state: State
     goal_state: State
-    def __init__(self, *, timestamp: int = ..., transition: Transition = ..., start_state: State = ..., goal_state: State = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        timestamp: int = ...,
+        transition: Transition = ...,
+        start_state: State = ...,
+        goal_state: State = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

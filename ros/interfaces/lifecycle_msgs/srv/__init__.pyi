@@ -16,7 +16,12 @@ __all__ = [
 
 class ChangeState_Request(Message):
     transition: lifecycle_msgs.msg.Transition
-    def __init__(self, *, transition: lifecycle_msgs.msg.Transition = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        transition: lifecycle_msgs.msg.Transition = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ChangeState_Response(Message):
     success: bool
@@ -26,7 +31,14 @@ class ChangeState_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[ChangeState_Request]
     response: list[ChangeState_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ChangeState_Request] = ..., response: list[ChangeState_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[ChangeState_Request] = ...,
+        response: list[ChangeState_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ChangeState(Service[ChangeState_Request, ChangeState_Response]):
     Request: TypeAlias = ChangeState_Request
@@ -38,13 +50,25 @@ class GetAvailableStates_Request(Message):
 
 class GetAvailableStates_Response(Message):
     available_states: list[lifecycle_msgs.msg.State]
-    def __init__(self, *, available_states: list[lifecycle_msgs.msg.State] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        available_states: list[lifecycle_msgs.msg.State] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetAvailableStates_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetAvailableStates_Request]
     response: list[GetAvailableStates_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableStates_Request] = ..., response: list[GetAvailableStates_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetAvailableStates_Request] = ...,
+        response: list[GetAvailableStates_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetAvailableStates(Service[GetAvailableStates_Request, GetAvailableStates_Response]):
     Request: TypeAlias = GetAvailableStates_Request
@@ -56,15 +80,29 @@ class GetAvailableTransitions_Request(Message):
 
 class GetAvailableTransitions_Response(Message):
     available_transitions: list[lifecycle_msgs.msg.TransitionDescription]
-    def __init__(self, *, available_transitions: list[lifecycle_msgs.msg.TransitionDescription] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        available_transitions: list[lifecycle_msgs.msg.TransitionDescription] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetAvailableTransitions_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetAvailableTransitions_Request]
     response: list[GetAvailableTransitions_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetAvailableTransitions_Request] = ..., response: list[GetAvailableTransitions_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetAvailableTransitions_Request] = ...,
+        response: list[GetAvailableTransitions_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
-class GetAvailableTransitions(Service[GetAvailableTransitions_Request, GetAvailableTransitions_Response]):
+class GetAvailableTransitions(
+    Service[GetAvailableTransitions_Request, GetAvailableTransitions_Response]
+):
     Request: TypeAlias = GetAvailableTransitions_Request
     Response: TypeAlias = GetAvailableTransitions_Response
     Event: TypeAlias = GetAvailableTransitions_Event
@@ -74,13 +112,25 @@ class GetState_Request(Message):
 
 class GetState_Response(Message):
     current_state: lifecycle_msgs.msg.State
-    def __init__(self, *, current_state: lifecycle_msgs.msg.State = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        current_state: lifecycle_msgs.msg.State = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetState_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetState_Request]
     response: list[GetState_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetState_Request] = ..., response: list[GetState_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetState_Request] = ...,
+        response: list[GetState_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetState(Service[GetState_Request, GetState_Response]):
     Request: TypeAlias = GetState_Request

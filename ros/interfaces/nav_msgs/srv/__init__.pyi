@@ -20,13 +20,25 @@ class GetMap_Request(Message):
 
 class GetMap_Response(Message):
     map: nav_msgs.msg.OccupancyGrid
-    def __init__(self, *, map: nav_msgs.msg.OccupancyGrid = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        map: nav_msgs.msg.OccupancyGrid = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetMap_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetMap_Request]
     response: list[GetMap_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetMap_Request] = ..., response: list[GetMap_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetMap_Request] = ...,
+        response: list[GetMap_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetMap(Service[GetMap_Request, GetMap_Response]):
     Request: TypeAlias = GetMap_Request
@@ -37,7 +49,14 @@ class GetPlan_Request(Message):
     start: geometry_msgs.msg.PoseStamped
     goal: geometry_msgs.msg.PoseStamped
     tolerance: float
-    def __init__(self, *, start: geometry_msgs.msg.PoseStamped = ..., goal: geometry_msgs.msg.PoseStamped = ..., tolerance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        start: geometry_msgs.msg.PoseStamped = ...,
+        goal: geometry_msgs.msg.PoseStamped = ...,
+        tolerance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPlan_Response(Message):
     plan: nav_msgs.msg.Path
@@ -47,7 +66,14 @@ class GetPlan_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetPlan_Request]
     response: list[GetPlan_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetPlan_Request] = ..., response: list[GetPlan_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetPlan_Request] = ...,
+        response: list[GetPlan_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPlan(Service[GetPlan_Request, GetPlan_Response]):
     Request: TypeAlias = GetPlan_Request
@@ -66,13 +92,26 @@ class LoadMap_Response(Message):
     RESULT_UNDEFINED_FAILURE: ClassVar[int]
     map: nav_msgs.msg.OccupancyGrid
     result: int
-    def __init__(self, *, map: nav_msgs.msg.OccupancyGrid = ..., result: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        map: nav_msgs.msg.OccupancyGrid = ...,
+        result: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoadMap_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[LoadMap_Request]
     response: list[LoadMap_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[LoadMap_Request] = ..., response: list[LoadMap_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[LoadMap_Request] = ...,
+        response: list[LoadMap_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoadMap(Service[LoadMap_Request, LoadMap_Response]):
     Request: TypeAlias = LoadMap_Request
@@ -82,7 +121,13 @@ class LoadMap(Service[LoadMap_Request, LoadMap_Response]):
 class SetMap_Request(Message):
     map: nav_msgs.msg.OccupancyGrid
     initial_pose: geometry_msgs.msg.PoseWithCovarianceStamped
-    def __init__(self, *, map: nav_msgs.msg.OccupancyGrid = ..., initial_pose: geometry_msgs.msg.PoseWithCovarianceStamped = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        map: nav_msgs.msg.OccupancyGrid = ...,
+        initial_pose: geometry_msgs.msg.PoseWithCovarianceStamped = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetMap_Response(Message):
     success: bool
@@ -92,7 +137,14 @@ class SetMap_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetMap_Request]
     response: list[SetMap_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetMap_Request] = ..., response: list[SetMap_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetMap_Request] = ...,
+        response: list[SetMap_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetMap(Service[SetMap_Request, SetMap_Response]):
     Request: TypeAlias = SetMap_Request

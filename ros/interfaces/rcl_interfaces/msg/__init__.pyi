@@ -27,18 +27,38 @@ class FloatingPointRange(Message):
     from_value: float
     to_value: float
     step: float
-    def __init__(self, *, from_value: float = ..., to_value: float = ..., step: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        from_value: float = ...,
+        to_value: float = ...,
+        step: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class IntegerRange(Message):
     from_value: int
     to_value: int
     step: int
-    def __init__(self, *, from_value: int = ..., to_value: int = ..., step: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        from_value: int = ...,
+        to_value: int = ...,
+        step: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListParametersResult(Message):
     names: list[str]
     prefixes: list[str]
-    def __init__(self, *, names: list[str] = ..., prefixes: list[str] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        names: list[str] = ...,
+        prefixes: list[str] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Log(Message):
     DEBUG: ClassVar[bytes]
@@ -53,7 +73,18 @@ class Log(Message):
     file: str
     function: str
     line: int
-    def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., level: int = ..., name: str = ..., msg: str = ..., file: str = ..., function: str = ..., line: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        stamp: builtin_interfaces.msg.Time = ...,
+        level: int = ...,
+        name: str = ...,
+        msg: str = ...,
+        file: str = ...,
+        function: str = ...,
+        line: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class LoggerLevel(Message):
     LOG_LEVEL_UNKNOWN: ClassVar[int]
@@ -69,7 +100,13 @@ class LoggerLevel(Message):
 class Parameter(Message):
     name: str
     value: ParameterValue
-    def __init__(self, *, name: str = ..., value: ParameterValue = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        value: ParameterValue = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ParameterDescriptor(Message):
     name: str
@@ -80,7 +117,19 @@ class ParameterDescriptor(Message):
     dynamic_typing: bool
     floating_point_range: list[FloatingPointRange]
     integer_range: list[IntegerRange]
-    def __init__(self, *, name: str = ..., type: int = ..., description: str = ..., additional_constraints: str = ..., read_only: bool = ..., dynamic_typing: bool = ..., floating_point_range: list[FloatingPointRange] = ..., integer_range: list[IntegerRange] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        type: int = ...,
+        description: str = ...,
+        additional_constraints: str = ...,
+        read_only: bool = ...,
+        dynamic_typing: bool = ...,
+        floating_point_range: list[FloatingPointRange] = ...,
+        integer_range: list[IntegerRange] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ParameterEvent(Message):
     stamp: builtin_interfaces.msg.Time
@@ -88,13 +137,29 @@ class ParameterEvent(Message):
     new_parameters: list[Parameter]
     changed_parameters: list[Parameter]
     deleted_parameters: list[Parameter]
-    def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., node: str = ..., new_parameters: list[Parameter] = ..., changed_parameters: list[Parameter] = ..., deleted_parameters: list[Parameter] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        stamp: builtin_interfaces.msg.Time = ...,
+        node: str = ...,
+        new_parameters: list[Parameter] = ...,
+        changed_parameters: list[Parameter] = ...,
+        deleted_parameters: list[Parameter] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ParameterEventDescriptors(Message):
     new_parameters: list[ParameterDescriptor]
     changed_parameters: list[ParameterDescriptor]
     deleted_parameters: list[ParameterDescriptor]
-    def __init__(self, *, new_parameters: list[ParameterDescriptor] = ..., changed_parameters: list[ParameterDescriptor] = ..., deleted_parameters: list[ParameterDescriptor] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        new_parameters: list[ParameterDescriptor] = ...,
+        changed_parameters: list[ParameterDescriptor] = ...,
+        deleted_parameters: list[ParameterDescriptor] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ParameterType(Message):
     PARAMETER_NOT_SET: ClassVar[int]
@@ -126,14 +191,40 @@ class ParameterValue(Message):
     @double_array_value.setter
     def double_array_value(self, value: Iterable[float]) -> None: ...
     string_array_value: list[str]
-    def __init__(self, *, type: int = ..., bool_value: bool = ..., integer_value: int = ..., double_value: float = ..., string_value: str = ..., byte_array_value: list[bytes] = ..., bool_array_value: list[bool] = ..., integer_array_value: Iterable[int] = ..., double_array_value: Iterable[float] = ..., string_array_value: list[str] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type: int = ...,
+        bool_value: bool = ...,
+        integer_value: int = ...,
+        double_value: float = ...,
+        string_value: str = ...,
+        byte_array_value: list[bytes] = ...,
+        bool_array_value: list[bool] = ...,
+        integer_array_value: Iterable[int] = ...,
+        double_array_value: Iterable[float] = ...,
+        string_array_value: list[str] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetLoggerLevelsResult(Message):
     successful: bool
     reason: str
-    def __init__(self, *, successful: bool = ..., reason: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        successful: bool = ...,
+        reason: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParametersResult(Message):
     successful: bool
     reason: str
-    def __init__(self, *, successful: bool = ..., reason: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        successful: bool = ...,
+        reason: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

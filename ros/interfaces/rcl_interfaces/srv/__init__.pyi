@@ -25,13 +25,25 @@ class DescribeParameters_Request(Message):
 
 class DescribeParameters_Response(Message):
     descriptors: list[rcl_interfaces.msg.ParameterDescriptor]
-    def __init__(self, *, descriptors: list[rcl_interfaces.msg.ParameterDescriptor] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        descriptors: list[rcl_interfaces.msg.ParameterDescriptor] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class DescribeParameters_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[DescribeParameters_Request]
     response: list[DescribeParameters_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[DescribeParameters_Request] = ..., response: list[DescribeParameters_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[DescribeParameters_Request] = ...,
+        response: list[DescribeParameters_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class DescribeParameters(Service[DescribeParameters_Request, DescribeParameters_Response]):
     Request: TypeAlias = DescribeParameters_Request
@@ -44,13 +56,25 @@ class GetLoggerLevels_Request(Message):
 
 class GetLoggerLevels_Response(Message):
     levels: list[rcl_interfaces.msg.LoggerLevel]
-    def __init__(self, *, levels: list[rcl_interfaces.msg.LoggerLevel] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        levels: list[rcl_interfaces.msg.LoggerLevel] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetLoggerLevels_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetLoggerLevels_Request]
     response: list[GetLoggerLevels_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetLoggerLevels_Request] = ..., response: list[GetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetLoggerLevels_Request] = ...,
+        response: list[GetLoggerLevels_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetLoggerLevels(Service[GetLoggerLevels_Request, GetLoggerLevels_Response]):
     Request: TypeAlias = GetLoggerLevels_Request
@@ -72,7 +96,14 @@ class GetParameterTypes_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetParameterTypes_Request]
     response: list[GetParameterTypes_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameterTypes_Request] = ..., response: list[GetParameterTypes_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetParameterTypes_Request] = ...,
+        response: list[GetParameterTypes_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetParameterTypes(Service[GetParameterTypes_Request, GetParameterTypes_Response]):
     Request: TypeAlias = GetParameterTypes_Request
@@ -85,13 +116,25 @@ class GetParameters_Request(Message):
 
 class GetParameters_Response(Message):
     values: list[rcl_interfaces.msg.ParameterValue]
-    def __init__(self, *, values: list[rcl_interfaces.msg.ParameterValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        values: list[rcl_interfaces.msg.ParameterValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetParameters_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetParameters_Request]
     response: list[GetParameters_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetParameters_Request] = ..., response: list[GetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetParameters_Request] = ...,
+        response: list[GetParameters_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetParameters(Service[GetParameters_Request, GetParameters_Response]):
     Request: TypeAlias = GetParameters_Request
@@ -102,17 +145,35 @@ class ListParameters_Request(Message):
     DEPTH_RECURSIVE: ClassVar[int]
     prefixes: list[str]
     depth: int
-    def __init__(self, *, prefixes: list[str] = ..., depth: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        prefixes: list[str] = ...,
+        depth: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListParameters_Response(Message):
     result: rcl_interfaces.msg.ListParametersResult
-    def __init__(self, *, result: rcl_interfaces.msg.ListParametersResult = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        result: rcl_interfaces.msg.ListParametersResult = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListParameters_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[ListParameters_Request]
     response: list[ListParameters_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ListParameters_Request] = ..., response: list[ListParameters_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[ListParameters_Request] = ...,
+        response: list[ListParameters_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ListParameters(Service[ListParameters_Request, ListParameters_Response]):
     Request: TypeAlias = ListParameters_Request
@@ -121,17 +182,34 @@ class ListParameters(Service[ListParameters_Request, ListParameters_Response]):
 
 class SetLoggerLevels_Request(Message):
     levels: list[rcl_interfaces.msg.LoggerLevel]
-    def __init__(self, *, levels: list[rcl_interfaces.msg.LoggerLevel] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        levels: list[rcl_interfaces.msg.LoggerLevel] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetLoggerLevels_Response(Message):
     results: list[rcl_interfaces.msg.SetLoggerLevelsResult]
-    def __init__(self, *, results: list[rcl_interfaces.msg.SetLoggerLevelsResult] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        results: list[rcl_interfaces.msg.SetLoggerLevelsResult] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetLoggerLevels_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetLoggerLevels_Request]
     response: list[SetLoggerLevels_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetLoggerLevels_Request] = ..., response: list[SetLoggerLevels_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetLoggerLevels_Request] = ...,
+        response: list[SetLoggerLevels_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetLoggerLevels(Service[SetLoggerLevels_Request, SetLoggerLevels_Response]):
     Request: TypeAlias = SetLoggerLevels_Request
@@ -140,17 +218,34 @@ class SetLoggerLevels(Service[SetLoggerLevels_Request, SetLoggerLevels_Response]
 
 class SetParameters_Request(Message):
     parameters: list[rcl_interfaces.msg.Parameter]
-    def __init__(self, *, parameters: list[rcl_interfaces.msg.Parameter] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        parameters: list[rcl_interfaces.msg.Parameter] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParameters_Response(Message):
     results: list[rcl_interfaces.msg.SetParametersResult]
-    def __init__(self, *, results: list[rcl_interfaces.msg.SetParametersResult] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        results: list[rcl_interfaces.msg.SetParametersResult] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParameters_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetParameters_Request]
     response: list[SetParameters_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParameters_Request] = ..., response: list[SetParameters_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetParameters_Request] = ...,
+        response: list[SetParameters_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParameters(Service[SetParameters_Request, SetParameters_Response]):
     Request: TypeAlias = SetParameters_Request
@@ -159,19 +254,38 @@ class SetParameters(Service[SetParameters_Request, SetParameters_Response]):
 
 class SetParametersAtomically_Request(Message):
     parameters: list[rcl_interfaces.msg.Parameter]
-    def __init__(self, *, parameters: list[rcl_interfaces.msg.Parameter] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        parameters: list[rcl_interfaces.msg.Parameter] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParametersAtomically_Response(Message):
     result: rcl_interfaces.msg.SetParametersResult
-    def __init__(self, *, result: rcl_interfaces.msg.SetParametersResult = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        result: rcl_interfaces.msg.SetParametersResult = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetParametersAtomically_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetParametersAtomically_Request]
     response: list[SetParametersAtomically_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetParametersAtomically_Request] = ..., response: list[SetParametersAtomically_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetParametersAtomically_Request] = ...,
+        response: list[SetParametersAtomically_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
-class SetParametersAtomically(Service[SetParametersAtomically_Request, SetParametersAtomically_Response]):
+class SetParametersAtomically(
+    Service[SetParametersAtomically_Request, SetParametersAtomically_Response]
+):
     Request: TypeAlias = SetParametersAtomically_Request
     Response: TypeAlias = SetParametersAtomically_Response
     Event: TypeAlias = SetParametersAtomically_Event

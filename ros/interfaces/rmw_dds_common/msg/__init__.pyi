@@ -25,9 +25,23 @@ class NodeEntitiesInfo(Message):
     node_name: str
     reader_gid_seq: list[Gid]
     writer_gid_seq: list[Gid]
-    def __init__(self, *, node_namespace: str = ..., node_name: str = ..., reader_gid_seq: list[Gid] = ..., writer_gid_seq: list[Gid] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        node_namespace: str = ...,
+        node_name: str = ...,
+        reader_gid_seq: list[Gid] = ...,
+        writer_gid_seq: list[Gid] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ParticipantEntitiesInfo(Message):
     gid: Gid
     node_entities_info_seq: list[NodeEntitiesInfo]
-    def __init__(self, *, gid: Gid = ..., node_entities_info_seq: list[NodeEntitiesInfo] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        gid: Gid = ...,
+        node_entities_info_seq: list[NodeEntitiesInfo] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

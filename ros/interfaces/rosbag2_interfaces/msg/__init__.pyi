@@ -14,10 +14,24 @@ class ReadSplitEvent(Message):
     closed_file: str
     opened_file: str
     node_name: str
-    def __init__(self, *, closed_file: str = ..., opened_file: str = ..., node_name: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        closed_file: str = ...,
+        opened_file: str = ...,
+        node_name: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class WriteSplitEvent(Message):
     closed_file: str
     opened_file: str
     node_name: str
-    def __init__(self, *, closed_file: str = ..., opened_file: str = ..., node_name: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        closed_file: str = ...,
+        opened_file: str = ...,
+        node_name: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -35,7 +35,14 @@ class Burst_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Burst_Request]
     response: list[Burst_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Burst_Request] = ..., response: list[Burst_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Burst_Request] = ...,
+        response: list[Burst_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Burst(Service[Burst_Request, Burst_Response]):
     Request: TypeAlias = Burst_Request
@@ -53,7 +60,14 @@ class GetRate_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetRate_Request]
     response: list[GetRate_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetRate_Request] = ..., response: list[GetRate_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetRate_Request] = ...,
+        response: list[GetRate_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetRate(Service[GetRate_Request, GetRate_Response]):
     Request: TypeAlias = GetRate_Request
@@ -71,7 +85,14 @@ class IsPaused_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[IsPaused_Request]
     response: list[IsPaused_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[IsPaused_Request] = ..., response: list[IsPaused_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[IsPaused_Request] = ...,
+        response: list[IsPaused_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class IsPaused(Service[IsPaused_Request, IsPaused_Response]):
     Request: TypeAlias = IsPaused_Request
@@ -88,7 +109,14 @@ class Pause_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Pause_Request]
     response: list[Pause_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Pause_Request] = ..., response: list[Pause_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Pause_Request] = ...,
+        response: list[Pause_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Pause(Service[Pause_Request, Pause_Response]):
     Request: TypeAlias = Pause_Request
@@ -99,7 +127,14 @@ class Play_Request(Message):
     start_offset: builtin_interfaces.msg.Time
     playback_duration: builtin_interfaces.msg.Duration
     playback_until_timestamp: builtin_interfaces.msg.Time
-    def __init__(self, *, start_offset: builtin_interfaces.msg.Time = ..., playback_duration: builtin_interfaces.msg.Duration = ..., playback_until_timestamp: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        start_offset: builtin_interfaces.msg.Time = ...,
+        playback_duration: builtin_interfaces.msg.Duration = ...,
+        playback_until_timestamp: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Play_Response(Message):
     success: bool
@@ -109,7 +144,14 @@ class Play_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Play_Request]
     response: list[Play_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Play_Request] = ..., response: list[Play_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Play_Request] = ...,
+        response: list[Play_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Play(Service[Play_Request, Play_Response]):
     Request: TypeAlias = Play_Request
@@ -127,7 +169,14 @@ class PlayNext_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[PlayNext_Request]
     response: list[PlayNext_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[PlayNext_Request] = ..., response: list[PlayNext_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[PlayNext_Request] = ...,
+        response: list[PlayNext_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class PlayNext(Service[PlayNext_Request, PlayNext_Response]):
     Request: TypeAlias = PlayNext_Request
@@ -144,7 +193,14 @@ class Resume_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Resume_Request]
     response: list[Resume_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Resume_Request] = ..., response: list[Resume_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Resume_Request] = ...,
+        response: list[Resume_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Resume(Service[Resume_Request, Resume_Response]):
     Request: TypeAlias = Resume_Request
@@ -153,7 +209,12 @@ class Resume(Service[Resume_Request, Resume_Response]):
 
 class Seek_Request(Message):
     time: builtin_interfaces.msg.Time
-    def __init__(self, *, time: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        time: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Seek_Response(Message):
     success: bool
@@ -163,7 +224,14 @@ class Seek_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Seek_Request]
     response: list[Seek_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Seek_Request] = ..., response: list[Seek_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Seek_Request] = ...,
+        response: list[Seek_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Seek(Service[Seek_Request, Seek_Response]):
     Request: TypeAlias = Seek_Request
@@ -182,7 +250,14 @@ class SetRate_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetRate_Request]
     response: list[SetRate_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetRate_Request] = ..., response: list[SetRate_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetRate_Request] = ...,
+        response: list[SetRate_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetRate(Service[SetRate_Request, SetRate_Response]):
     Request: TypeAlias = SetRate_Request
@@ -200,7 +275,14 @@ class Snapshot_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Snapshot_Request]
     response: list[Snapshot_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Snapshot_Request] = ..., response: list[Snapshot_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Snapshot_Request] = ...,
+        response: list[Snapshot_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Snapshot(Service[Snapshot_Request, Snapshot_Response]):
     Request: TypeAlias = Snapshot_Request
@@ -217,7 +299,14 @@ class SplitBagfile_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SplitBagfile_Request]
     response: list[SplitBagfile_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SplitBagfile_Request] = ..., response: list[SplitBagfile_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SplitBagfile_Request] = ...,
+        response: list[SplitBagfile_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SplitBagfile(Service[SplitBagfile_Request, SplitBagfile_Response]):
     Request: TypeAlias = SplitBagfile_Request
@@ -234,7 +323,14 @@ class Stop_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Stop_Request]
     response: list[Stop_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Stop_Request] = ..., response: list[Stop_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Stop_Request] = ...,
+        response: list[Stop_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Stop(Service[Stop_Request, Stop_Response]):
     Request: TypeAlias = Stop_Request
@@ -251,7 +347,14 @@ class TogglePaused_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[TogglePaused_Request]
     response: list[TogglePaused_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TogglePaused_Request] = ..., response: list[TogglePaused_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[TogglePaused_Request] = ...,
+        response: list[TogglePaused_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TogglePaused(Service[TogglePaused_Request, TogglePaused_Response]):
     Request: TypeAlias = TogglePaused_Request

@@ -12,4 +12,9 @@ __all__ = [
 
 class Clock(Message):
     clock: builtin_interfaces.msg.Time
-    def __init__(self, *, clock: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        clock: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

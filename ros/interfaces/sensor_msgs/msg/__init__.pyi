@@ -87,7 +87,27 @@ class BatteryState(Message):
     def cell_temperature(self, value: Iterable[float]) -> None: ...
     location: str
     serial_number: str
-    def __init__(self, *, header: std_msgs.msg.Header = ..., voltage: float = ..., temperature: float = ..., current: float = ..., charge: float = ..., capacity: float = ..., design_capacity: float = ..., percentage: float = ..., power_supply_status: int = ..., power_supply_health: int = ..., power_supply_technology: int = ..., present: bool = ..., cell_voltage: Iterable[float] = ..., cell_temperature: Iterable[float] = ..., location: str = ..., serial_number: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        voltage: float = ...,
+        temperature: float = ...,
+        current: float = ...,
+        charge: float = ...,
+        capacity: float = ...,
+        design_capacity: float = ...,
+        percentage: float = ...,
+        power_supply_status: int = ...,
+        power_supply_health: int = ...,
+        power_supply_technology: int = ...,
+        present: bool = ...,
+        cell_voltage: Iterable[float] = ...,
+        cell_temperature: Iterable[float] = ...,
+        location: str = ...,
+        serial_number: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class CameraInfo(Message):
     header: std_msgs.msg.Header
@@ -113,7 +133,22 @@ class CameraInfo(Message):
     binning_x: int
     binning_y: int
     roi: RegionOfInterest
-    def __init__(self, *, header: std_msgs.msg.Header = ..., height: int = ..., width: int = ..., distortion_model: str = ..., d: Iterable[float] = ..., k: Iterable[Any] = ..., r: Iterable[Any] = ..., p: Iterable[Any] = ..., binning_x: int = ..., binning_y: int = ..., roi: RegionOfInterest = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        height: int = ...,
+        width: int = ...,
+        distortion_model: str = ...,
+        d: Iterable[float] = ...,
+        k: Iterable[Any] = ...,
+        r: Iterable[Any] = ...,
+        p: Iterable[Any] = ...,
+        binning_x: int = ...,
+        binning_y: int = ...,
+        roi: RegionOfInterest = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ChannelFloat32(Message):
     name: str
@@ -121,7 +156,13 @@ class ChannelFloat32(Message):
     def values(self) -> array.array[float]: ...
     @values.setter
     def values(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, name: str = ..., values: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        values: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class CompressedImage(Message):
     header: std_msgs.msg.Header
@@ -130,19 +171,40 @@ class CompressedImage(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., format: str = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        format: str = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class FluidPressure(Message):
     header: std_msgs.msg.Header
     fluid_pressure: float
     variance: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., fluid_pressure: float = ..., variance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        fluid_pressure: float = ...,
+        variance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Illuminance(Message):
     header: std_msgs.msg.Header
     illuminance: float
     variance: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., illuminance: float = ..., variance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        illuminance: float = ...,
+        variance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Image(Message):
     header: std_msgs.msg.Header
@@ -155,7 +217,18 @@ class Image(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., height: int = ..., width: int = ..., encoding: str = ..., is_bigendian: int = ..., step: int = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        height: int = ...,
+        width: int = ...,
+        encoding: str = ...,
+        is_bigendian: int = ...,
+        step: int = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Imu(Message):
     header: std_msgs.msg.Header
@@ -174,7 +247,18 @@ class Imu(Message):
     def linear_acceleration_covariance(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @linear_acceleration_covariance.setter
     def linear_acceleration_covariance(self, value: Iterable[Any]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., orientation: geometry_msgs.msg.Quaternion = ..., orientation_covariance: Iterable[Any] = ..., angular_velocity: geometry_msgs.msg.Vector3 = ..., angular_velocity_covariance: Iterable[Any] = ..., linear_acceleration: geometry_msgs.msg.Vector3 = ..., linear_acceleration_covariance: Iterable[Any] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        orientation: geometry_msgs.msg.Quaternion = ...,
+        orientation_covariance: Iterable[Any] = ...,
+        angular_velocity: geometry_msgs.msg.Vector3 = ...,
+        angular_velocity_covariance: Iterable[Any] = ...,
+        linear_acceleration: geometry_msgs.msg.Vector3 = ...,
+        linear_acceleration_covariance: Iterable[Any] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class JointState(Message):
     header: std_msgs.msg.Header
@@ -191,7 +275,16 @@ class JointState(Message):
     def effort(self) -> array.array[float]: ...
     @effort.setter
     def effort(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., name: list[str] = ..., position: Iterable[float] = ..., velocity: Iterable[float] = ..., effort: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        name: list[str] = ...,
+        position: Iterable[float] = ...,
+        velocity: Iterable[float] = ...,
+        effort: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Joy(Message):
     header: std_msgs.msg.Header
@@ -203,7 +296,14 @@ class Joy(Message):
     def buttons(self) -> array.array[int]: ...
     @buttons.setter
     def buttons(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., axes: Iterable[float] = ..., buttons: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        axes: Iterable[float] = ...,
+        buttons: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class JoyFeedback(Message):
     TYPE_LED: ClassVar[int]
@@ -212,7 +312,14 @@ class JoyFeedback(Message):
     type: int
     id: int
     intensity: float
-    def __init__(self, *, type: int = ..., id: int = ..., intensity: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type: int = ...,
+        id: int = ...,
+        intensity: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class JoyFeedbackArray(Message):
     array: list[JoyFeedback]
@@ -242,7 +349,21 @@ class LaserScan(Message):
     def intensities(self) -> array.array[float]: ...
     @intensities.setter
     def intensities(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., angle_min: float = ..., angle_max: float = ..., angle_increment: float = ..., time_increment: float = ..., scan_time: float = ..., range_min: float = ..., range_max: float = ..., ranges: Iterable[float] = ..., intensities: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        angle_min: float = ...,
+        angle_max: float = ...,
+        angle_increment: float = ...,
+        time_increment: float = ...,
+        scan_time: float = ...,
+        range_min: float = ...,
+        range_max: float = ...,
+        ranges: Iterable[float] = ...,
+        intensities: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MagneticField(Message):
     header: std_msgs.msg.Header
@@ -251,7 +372,14 @@ class MagneticField(Message):
     def magnetic_field_covariance(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @magnetic_field_covariance.setter
     def magnetic_field_covariance(self, value: Iterable[Any]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., magnetic_field: geometry_msgs.msg.Vector3 = ..., magnetic_field_covariance: Iterable[Any] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        magnetic_field: geometry_msgs.msg.Vector3 = ...,
+        magnetic_field_covariance: Iterable[Any] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiDOFJointState(Message):
     header: std_msgs.msg.Header
@@ -259,7 +387,16 @@ class MultiDOFJointState(Message):
     transforms: list[geometry_msgs.msg.Transform]
     twist: list[geometry_msgs.msg.Twist]
     wrench: list[geometry_msgs.msg.Wrench]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., joint_names: list[str] = ..., transforms: list[geometry_msgs.msg.Transform] = ..., twist: list[geometry_msgs.msg.Twist] = ..., wrench: list[geometry_msgs.msg.Wrench] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        joint_names: list[str] = ...,
+        transforms: list[geometry_msgs.msg.Transform] = ...,
+        twist: list[geometry_msgs.msg.Twist] = ...,
+        wrench: list[geometry_msgs.msg.Wrench] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiEchoLaserScan(Message):
     header: std_msgs.msg.Header
@@ -272,7 +409,21 @@ class MultiEchoLaserScan(Message):
     range_max: float
     ranges: list[LaserEcho]
     intensities: list[LaserEcho]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., angle_min: float = ..., angle_max: float = ..., angle_increment: float = ..., time_increment: float = ..., scan_time: float = ..., range_min: float = ..., range_max: float = ..., ranges: list[LaserEcho] = ..., intensities: list[LaserEcho] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        angle_min: float = ...,
+        angle_max: float = ...,
+        angle_increment: float = ...,
+        time_increment: float = ...,
+        scan_time: float = ...,
+        range_min: float = ...,
+        range_max: float = ...,
+        ranges: list[LaserEcho] = ...,
+        intensities: list[LaserEcho] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class NavSatFix(Message):
     COVARIANCE_TYPE_UNKNOWN: ClassVar[int]
@@ -289,7 +440,18 @@ class NavSatFix(Message):
     @position_covariance.setter
     def position_covariance(self, value: Iterable[Any]) -> None: ...
     position_covariance_type: int
-    def __init__(self, *, header: std_msgs.msg.Header = ..., status: NavSatStatus = ..., latitude: float = ..., longitude: float = ..., altitude: float = ..., position_covariance: Iterable[Any] = ..., position_covariance_type: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        status: NavSatStatus = ...,
+        latitude: float = ...,
+        longitude: float = ...,
+        altitude: float = ...,
+        position_covariance: Iterable[Any] = ...,
+        position_covariance_type: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class NavSatStatus(Message):
     STATUS_UNKNOWN: ClassVar[int]
@@ -304,13 +466,26 @@ class NavSatStatus(Message):
     SERVICE_GALILEO: ClassVar[int]
     status: int
     service: int
-    def __init__(self, *, status: int = ..., service: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        status: int = ...,
+        service: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class PointCloud(Message):
     header: std_msgs.msg.Header
     points: list[geometry_msgs.msg.Point32]
     channels: list[ChannelFloat32]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., points: list[geometry_msgs.msg.Point32] = ..., channels: list[ChannelFloat32] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        points: list[geometry_msgs.msg.Point32] = ...,
+        channels: list[ChannelFloat32] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class PointCloud2(Message):
     header: std_msgs.msg.Header
@@ -325,7 +500,20 @@ class PointCloud2(Message):
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
     is_dense: bool
-    def __init__(self, *, header: std_msgs.msg.Header = ..., height: int = ..., width: int = ..., fields: list[PointField] = ..., is_bigendian: bool = ..., point_step: int = ..., row_step: int = ..., data: Iterable[int] = ..., is_dense: bool = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        height: int = ...,
+        width: int = ...,
+        fields: list[PointField] = ...,
+        is_bigendian: bool = ...,
+        point_step: int = ...,
+        row_step: int = ...,
+        data: Iterable[int] = ...,
+        is_dense: bool = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class PointField(Message):
     INT8: ClassVar[int]
@@ -340,7 +528,15 @@ class PointField(Message):
     offset: int
     datatype: int
     count: int
-    def __init__(self, *, name: str = ..., offset: int = ..., datatype: int = ..., count: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        offset: int = ...,
+        datatype: int = ...,
+        count: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Range(Message):
     ULTRASOUND: ClassVar[int]
@@ -352,7 +548,18 @@ class Range(Message):
     max_range: float
     range: float
     variance: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., radiation_type: int = ..., field_of_view: float = ..., min_range: float = ..., max_range: float = ..., range: float = ..., variance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        radiation_type: int = ...,
+        field_of_view: float = ...,
+        min_range: float = ...,
+        max_range: float = ...,
+        range: float = ...,
+        variance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class RegionOfInterest(Message):
     x_offset: int
@@ -360,22 +567,52 @@ class RegionOfInterest(Message):
     height: int
     width: int
     do_rectify: bool
-    def __init__(self, *, x_offset: int = ..., y_offset: int = ..., height: int = ..., width: int = ..., do_rectify: bool = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x_offset: int = ...,
+        y_offset: int = ...,
+        height: int = ...,
+        width: int = ...,
+        do_rectify: bool = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class RelativeHumidity(Message):
     header: std_msgs.msg.Header
     relative_humidity: float
     variance: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., relative_humidity: float = ..., variance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        relative_humidity: float = ...,
+        variance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Temperature(Message):
     header: std_msgs.msg.Header
     temperature: float
     variance: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., temperature: float = ..., variance: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        temperature: float = ...,
+        variance: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TimeReference(Message):
     header: std_msgs.msg.Header
     time_ref: builtin_interfaces.msg.Time
     source: str
-    def __init__(self, *, header: std_msgs.msg.Header = ..., time_ref: builtin_interfaces.msg.Time = ..., source: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        time_ref: builtin_interfaces.msg.Time = ...,
+        source: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -24,4 +24,12 @@ class ServiceEventInfo(Message):
     @client_gid.setter
     def client_gid(self, value: Iterable[Any]) -> None: ...
     sequence_number: int
-    def __init__(self, *, event_type: int = ..., stamp: builtin_interfaces.msg.Time = ..., client_gid: Iterable[Any] = ..., sequence_number: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        event_type: int = ...,
+        stamp: builtin_interfaces.msg.Time = ...,
+        client_gid: Iterable[Any] = ...,
+        sequence_number: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

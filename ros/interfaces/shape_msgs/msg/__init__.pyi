@@ -19,14 +19,25 @@ __all__ = [
 class Mesh(Message):
     triangles: list[MeshTriangle]
     vertices: list[geometry_msgs.msg.Point]
-    def __init__(self, *, triangles: list[MeshTriangle] = ..., vertices: list[geometry_msgs.msg.Point] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        triangles: list[MeshTriangle] = ...,
+        vertices: list[geometry_msgs.msg.Point] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MeshTriangle(Message):
     @property
     def vertex_indices(self) -> numpy.typing.NDArray[numpy.uint32]: ...
     @vertex_indices.setter
     def vertex_indices(self, value: Iterable[Any]) -> None: ...
-    def __init__(self, *, vertex_indices: Iterable[Any] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        vertex_indices: Iterable[Any] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Plane(Message):
     @property
@@ -56,4 +67,11 @@ class SolidPrimitive(Message):
     @dimensions.setter
     def dimensions(self, value: Iterable[float]) -> None: ...
     polygon: geometry_msgs.msg.Polygon
-    def __init__(self, *, type: int = ..., dimensions: Iterable[float] = ..., polygon: geometry_msgs.msg.Polygon = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type: int = ...,
+        dimensions: Iterable[float] = ...,
+        polygon: geometry_msgs.msg.Polygon = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

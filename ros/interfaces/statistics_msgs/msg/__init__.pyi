@@ -19,12 +19,28 @@ class MetricsMessage(Message):
     window_start: builtin_interfaces.msg.Time
     window_stop: builtin_interfaces.msg.Time
     statistics: list[StatisticDataPoint]
-    def __init__(self, *, measurement_source_name: str = ..., metrics_source: str = ..., unit: str = ..., window_start: builtin_interfaces.msg.Time = ..., window_stop: builtin_interfaces.msg.Time = ..., statistics: list[StatisticDataPoint] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        measurement_source_name: str = ...,
+        metrics_source: str = ...,
+        unit: str = ...,
+        window_start: builtin_interfaces.msg.Time = ...,
+        window_stop: builtin_interfaces.msg.Time = ...,
+        statistics: list[StatisticDataPoint] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class StatisticDataPoint(Message):
     data_type: int
     data: float
-    def __init__(self, *, data_type: int = ..., data: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        data_type: int = ...,
+        data: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class StatisticDataType(Message):
     STATISTICS_DATA_TYPE_UNINITIALIZED: ClassVar[int]

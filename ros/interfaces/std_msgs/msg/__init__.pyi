@@ -51,7 +51,13 @@ class Byte(Message):
 class ByteMultiArray(Message):
     layout: MultiArrayLayout
     data: list[bytes]
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: list[bytes] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: list[bytes] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Char(Message):
     data: int
@@ -62,7 +68,15 @@ class ColorRGBA(Message):
     g: float
     b: float
     a: float
-    def __init__(self, *, r: float = ..., g: float = ..., b: float = ..., a: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        r: float = ...,
+        g: float = ...,
+        b: float = ...,
+        a: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Empty(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -77,7 +91,13 @@ class Float32MultiArray(Message):
     def data(self) -> array.array[float]: ...
     @data.setter
     def data(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Float64(Message):
     data: float
@@ -89,12 +109,24 @@ class Float64MultiArray(Message):
     def data(self) -> array.array[float]: ...
     @data.setter
     def data(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Header(Message):
     stamp: builtin_interfaces.msg.Time
     frame_id: str
-    def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., frame_id: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        stamp: builtin_interfaces.msg.Time = ...,
+        frame_id: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int8(Message):
     data: int
@@ -106,7 +138,13 @@ class Int8MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int16(Message):
     data: int
@@ -118,7 +156,13 @@ class Int16MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int32(Message):
     data: int
@@ -130,7 +174,13 @@ class Int32MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Int64(Message):
     data: int
@@ -142,18 +192,37 @@ class Int64MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiArrayDimension(Message):
     label: str
     size: int
     stride: int
-    def __init__(self, *, label: str = ..., size: int = ..., stride: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        label: str = ...,
+        size: int = ...,
+        stride: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiArrayLayout(Message):
     dim: list[MultiArrayDimension]
     data_offset: int
-    def __init__(self, *, dim: list[MultiArrayDimension] = ..., data_offset: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        dim: list[MultiArrayDimension] = ...,
+        data_offset: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class String(Message):
     data: str
@@ -169,7 +238,13 @@ class UInt8MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt16(Message):
     data: int
@@ -181,7 +256,13 @@ class UInt16MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt32(Message):
     data: int
@@ -193,7 +274,13 @@ class UInt32MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UInt64(Message):
     data: int
@@ -205,4 +292,10 @@ class UInt64MultiArray(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        layout: MultiArrayLayout = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -22,7 +22,14 @@ class Empty_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Empty_Request]
     response: list[Empty_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Empty_Request] = ..., response: list[Empty_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Empty_Request] = ...,
+        response: list[Empty_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Empty(Service[Empty_Request, Empty_Response]):
     Request: TypeAlias = Empty_Request
@@ -36,13 +43,26 @@ class SetBool_Request(Message):
 class SetBool_Response(Message):
     success: bool
     message: str
-    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetBool_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetBool_Request]
     response: list[SetBool_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetBool_Request] = ..., response: list[SetBool_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetBool_Request] = ...,
+        response: list[SetBool_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetBool(Service[SetBool_Request, SetBool_Response]):
     Request: TypeAlias = SetBool_Request
@@ -55,13 +75,26 @@ class Trigger_Request(Message):
 class Trigger_Response(Message):
     success: bool
     message: str
-    def __init__(self, *, success: bool = ..., message: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Trigger_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Trigger_Request]
     response: list[Trigger_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Trigger_Request] = ..., response: list[Trigger_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Trigger_Request] = ...,
+        response: list[Trigger_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Trigger(Service[Trigger_Request, Trigger_Response]):
     Request: TypeAlias = Trigger_Request

@@ -20,4 +20,16 @@ class DisparityImage(Message):
     min_disparity: float
     max_disparity: float
     delta_d: float
-    def __init__(self, *, header: std_msgs.msg.Header = ..., image: sensor_msgs.msg.Image = ..., f: float = ..., t: float = ..., valid_window: sensor_msgs.msg.RegionOfInterest = ..., min_disparity: float = ..., max_disparity: float = ..., delta_d: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        image: sensor_msgs.msg.Image = ...,
+        f: float = ...,
+        t: float = ...,
+        valid_window: sensor_msgs.msg.RegionOfInterest = ...,
+        min_disparity: float = ...,
+        max_disparity: float = ...,
+        delta_d: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -21,8 +21,19 @@ class TF2Error(Message):
     TRANSFORM_ERROR: ClassVar[int]
     error: int
     error_string: str
-    def __init__(self, *, error: int = ..., error_string: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        error: int = ...,
+        error_string: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TFMessage(Message):
     transforms: list[geometry_msgs.msg.TransformStamped]
-    def __init__(self, *, transforms: list[geometry_msgs.msg.TransformStamped] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        transforms: list[geometry_msgs.msg.TransformStamped] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -21,7 +21,14 @@ class FrameGraph_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[FrameGraph_Request]
     response: list[FrameGraph_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[FrameGraph_Request] = ..., response: list[FrameGraph_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[FrameGraph_Request] = ...,
+        response: list[FrameGraph_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class FrameGraph(Service[FrameGraph_Request, FrameGraph_Response]):
     Request: TypeAlias = FrameGraph_Request

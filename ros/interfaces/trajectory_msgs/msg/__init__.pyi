@@ -20,7 +20,14 @@ class JointTrajectory(Message):
     header: std_msgs.msg.Header
     joint_names: list[str]
     points: list[JointTrajectoryPoint]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., joint_names: list[str] = ..., points: list[JointTrajectoryPoint] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        joint_names: list[str] = ...,
+        points: list[JointTrajectoryPoint] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class JointTrajectoryPoint(Message):
     @property
@@ -40,17 +47,41 @@ class JointTrajectoryPoint(Message):
     @effort.setter
     def effort(self, value: Iterable[float]) -> None: ...
     time_from_start: builtin_interfaces.msg.Duration
-    def __init__(self, *, positions: Iterable[float] = ..., velocities: Iterable[float] = ..., accelerations: Iterable[float] = ..., effort: Iterable[float] = ..., time_from_start: builtin_interfaces.msg.Duration = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        positions: Iterable[float] = ...,
+        velocities: Iterable[float] = ...,
+        accelerations: Iterable[float] = ...,
+        effort: Iterable[float] = ...,
+        time_from_start: builtin_interfaces.msg.Duration = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiDOFJointTrajectory(Message):
     header: std_msgs.msg.Header
     joint_names: list[str]
     points: list[MultiDOFJointTrajectoryPoint]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., joint_names: list[str] = ..., points: list[MultiDOFJointTrajectoryPoint] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        joint_names: list[str] = ...,
+        points: list[MultiDOFJointTrajectoryPoint] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MultiDOFJointTrajectoryPoint(Message):
     transforms: list[geometry_msgs.msg.Transform]
     velocities: list[geometry_msgs.msg.Twist]
     accelerations: list[geometry_msgs.msg.Twist]
     time_from_start: builtin_interfaces.msg.Duration
-    def __init__(self, *, transforms: list[geometry_msgs.msg.Transform] = ..., velocities: list[geometry_msgs.msg.Twist] = ..., accelerations: list[geometry_msgs.msg.Twist] = ..., time_from_start: builtin_interfaces.msg.Duration = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        transforms: list[geometry_msgs.msg.Transform] = ...,
+        velocities: list[geometry_msgs.msg.Twist] = ...,
+        accelerations: list[geometry_msgs.msg.Twist] = ...,
+        time_from_start: builtin_interfaces.msg.Duration = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -25,7 +25,14 @@ class Kill_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Kill_Request]
     response: list[Kill_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Kill_Request] = ..., response: list[Kill_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Kill_Request] = ...,
+        response: list[Kill_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Kill(Service[Kill_Request, Kill_Response]):
     Request: TypeAlias = Kill_Request
@@ -38,7 +45,16 @@ class SetPen_Request(Message):
     b: int
     width: int
     off: int
-    def __init__(self, *, r: int = ..., g: int = ..., b: int = ..., width: int = ..., off: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        r: int = ...,
+        g: int = ...,
+        b: int = ...,
+        width: int = ...,
+        off: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetPen_Response(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -47,7 +63,14 @@ class SetPen_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetPen_Request]
     response: list[SetPen_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetPen_Request] = ..., response: list[SetPen_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetPen_Request] = ...,
+        response: list[SetPen_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetPen(Service[SetPen_Request, SetPen_Response]):
     Request: TypeAlias = SetPen_Request
@@ -59,7 +82,15 @@ class Spawn_Request(Message):
     y: float
     theta: float
     name: str
-    def __init__(self, *, x: float = ..., y: float = ..., theta: float = ..., name: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x: float = ...,
+        y: float = ...,
+        theta: float = ...,
+        name: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Spawn_Response(Message):
     name: str
@@ -69,7 +100,14 @@ class Spawn_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[Spawn_Request]
     response: list[Spawn_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[Spawn_Request] = ..., response: list[Spawn_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[Spawn_Request] = ...,
+        response: list[Spawn_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Spawn(Service[Spawn_Request, Spawn_Response]):
     Request: TypeAlias = Spawn_Request
@@ -80,7 +118,14 @@ class TeleportAbsolute_Request(Message):
     x: float
     y: float
     theta: float
-    def __init__(self, *, x: float = ..., y: float = ..., theta: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x: float = ...,
+        y: float = ...,
+        theta: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TeleportAbsolute_Response(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -89,7 +134,14 @@ class TeleportAbsolute_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[TeleportAbsolute_Request]
     response: list[TeleportAbsolute_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportAbsolute_Request] = ..., response: list[TeleportAbsolute_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[TeleportAbsolute_Request] = ...,
+        response: list[TeleportAbsolute_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TeleportAbsolute(Service[TeleportAbsolute_Request, TeleportAbsolute_Response]):
     Request: TypeAlias = TeleportAbsolute_Request
@@ -99,7 +151,13 @@ class TeleportAbsolute(Service[TeleportAbsolute_Request, TeleportAbsolute_Respon
 class TeleportRelative_Request(Message):
     linear: float
     angular: float
-    def __init__(self, *, linear: float = ..., angular: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        linear: float = ...,
+        angular: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TeleportRelative_Response(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -108,7 +166,14 @@ class TeleportRelative_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[TeleportRelative_Request]
     response: list[TeleportRelative_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[TeleportRelative_Request] = ..., response: list[TeleportRelative_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[TeleportRelative_Request] = ...,
+        response: list[TeleportRelative_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TeleportRelative(Service[TeleportRelative_Request, TeleportRelative_Response]):
     Request: TypeAlias = TeleportRelative_Request

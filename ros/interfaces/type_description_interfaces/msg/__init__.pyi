@@ -18,7 +18,14 @@ class Field(Message):
     name: str
     type: FieldType
     default_value: str
-    def __init__(self, *, name: str = ..., type: FieldType = ..., default_value: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        type: FieldType = ...,
+        default_value: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class FieldType(Message):
     FIELD_TYPE_NOT_SET: ClassVar[int]
@@ -114,12 +121,26 @@ class FieldType(Message):
     capacity: int
     string_capacity: int
     nested_type_name: str
-    def __init__(self, *, type_id: int = ..., capacity: int = ..., string_capacity: int = ..., nested_type_name: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type_id: int = ...,
+        capacity: int = ...,
+        string_capacity: int = ...,
+        nested_type_name: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class IndividualTypeDescription(Message):
     type_name: str
     fields: list[Field]
-    def __init__(self, *, type_name: str = ..., fields: list[Field] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type_name: str = ...,
+        fields: list[Field] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class KeyValue(Message):
     key: str
@@ -129,10 +150,23 @@ class KeyValue(Message):
 class TypeDescription(Message):
     type_description: IndividualTypeDescription
     referenced_type_descriptions: list[IndividualTypeDescription]
-    def __init__(self, *, type_description: IndividualTypeDescription = ..., referenced_type_descriptions: list[IndividualTypeDescription] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type_description: IndividualTypeDescription = ...,
+        referenced_type_descriptions: list[IndividualTypeDescription] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class TypeSource(Message):
     type_name: str
     encoding: str
     raw_file_contents: str
-    def __init__(self, *, type_name: str = ..., encoding: str = ..., raw_file_contents: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type_name: str = ...,
+        encoding: str = ...,
+        raw_file_contents: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

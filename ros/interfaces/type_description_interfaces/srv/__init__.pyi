@@ -15,7 +15,14 @@ class GetTypeDescription_Request(Message):
     type_name: str
     type_hash: str
     include_type_sources: bool
-    def __init__(self, *, type_name: str = ..., type_hash: str = ..., include_type_sources: bool = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        type_name: str = ...,
+        type_hash: str = ...,
+        include_type_sources: bool = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetTypeDescription_Response(Message):
     successful: bool
@@ -23,13 +30,29 @@ class GetTypeDescription_Response(Message):
     type_description: type_description_interfaces.msg.TypeDescription
     type_sources: list[type_description_interfaces.msg.TypeSource]
     extra_information: list[type_description_interfaces.msg.KeyValue]
-    def __init__(self, *, successful: bool = ..., failure_reason: str = ..., type_description: type_description_interfaces.msg.TypeDescription = ..., type_sources: list[type_description_interfaces.msg.TypeSource] = ..., extra_information: list[type_description_interfaces.msg.KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        successful: bool = ...,
+        failure_reason: str = ...,
+        type_description: type_description_interfaces.msg.TypeDescription = ...,
+        type_sources: list[type_description_interfaces.msg.TypeSource] = ...,
+        extra_information: list[type_description_interfaces.msg.KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetTypeDescription_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetTypeDescription_Request]
     response: list[GetTypeDescription_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetTypeDescription_Request] = ..., response: list[GetTypeDescription_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetTypeDescription_Request] = ...,
+        response: list[GetTypeDescription_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetTypeDescription(Service[GetTypeDescription_Request, GetTypeDescription_Response]):
     Request: TypeAlias = GetTypeDescription_Request

@@ -46,7 +46,24 @@ class ImageMarker(Message):
     lifetime: builtin_interfaces.msg.Duration
     points: list[geometry_msgs.msg.Point]
     outline_colors: list[std_msgs.msg.ColorRGBA]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., position: geometry_msgs.msg.Point = ..., scale: float = ..., outline_color: std_msgs.msg.ColorRGBA = ..., filled: int = ..., fill_color: std_msgs.msg.ColorRGBA = ..., lifetime: builtin_interfaces.msg.Duration = ..., points: list[geometry_msgs.msg.Point] = ..., outline_colors: list[std_msgs.msg.ColorRGBA] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        ns: str = ...,
+        id: int = ...,
+        type: int = ...,
+        action: int = ...,
+        position: geometry_msgs.msg.Point = ...,
+        scale: float = ...,
+        outline_color: std_msgs.msg.ColorRGBA = ...,
+        filled: int = ...,
+        fill_color: std_msgs.msg.ColorRGBA = ...,
+        lifetime: builtin_interfaces.msg.Duration = ...,
+        points: list[geometry_msgs.msg.Point] = ...,
+        outline_colors: list[std_msgs.msg.ColorRGBA] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarker(Message):
     header: std_msgs.msg.Header
@@ -56,7 +73,18 @@ class InteractiveMarker(Message):
     scale: float
     menu_entries: list[MenuEntry]
     controls: list[InteractiveMarkerControl]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., pose: geometry_msgs.msg.Pose = ..., name: str = ..., description: str = ..., scale: float = ..., menu_entries: list[MenuEntry] = ..., controls: list[InteractiveMarkerControl] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        pose: geometry_msgs.msg.Pose = ...,
+        name: str = ...,
+        description: str = ...,
+        scale: float = ...,
+        menu_entries: list[MenuEntry] = ...,
+        controls: list[InteractiveMarkerControl] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarkerControl(Message):
     INHERIT: ClassVar[int]
@@ -80,7 +108,19 @@ class InteractiveMarkerControl(Message):
     markers: list[Marker]
     independent_marker_orientation: bool
     description: str
-    def __init__(self, *, name: str = ..., orientation: geometry_msgs.msg.Quaternion = ..., orientation_mode: int = ..., interaction_mode: int = ..., always_visible: bool = ..., markers: list[Marker] = ..., independent_marker_orientation: bool = ..., description: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        name: str = ...,
+        orientation: geometry_msgs.msg.Quaternion = ...,
+        orientation_mode: int = ...,
+        interaction_mode: int = ...,
+        always_visible: bool = ...,
+        markers: list[Marker] = ...,
+        independent_marker_orientation: bool = ...,
+        description: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarkerFeedback(Message):
     KEEP_ALIVE: ClassVar[int]
@@ -98,19 +138,46 @@ class InteractiveMarkerFeedback(Message):
     menu_entry_id: int
     mouse_point: geometry_msgs.msg.Point
     mouse_point_valid: bool
-    def __init__(self, *, header: std_msgs.msg.Header = ..., client_id: str = ..., marker_name: str = ..., control_name: str = ..., event_type: int = ..., pose: geometry_msgs.msg.Pose = ..., menu_entry_id: int = ..., mouse_point: geometry_msgs.msg.Point = ..., mouse_point_valid: bool = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        client_id: str = ...,
+        marker_name: str = ...,
+        control_name: str = ...,
+        event_type: int = ...,
+        pose: geometry_msgs.msg.Pose = ...,
+        menu_entry_id: int = ...,
+        mouse_point: geometry_msgs.msg.Point = ...,
+        mouse_point_valid: bool = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarkerInit(Message):
     server_id: str
     seq_num: int
     markers: list[InteractiveMarker]
-    def __init__(self, *, server_id: str = ..., seq_num: int = ..., markers: list[InteractiveMarker] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        server_id: str = ...,
+        seq_num: int = ...,
+        markers: list[InteractiveMarker] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarkerPose(Message):
     header: std_msgs.msg.Header
     pose: geometry_msgs.msg.Pose
     name: str
-    def __init__(self, *, header: std_msgs.msg.Header = ..., pose: geometry_msgs.msg.Pose = ..., name: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        pose: geometry_msgs.msg.Pose = ...,
+        name: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class InteractiveMarkerUpdate(Message):
     KEEP_ALIVE: ClassVar[int]
@@ -121,7 +188,17 @@ class InteractiveMarkerUpdate(Message):
     markers: list[InteractiveMarker]
     poses: list[InteractiveMarkerPose]
     erases: list[str]
-    def __init__(self, *, server_id: str = ..., seq_num: int = ..., type: int = ..., markers: list[InteractiveMarker] = ..., poses: list[InteractiveMarkerPose] = ..., erases: list[str] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        server_id: str = ...,
+        seq_num: int = ...,
+        type: int = ...,
+        markers: list[InteractiveMarker] = ...,
+        poses: list[InteractiveMarkerPose] = ...,
+        erases: list[str] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class Marker(Message):
     ARROW: ClassVar[int]
@@ -160,7 +237,30 @@ class Marker(Message):
     mesh_resource: str
     mesh_file: MeshFile
     mesh_use_embedded_materials: bool
-    def __init__(self, *, header: std_msgs.msg.Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., pose: geometry_msgs.msg.Pose = ..., scale: geometry_msgs.msg.Vector3 = ..., color: std_msgs.msg.ColorRGBA = ..., lifetime: builtin_interfaces.msg.Duration = ..., frame_locked: bool = ..., points: list[geometry_msgs.msg.Point] = ..., colors: list[std_msgs.msg.ColorRGBA] = ..., texture_resource: str = ..., texture: sensor_msgs.msg.CompressedImage = ..., uv_coordinates: list[UVCoordinate] = ..., text: str = ..., mesh_resource: str = ..., mesh_file: MeshFile = ..., mesh_use_embedded_materials: bool = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        ns: str = ...,
+        id: int = ...,
+        type: int = ...,
+        action: int = ...,
+        pose: geometry_msgs.msg.Pose = ...,
+        scale: geometry_msgs.msg.Vector3 = ...,
+        color: std_msgs.msg.ColorRGBA = ...,
+        lifetime: builtin_interfaces.msg.Duration = ...,
+        frame_locked: bool = ...,
+        points: list[geometry_msgs.msg.Point] = ...,
+        colors: list[std_msgs.msg.ColorRGBA] = ...,
+        texture_resource: str = ...,
+        texture: sensor_msgs.msg.CompressedImage = ...,
+        uv_coordinates: list[UVCoordinate] = ...,
+        text: str = ...,
+        mesh_resource: str = ...,
+        mesh_file: MeshFile = ...,
+        mesh_use_embedded_materials: bool = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MarkerArray(Message):
     markers: list[Marker]
@@ -175,7 +275,16 @@ class MenuEntry(Message):
     title: str
     command: str
     command_type: int
-    def __init__(self, *, id: int = ..., parent_id: int = ..., title: str = ..., command: str = ..., command_type: int = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        id: int = ...,
+        parent_id: int = ...,
+        title: str = ...,
+        command: str = ...,
+        command_type: int = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class MeshFile(Message):
     filename: str
@@ -183,7 +292,13 @@ class MeshFile(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, filename: str = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        filename: str = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class UVCoordinate(Message):
     u: float

@@ -17,13 +17,26 @@ class GetInteractiveMarkers_Request(Message):
 class GetInteractiveMarkers_Response(Message):
     sequence_number: int
     markers: list[visualization_msgs.msg.InteractiveMarker]
-    def __init__(self, *, sequence_number: int = ..., markers: list[visualization_msgs.msg.InteractiveMarker] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        sequence_number: int = ...,
+        markers: list[visualization_msgs.msg.InteractiveMarker] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetInteractiveMarkers_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetInteractiveMarkers_Request]
     response: list[GetInteractiveMarkers_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetInteractiveMarkers_Request] = ..., response: list[GetInteractiveMarkers_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetInteractiveMarkers_Request] = ...,
+        response: list[GetInteractiveMarkers_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetInteractiveMarkers(Service[GetInteractiveMarkers_Request, GetInteractiveMarkers_Response]):
     Request: TypeAlias = GetInteractiveMarkers_Request

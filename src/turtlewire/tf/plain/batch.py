@@ -1,4 +1,7 @@
-"""The methods that take and give NumPy arrays: loops over the single ones, as the compiled core documents them."""
+"""The methods that take and return arrays: loops over single lookups.
+
+The compiled core documents them.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +43,7 @@ def lookup_batch(
     out: NDArray[np.float64] | None = None,
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
-    """lookup_transform at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
+    """`lookup_transform` at many times: (N, 7), or (N, 4, 4) with ``matrices``."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
     times = arguments.stamp_list(stamps)
     result = arguments.output_array(out, (len(times), 4, 4) if matrices else (len(times), 7))
@@ -91,13 +94,17 @@ def transform_points(
     out: NDArray[Any] | None = None,
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[Any]:
-    """Express points (N, 3) of the source frame in the target frame, at one time or at a time for each."""
+    """Express points (N, 3) of the source frame in the target frame.
+
+    ``stamps`` is one time for all points, or one for each.
+    """
     own_target = target_frame if fixed_frame is None else fixed_frame
     check_frames(target_frame=target_frame, source_frame=source_frame, fixed_frame=own_target)
     (target_stamp_ns,) = nanoseconds(target_stamp_ns=target_stamp_ns)
     if fixed_frame is None and target_stamp_ns:
         raise ValueError(
-            "target_stamp_ns needs fixed_frame, the frame by way of which points get to another time"
+            "target_stamp_ns needs fixed_frame, the frame by way of which points get to "
+            "another time"
         )
     given, result = arguments.point_arrays(points, out)
     last = (
@@ -133,7 +140,10 @@ def lookup_velocity(
     out: NDArray[np.float64] | None = None,
     status: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
-    """How a body moves: vx, vy, vz in m/s and wx, wy, wz in rad/s, shape (6,), or (N, 6) for an array of stamps."""
+    """The velocity of a body: vx, vy, vz in m/s and wx, wy, wz in rad/s.
+
+    Shape (6,), or (N, 6) for an array of stamps.
+    """
     check_frames(tracking_frame=tracking_frame, observation_frame=observation_frame)
     (interval_ns,) = nanoseconds(interval_ns=interval_ns)
     if interval_ns <= 0:
@@ -164,7 +174,10 @@ def lookup_velocity(
 
 
 def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tuple[Vector, Vector]:
-    """The chord of a point's way, and the turn in the observer's axes, by time."""
+    """Linear velocity of a point, from start and end of its way, and angular velocity.
+
+    Both are in the observer's axes.
+    """
     begin, end = (compose(pose, (*point, 0.0, 0.0, 0.0, 1.0)) for pose in (first, last))
     linear = (
         (end[0] - begin[0]) / seconds,
@@ -213,7 +226,10 @@ def _attempt(ask: Callable[[], Any]) -> Any:
 def _with_status(
     self: SharedTree, ask: Callable[[], Any], status: NDArray[np.uint8] | None, i: int
 ) -> Any:
-    """The answer; without one None, and its status noted, or the exception if nobody wants a status."""
+    """The answer, or None with the reason noted in ``status``.
+
+    Without ``status`` the failure raises.
+    """
     if status is None:
         return self._checked(ask)
     answer = _attempt(ask)

@@ -97,7 +97,7 @@ class Buffer(SharedTree):
         return ""
 
     def ingest(self, cdr: bytes, static: bool = False, authority: str = "default_authority") -> int:
-        """Add the transforms of one tf2_msgs/msg/TFMessage, given as CDR bytes with their 4-byte header.
+        """Add the transforms of one tf2_msgs/msg/TFMessage: CDR bytes with their 4-byte header.
 
         Returns:
             How many were accepted.
@@ -143,7 +143,9 @@ class Buffer(SharedTree):
     def lookup_transform(
         self, target_frame: str, source_frame: str, stamp_ns: int = 0, timeout_ns: int = 0
     ) -> Transform:
-        """The pose of source_frame in target_frame at one time: ``target_from_source``; 0 is the latest that all links know.
+        """The pose of source_frame in target_frame at one time: ``target_from_source``.
+
+        A stamp of 0 asks for the latest time that all links have reached.
 
         Raises:
             InvalidArgumentException: A frame id is empty or starts with a slash.
@@ -168,7 +170,10 @@ class Buffer(SharedTree):
         fixed_frame: str,
         timeout_ns: int = 0,
     ) -> Transform:
-        """The pose of source_frame at one time in target_frame at another, by way of a frame that did not move."""
+        """The pose of source_frame at one time in target_frame at another time.
+
+        ``fixed_frame`` is a frame that did not move between the two times.
+        """
         ask = self._full_question(
             self._full, target_frame, target_stamp_ns, source_frame, source_stamp_ns, fixed_frame
         )
@@ -227,7 +232,10 @@ class Buffer(SharedTree):
         return self._reason(ask, timeout_ns)
 
     def latest_common_time(self, target_frame: str, source_frame: str) -> int:
-        """The newest time in nanoseconds that all dynamic links between the frames have reached; 0 if all are static."""
+        """The newest time in nanoseconds that all dynamic links between the frames have reached.
+
+        0 if all links are static.
+        """
         check_frames(target_frame=target_frame, source_frame=source_frame)
         with self._changed:
             try:
@@ -257,7 +265,10 @@ class Buffer(SharedTree):
             return frames_as_string(self._tree.links_in_order())
 
     def all_frames_as_yaml(self, now: float = 0.0) -> str:
-        """tf2's YAML of frames, parents, senders, rates and ages; ``now`` in seconds adds the delay."""
+        """tf2's YAML of frames, parents, senders, rates and ages.
+
+        ``now`` in seconds adds the delay.
+        """
         with self._changed:
             return frames_as_yaml(self._tree.links_in_order(), now, empty=not self._tree.frames)
 

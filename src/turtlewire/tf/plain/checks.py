@@ -1,4 +1,4 @@
-"""What may be an argument: the same as for the compiled core, so that a mistake shows without it, too."""
+"""Checks of arguments, the same as in the compiled core."""
 
 from __future__ import annotations
 

@@ -79,7 +79,8 @@ def name_failure(status: LookupStatus, name: str, question: Question, argument: 
 def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
     """Two frames of different trees."""
     return Failure(
-        f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."
+        f"Could not find a connection between '{target}' and '{source}' because they are not "
+        "part of the same tree."
         "Tf has two or more unconnected trees.",
         LookupStatus.NOT_CONNECTED,
         {
@@ -104,11 +105,20 @@ def time_failure(
     """A link whose data does not reach a time."""
     asked, oldest, newest = (f"{seconds(t):.6f}" for t in (stamp, link.oldest, link.newest))
     if status == LookupStatus.FUTURE:
-        text = f"Lookup would require extrapolation into the future.  Requested time {asked} but the latest data is at time {newest}"
+        text = (
+            f"Lookup would require extrapolation into the future.  Requested time {asked} "
+            f"but the latest data is at time {newest}"
+        )
     elif status == LookupStatus.PAST:
-        text = f"Lookup would require extrapolation into the past.  Requested time {asked} but the earliest data is at time {oldest}"
+        text = (
+            f"Lookup would require extrapolation into the past.  Requested time {asked} "
+            f"but the earliest data is at time {oldest}"
+        )
     elif link.has_data:
-        text = f"Lookup would require extrapolation at time {asked}, but only time {newest} is in the buffer"
+        text = (
+            f"Lookup would require extrapolation at time {asked}, "
+            f"but only time {newest} is in the buffer"
+        )
     else:
         text = ""
     return Failure(
@@ -168,7 +178,8 @@ class Refusal(NamedTuple):
             f'child_frame_id "{child}" because they are the same',
             Verdict.NO_CHILD_FRAME: f"TF_NO_CHILD_FRAME_ID: {ignoring} "
             "because child_frame_id not set ",
-            Verdict.NO_PARENT_FRAME: f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"'
+            Verdict.NO_PARENT_FRAME: "TF_NO_FRAME_ID: Ignoring transform with child_frame_id "
+            f'"{child}"'
             f'  from authority "{authority}" because frame_id not set',
             Verdict.NAN_VALUE: f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" '
             f'from authority "{authority}" because of a nan value in the transform '

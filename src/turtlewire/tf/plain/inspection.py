@@ -1,4 +1,7 @@
-"""The methods that look into the buffer, and change it by other ways than new data; the compiled core documents them."""
+"""The methods that show, remove and load samples, and lookups by other rules than tf2's.
+
+The compiled core documents them.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,7 @@ if TYPE_CHECKING:
 def extrapolate_transform(
     self: SharedTree, target_frame: str, source_frame: str, stamp_ns: int, limit_ns: int
 ) -> Transform:
-    """lookup_transform, but a time up to ``limit_ns`` outside of a link's data is answered as well."""
+    """`lookup_transform`, also for times up to ``limit_ns`` outside of a link's data."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
     stamp_ns, limit_ns = nanoseconds(stamp_ns=stamp_ns, limit_ns=limit_ns)
     if limit_ns < 0:
@@ -41,7 +44,7 @@ def extrapolate_transform(
 def lookup_latest(
     self: SharedTree, target_frame: str, source_frame: str, *, max_age_ns: int = 0, now_ns: int = 0
 ) -> tuple[Transform, dict[str, int]]:
-    """The transform made of the newest data of each link, whatever its time; and those times by child frame."""
+    """The transform made of the newest data of each link, and their stamps by child frame."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
     max_age_ns, now_ns = nanoseconds(max_age_ns=max_age_ns, now_ns=now_ns)
     if max_age_ns and not now_ns:
@@ -96,7 +99,10 @@ def stamps(self: SharedTree, child_frame: str) -> NDArray[np.int64]:
 def samples(
     self: SharedTree, child_frame: str
 ) -> list[tuple[str, NDArray[np.int64], NDArray[np.float64]]]:
-    """The whole history of one frame, oldest first: for each run with one parent the parent, the stamps and the poses."""
+    """The whole history of one frame, oldest first.
+
+    For each run of samples with one parent: the parent, the stamps and the poses.
+    """
     import numpy as np
 
     check_frames(child_frame=child_frame)

@@ -25,7 +25,10 @@ class Sample(NamedTuple):
 
 
 class Link:
-    """What is known of one child frame: a static pose, or samples in order of time, those of one stamp in order of arrival."""
+    """What is known of one child frame: a static pose, or samples in order of time.
+
+    Samples of one stamp are in order of arrival.
+    """
 
     def __init__(self, *, static: bool) -> None:
         self.static = static
@@ -108,7 +111,10 @@ class Link:
         self.dropped.clear()
 
     def insert(self, stamp: int, sample: Sample, keep: int) -> bool:
-        """Add a sample; False if it is too old. What is too old by the newest stamp so far is dropped first, as in tf2."""
+        """Add a sample; False if it is too old.
+
+        Samples that are too old by the newest stamp so far are dropped first, as in tf2.
+        """
         if self.static:
             self.fixed = sample
             return True
@@ -158,7 +164,10 @@ class Link:
         return Sample(older.parent, interpolate(older.pose, newer.pose, ratio))
 
     def read_beyond(self, stamp: int, limit: int) -> Sample | LookupStatus:
-        """As read, but up to ``limit`` outside of the data: the motion between the two outermost samples is taken to go on."""
+        """As `read`, also up to ``limit`` outside of the data.
+
+        The motion between the two outermost samples is continued.
+        """
         reading = self.read(stamp)
         if reading not in {LookupStatus.FUTURE, LookupStatus.PAST}:
             return reading

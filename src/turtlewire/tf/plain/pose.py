@@ -1,4 +1,7 @@
-"""Poses as plain tuples ``(x, y, z, qx, qy, qz, qw)``, named ``parent_from_child``, and what tf2 does with them."""
+"""tf2's arithmetic of poses: plain tuples ``(x, y, z, qx, qy, qz, qw)``.
+
+A pose is named ``parent_from_child``.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +57,10 @@ def between(a: Pose, b: Pose) -> Pose:
 
 
 def canonical(pose: Pose) -> Pose:
-    """The pose with its quaternion sent through a rotation matrix, as tf2 does with every result."""
+    """The pose with its quaternion converted to a rotation matrix and back.
+
+    tf2 does so with every result, which fixes the sign and the last bits of the quaternion.
+    """
     return (*pose[:3], *through_matrix(pose[3:]))
 
 

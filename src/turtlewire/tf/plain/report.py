@@ -32,8 +32,10 @@ def frames_as_yaml(links: Mapping[str, Link], now: float, *, empty: bool) -> str
         if not link.has_data:
             continue
         text.append(
-            f"{child}: \n  parent: '{link.parent}'\n  broadcaster: '{link.sender}'\n  rate: {_rate(link):.3f}\n"
-            f"  most_recent_transform: {seconds(link.newest):.6f}\n  oldest_transform: {seconds(link.oldest):.6f}\n"
+            f"{child}: \n  parent: '{link.parent}'\n  broadcaster: '{link.sender}'\n"
+            f"  rate: {_rate(link):.3f}\n"
+            f"  most_recent_transform: {seconds(link.newest):.6f}\n"
+            f"  oldest_transform: {seconds(link.oldest):.6f}\n"
         )
         if now > 0.0:
             text.append(f"  transform_delay: {now - seconds(link.newest):.3f}\n")
@@ -49,7 +51,8 @@ def frames_as_dot(frames: list[str], links: Mapping[str, Link], now: float) -> s
     for child, link in links.items():
         age = f"( {now - seconds(link.newest):.3f} sec old)" if now > 0.0 else ""
         text.append(
-            f'"{link.parent}" -> "{child}"[label="Broadcaster: {link.sender}\\nAverage rate: {_rate(link):.3f} Hz\\n'
+            f'"{link.parent}" -> "{child}"[label="Broadcaster: {link.sender}\\n'
+            f"Average rate: {_rate(link):.3f} Hz\\n"
             f"Most recent transform: {seconds(link.newest):.6f} {age}\\n"
             f'Buffer length: {seconds(link.newest - link.oldest):.3f} sec\\n"];\n'
         )
@@ -57,7 +60,8 @@ def frames_as_dot(frames: list[str], links: Mapping[str, Link], now: float) -> s
         if frame in links and links[frame].has_data:
             continue
         text.append(
-            'edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+            "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; "
+            'label ="view_frames Result";\n'
         )
         if now > 0.0:
             text.append(f'"Recorded at time: {now:.6f}"[ shape=plaintext ] ;\n')

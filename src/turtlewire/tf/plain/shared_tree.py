@@ -37,7 +37,9 @@ class SharedTree:
         fork.guard(self._changed)
 
     def add_change_listener(self, listener: Callable[[], object]) -> Callable[[], None]:
-        """Have ``listener()`` called after data came in, on the thread that brought it, without any lock.
+        """Have ``listener()`` called after data came in.
+
+        The thread that brought the data calls it, without any lock.
 
         Returns:
             A function that removes the listener again.
@@ -55,7 +57,7 @@ class SharedTree:
             _call(listener)
 
     def wake(self) -> None:
-        """Make every waiting lookup look at pending signals now, and go on waiting if there is none."""
+        """Have every waiting lookup check for pending signals now; without one it waits on."""
         with self._changed:
             self._changed.notify_all()
 
@@ -66,7 +68,7 @@ class SharedTree:
             raise self._error(failure) from None
 
     def _checked(self, ask: Callable[[], _Answer]) -> _Answer:
-        """Ask, with the lock held already."""
+        """Ask; called with the lock held."""
         try:
             return ask()
         except Failure as failure:
@@ -87,7 +89,7 @@ class SharedTree:
         return ""
 
     def _waiting(self, ask: Callable[[], _Answer], timeout_ns: int) -> _Answer:
-        """Ask; as long as the answer is a Failure that data can mend, ask again when data comes in."""
+        """Ask; after a Failure that more data can end, ask again when data comes in."""
         (timeout_ns,) = nanoseconds(timeout_ns=timeout_ns)
         deadline = time.monotonic_ns() + timeout_ns
         with self._changed:
@@ -104,7 +106,7 @@ class SharedTree:
 def _call(listener: Callable[[], object]) -> None:
     try:
         listener()
-    except Exception as error:  # noqa: BLE001 - whoever brought the data is not the one to tell
+    except Exception as error:  # noqa: BLE001 - not the fault of the caller, who brought data
         sys.unraisablehook(
             SimpleNamespace(
                 exc_type=type(error),

@@ -14,18 +14,24 @@ if TYPE_CHECKING:
 
 
 def decode_tf_message(data: bytes) -> list[tuple[int, bytes, bytes, Pose]]:
-    """The transforms of a message as (stamp in ns, parent, child, pose); CdrError if the bytes are not one."""
+    """The transforms of a message: (stamp in ns, parent, child, pose).
+
+    Raises:
+        CdrError: The bytes are no TFMessage.
+    """
     if len(data) < 8:
         raise CdrError(f"not a TFMessage: a TFMessage has at least 8 bytes, these are {len(data)}")
     if data[0] != 0 or data[1] > 1:
         raise CdrError(
-            f"not a TFMessage: the first two bytes, {data[0]} {data[1]}, are not those of plain CDR (0 0 or 0 1)"
+            f"not a TFMessage: the first two bytes, {data[0]} {data[1]}, "
+            "are not those of plain CDR (0 0 or 0 1)"
         )
     order = "<" if data[1] else ">"
     (count,) = struct.unpack_from(order + "I", data, 4)
     if count > len(data) // 72:
         raise CdrError(
-            f"not a TFMessage: {count} transforms are announced, which do not fit into {len(data)} bytes"
+            f"not a TFMessage: {count} transforms are announced, which do not fit into "
+            f"{len(data)} bytes"
         )
     return list(_transforms(data, count, order))
 
@@ -42,7 +48,8 @@ def _transforms(data: bytes, count: int, order: str) -> Iterator[tuple[int, byte
             pose: Pose = struct.unpack_from(order + "7d", data, at)
         except (struct.error, IndexError) as error:
             raise CdrError(
-                f"not a TFMessage: transform {i} of {count} ends beyond the {len(data)} bytes, or has a string without its final NUL"
+                f"not a TFMessage: transform {i} of {count} ends beyond the {len(data)} bytes, "
+                "or has a string without its final NUL"
             ) from error
         at += 56
         yield sec * 1_000_000_000 + nanosec, parent, child, pose

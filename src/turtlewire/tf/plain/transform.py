@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 
 
 class Transform:
-    """The pose of ``child_frame_id`` (source) in ``frame_id`` (target) at one time: ``target_from_source``.
+    """The pose of ``child_frame_id`` (source) in ``frame_id`` (target) at one time.
+
+    It is ``target_from_source``.
 
     Immutable. It takes data of the source frame into the target frame. Translation in metres;
     rotation a unit quaternion in the order x, y, z, w. ``numpy.asarray(transform)`` gives the seven
@@ -102,6 +104,7 @@ class Transform:
 
     def __repr__(self) -> str:
         return (
-            f"Transform(frame_id={self.frame_id!r}, child_frame_id={self.child_frame_id!r}, stamp_ns={self.stamp_ns}, "
+            f"Transform(frame_id={self.frame_id!r}, child_frame_id={self.child_frame_id!r}, "
+            f"stamp_ns={self.stamp_ns}, "
             f"translation={self.translation!r}, rotation={self.rotation!r})"
         )

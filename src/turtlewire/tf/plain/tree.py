@@ -113,7 +113,10 @@ class Tree:
             raise name_failure(status, name, question, argument)
 
     def lookup(self, target: str, source: str, stamp: int, question: Question) -> tuple[int, Pose]:
-        """The time and the pose ``target_from_source``; a frame in itself is the identity, whether it exists or not."""
+        """The time and the pose ``target_from_source``.
+
+        A frame in itself is the identity, also for a frame that does not exist, as in tf2.
+        """
         if target == source:
             link = self.links.get(target)
             return (link.newest if stamp == 0 and link else stamp, IDENTITY)
@@ -133,7 +136,7 @@ class Tree:
     def lookup_by(
         self, target: str, source: str, stamp: int, read: Reader
     ) -> tuple[Pose, list[str]]:
-        """The pose by another rule than tf2's for what a link answers, and the children of the links on the way."""
+        """The pose when links answer by ``read``, not by tf2's rule; and the links' children."""
         self.check_name(target, "lookupTransform", "target_frame")
         self.check_name(source, "lookupTransform", "source_frame")
         if target == source:
@@ -142,7 +145,10 @@ class Tree:
         return canonical(pose), used
 
     def _walk(self, target: str, source: str, stamp: int, read: Reader) -> tuple[Pose, list[str]]:
-        """Source to the top, then target up to there. A link without data ends the first walk and fails the second."""
+        """Walk from the source to the root, then from the target up to that walk.
+
+        A link without data ends the first walk and fails the second.
+        """
         up: list[str] = []
         down: list[str] = []
         source_to_top, stopped = IDENTITY, None
@@ -195,7 +201,10 @@ class Tree:
             raise loop_failure(frames_as_string(self.links_in_order()))
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The oldest of the newest stamps on the way, by the newest parent of each link; a stamp of 0 counts as static."""
+        """The oldest of the links' newest stamps between the frames.
+
+        The newest parent of each link counts; a stamp of 0 counts as static.
+        """
         if target == source:
             link = self.links.get(source)
             return link.newest if link else 0

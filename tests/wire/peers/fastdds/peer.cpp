@@ -1,8 +1,9 @@
-// A foreign peer on Debian's Fast DDS, with type support written on Fast CDR. It sends back what it receives on
-// rt/to_fast/X on rt/from_fast/X, with 1 added to one number so that the test sees that the fields were understood, and
-// latches one message of each type on rt/latched_fast/X. It reads rt/latched/X, transient local, in the same way. On
-// rt/broken it latches payloads that are no messages, and a good one after them. With the name of a node it announces
-// this node. It runs until it is terminated.
+// A foreign peer on Debian's Fast DDS, with type support written on Fast CDR. It sends back what it
+// receives on rt/to_fast/X on rt/from_fast/X, with 1 added to one number so that the test sees that
+// the fields were understood, and latches one message of each type on rt/latched_fast/X. It reads
+// rt/latched/X, transient local, in the same way. On rt/broken it latches payloads that are no
+// messages, and a good one after them. With the name of a node it announces this node. It runs
+// until it is terminated.
 
 #include <fastcdr/Cdr.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -159,15 +160,16 @@ struct Peer {
     type.register_type(participant);
     return participant->create_topic(name, type.get_type_name(), fast::TOPIC_QOS_DEFAULT);
   }
-  fast::DataWriter* writer(const std::string& name, fast::TypeSupport type, fast::DurabilityQosPolicyKind durability) {
+  fast::DataWriter* writer(const std::string& name, fast::TypeSupport type,
+                           fast::DurabilityQosPolicyKind durability) {
     fast::DataWriterQos qos;
     qos.durability().kind = durability;
     qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
     qos.history().depth = 100;
     return publisher->create_datawriter(topic(name, type), qos);
   }
-  void reader(const std::string& name, fast::TypeSupport type, fast::DurabilityQosPolicyKind durability,
-              fast::DataReaderListener* listener) {
+  void reader(const std::string& name, fast::TypeSupport type,
+              fast::DurabilityQosPolicyKind durability, fast::DataReaderListener* listener) {
     fast::DataReaderQos qos;
     qos.durability().kind = durability;
     qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
@@ -197,16 +199,19 @@ class Answer : public fast::DataReaderListener {
 template <typename Message>
 void serve(Peer& peer, const std::string& name) {
   fast::TypeSupport type(new MessageType<Message>);
-  auto* answer = new Answer<Message>(peer.writer("rt/from_fast/" + name, type, fast::TRANSIENT_LOCAL_DURABILITY_QOS));
+  auto* answer = new Answer<Message>(
+      peer.writer("rt/from_fast/" + name, type, fast::TRANSIENT_LOCAL_DURABILITY_QOS));
   peer.reader("rt/to_fast/" + name, type, fast::VOLATILE_DURABILITY_QOS, answer);
   peer.reader("rt/latched/" + name, type, fast::TRANSIENT_LOCAL_DURABILITY_QOS, answer);
   Message message;
-  peer.writer("rt/latched_fast/" + name, type, fast::TRANSIENT_LOCAL_DURABILITY_QOS)->write(&message);
+  peer.writer("rt/latched_fast/" + name, type, fast::TRANSIENT_LOCAL_DURABILITY_QOS)
+      ->write(&message);
 }
 
 void latch_broken(Peer& peer) {
   fast::DataWriter* writer =
-      peer.writer("rt/broken", fast::TypeSupport(new BytesType("std_msgs::msg::dds_::String_")), fast::TRANSIENT_LOCAL_DURABILITY_QOS);
+      peer.writer("rt/broken", fast::TypeSupport(new BytesType("std_msgs::msg::dds_::String_")),
+                  fast::TRANSIENT_LOCAL_DURABILITY_QOS);
   std::vector<Bytes> payloads = {
       {0, 3, 0, 0, 1, 0, 0, 0},                                  // a parameter list
       {0, 7, 0, 0, 2, 0, 0, 0, 'x', 0, 0, 0},                    // XCDR2
@@ -219,17 +224,18 @@ void latch_broken(Peer& peer) {
 
 // What rmw_fastrtps publishes of a participant, here one without endpoints of its nodes.
 void announce_node(Peer& peer, const std::string& name) {
-  fast::DataWriter* writer =
-      peer.writer("ros_discovery_info",
-                  fast::TypeSupport(new BytesType("rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")),
-                  fast::TRANSIENT_LOCAL_DURABILITY_QOS);
+  fast::DataWriter* writer = peer.writer(
+      "ros_discovery_info",
+      fast::TypeSupport(new BytesType("rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_")),
+      fast::TRANSIENT_LOCAL_DURABILITY_QOS);
   const auto& guid = peer.participant->guid();
   Bytes info = {0, 1, 0, 0};
   info.insert(info.end(), guid.guidPrefix.value, guid.guidPrefix.value + 12);
   info.insert(info.end(), guid.entityId.value, guid.entityId.value + 4);
   const auto add_number = [&](size_t number) {
     info.resize((info.size() + 3) / 4 * 4);
-    for (int shift = 0; shift < 32; shift += 8) info.push_back(static_cast<uint8_t>(number >> shift));
+    for (int shift = 0; shift < 32; shift += 8)
+      info.push_back(static_cast<uint8_t>(number >> shift));
   };
   const auto add_text = [&](const std::string& text) {
     add_number(text.size() + 1);
@@ -243,7 +249,8 @@ void announce_node(Peer& peer, const std::string& name) {
   writer->write(&info);
 }
 
-// The discovery of rmw_fastrtps in LOCALHOST range: no multicast, and 32 processes of this host are asked.
+// The discovery of rmw_fastrtps in LOCALHOST range: no multicast, and 32 processes of this host are
+// asked.
 fast::DomainParticipantQos localhost_only(const std::string& user_data) {
   fast::DomainParticipantQos qos;
   auto& builtin = qos.wire_protocol().builtin;
