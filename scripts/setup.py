@@ -40,7 +40,7 @@ NO_NETWORK = re.compile(
 
 
 class SetupError(Exception):
-    """Says in one sentence what is missing."""
+    """An error whose text names in one sentence what is missing."""
 
 
 def main(extras: list[str]) -> None:

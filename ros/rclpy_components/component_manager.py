@@ -56,7 +56,7 @@ class ComponentManager(Node):
         return response
 
     def _told(self, error: Exception, request: Any) -> str:
-        """Log why a component was not loaded; returns what its client is told."""
+        """Log why a component was not loaded; returns the text of the response."""
         if isinstance(error, ModuleNotFoundError) and "::" in request.plugin_name:
             self.get_logger().error(f"'{request.plugin_name}' is a component of C++: {error}")
             return "Could not find requested resource in ament index"

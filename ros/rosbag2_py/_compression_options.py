@@ -1,4 +1,4 @@
-"""How a bag is compressed by rosbag2, beside what its storage does."""
+"""rosbag2's own compression of a bag, beside that of its storage."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = [
 
 
 class CompressionMode(enum.Enum):
-    """What is compressed as one piece."""
+    """The unit of compression."""
 
     NONE = 0
     FILE = 1
@@ -27,7 +27,7 @@ class CompressionOptions:
 
     Attributes:
         compression_format: ``zstd``.
-        compression_mode: What is compressed.
+        compression_mode: The unit: each message or each file.
         compression_queue_size: Messages that may wait for compression.
         compression_threads: Threads that compress; 0 for one for each core.
     """

@@ -1,4 +1,4 @@
-"""What ``ros2 bag info`` tells."""
+"""Reads metadata of bags, for ``ros2 bag info``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _REQUEST_SENT, _REQUEST_RECEIVED, _RESPONSE_SENT, _RESPONSE_RECEIVED = range(4)
 
 
 class Info:
-    """Reads what a bag holds."""
+    """Reads the metadata of bags."""
 
     def read_metadata(self, uri: str, _storage_id: str = "") -> BagMetadata:
         """Metadata of a bag, from ``metadata.yaml`` or from its files.

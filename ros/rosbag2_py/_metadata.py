@@ -1,4 +1,4 @@
-"""What a bag holds, and the text of ``ros2 bag info`` about it."""
+"""Metadata of a bag, and its text for ``ros2 bag info``."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class FileInformation:
 
 @dataclass
 class BagMetadata:
-    """What a bag holds; ``str()`` gives the text of ``ros2 bag info``."""
+    """Topics, times and files of a bag; ``str()`` gives the text of ``ros2 bag info``."""
 
     version: int = engine.NEWEST_VERSION
     bag_size: int = 0
@@ -105,7 +105,7 @@ def info(metadata: BagMetadata, counts: Mapping[str, tuple[int, int]] | None = N
 
     Args:
         metadata: What the bag holds.
-        counts: Numbers of requests and responses by service; None tells only how many events.
+        counts: Numbers of requests and responses by service; None counts events only.
     """
     topics: list[TopicInformation] = []
     services: list[TopicInformation] = []

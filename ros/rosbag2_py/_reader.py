@@ -132,7 +132,7 @@ class SequentialReader:
         return message.topic, message.data, message.log_time_ns
 
     def get_metadata(self) -> BagMetadata:
-        """What the bag holds."""
+        """Topics, times and files of the bag."""
         bag = self._opened()
         return from_engine(bag.metadata, folder_size(bag.path))
 

@@ -81,7 +81,7 @@ class StorageOptions:
 
 @dataclass
 class ConverterOptions:
-    """Serialization formats; only ``cdr`` is known, which is also what an empty text means."""
+    """Serialization formats; only ``cdr`` exists, and an empty text means it."""
 
     input_serialization_format: str = ""
     output_serialization_format: str = ""
@@ -109,7 +109,7 @@ class StorageFilter:
 
 
 class ReadOrderSortBy(enum.Enum):
-    """What messages are sorted by."""
+    """The time that orders messages."""
 
     ReceivedTimestamp = 0
     PublishedTimestamp = 1
@@ -179,7 +179,7 @@ class MetadataIo:
 
 
 def to_rclcpp_qos_vector(qos_profiles: str, _version: int) -> list[QoSProfile]:
-    """Profiles from the YAML that bags hold; the words of each version are told apart."""
+    """Profiles from the YAML that bags hold; its policies may be words or numbers, by version."""
     return [profile_of(qos) for qos in profiles_from_yaml(qos_profiles, "the QoS profiles")]
 
 

@@ -1,4 +1,4 @@
-"""A transform on plain floats: what it does to points, vectors, rotations and twists."""
+"""A transform on plain floats, applied to points, vectors, rotations and twists."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ def poses_from_array(array: ArrayLike) -> list[Pose]:
 def matrix_from_pose(pose: Pose) -> Array:
     """Shape ``(4, 4)``.
 
-    Takes what is given in the frame of the pose into the frame in which the pose is given.
+    It takes coordinates in the pose's own frame to the frame of its header.
     """
     return conversions.matrix_from_pose(array_from_pose(pose))
 

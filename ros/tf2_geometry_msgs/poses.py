@@ -68,7 +68,7 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     """A path in the frame of a transform.
 
     One transform takes the whole path, whose header gets stamp and frame of it. The poses get the
-    frame and keep their stamps: these say when each is, or shall be, reached.
+    frame and keep their stamps: they are the times at which the poses are reached.
 
     Raises:
         ValueError: A pose names another frame than the path; it needs a transform of its own.

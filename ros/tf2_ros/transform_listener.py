@@ -1,4 +1,4 @@
-"""Fills a buffer with what is published on ``/tf`` and ``/tf_static``."""
+"""Fills a buffer with the transforms of ``/tf`` and ``/tf_static``."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ __all__ = ["dot_from_tree"]
 
 
 def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
-    """Graphviz text with a link for each frame, and a legend that says when it was recorded."""
+    """Graphviz text with a link for each frame, and a legend with the time of the recording."""
     if not tree.links:
         return 'digraph G { "No tf data received" }'
     legend = [

@@ -6,7 +6,7 @@ Quaternions are ``(x, y, z, w)``, angles radians, matrices ``(4, 4)`` arrays tha
 vectors from the left. Euler angles name their axes: ``"sxyz"`` is roll, pitch, yaw about the static
 x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
 
-What deals with one quaternion works on plain floats, so that a node that only needs
+Functions of one quaternion work on plain floats, so that a node that only needs
 :func:`quaternion_from_euler` starts without NumPy; everything else loads it at its first use.
 
 ==============  =========================================

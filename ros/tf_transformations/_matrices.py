@@ -1,4 +1,4 @@
-"""Homogeneous 4x4 matrices: made from what they do, and taken apart again."""
+"""Homogeneous 4x4 matrices: composed, and decomposed again."""
 
 from __future__ import annotations
 
@@ -384,7 +384,7 @@ def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
     """Rotation matrix of three angles [rad].
 
-    :func:`quaternion_from_euler` says what ``axes`` means.
+    :func:`quaternion_from_euler` explains ``axes``.
     """
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
@@ -444,7 +444,7 @@ def inverse_matrix(matrix: ArrayLike) -> Any:
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
-    """The product of the matrices: what they do from the last to the first."""
+    """The product of the matrices; the last one acts first."""
     product = np.identity(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix, dtype=np.float64)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     #: ``"sxyz"``, or the numbers (inner axis, parity, repetition, frame) that stand for it.
     Axes = str | Sequence[int]
 
-#: Below this, a sine or a cosine says nothing about its angle any more.
+#: Below this, rounding decides the quotient of a sine and a cosine, not their angle.
 EPSILON = 4.0 * 2.0**-52
 
 

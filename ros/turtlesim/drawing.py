@@ -1,4 +1,4 @@
-"""What the pens have drawn since the last clear, for browsers that watch or connect later."""
+"""The drawing since the last clear, for browsers that watch or connect later."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Drawing:
         self._cleared_at = self._next
 
     def since(self, position: int) -> tuple[bool, bytes, int]:
-        """What a reader has not got yet.
+        """The part that a reader has not received yet.
 
         Args:
             position: From the reader's last call, -1 for a new reader.

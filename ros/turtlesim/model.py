@@ -128,7 +128,7 @@ class Rotation:
     Attributes:
         goal: Heading asked for [rad], any finite number.
         delta: How far the turtle has turned so far, start minus present heading [rad].
-        remaining: What is left to turn, positive counter-clockwise [rad].
+        remaining: Angle left to turn, positive counter-clockwise [rad].
         state: See :class:`RotationState`.
         cancel_requested: Set to have the next tick end the rotation.
     """
@@ -155,7 +155,7 @@ class Turtle:
         forward: Commanded speed ahead [m/s].
         lateral: Commanded speed to the left [m/s]; stays 0 unless the world is holonomic.
         turning: Commanded turning rate [rad/s].
-        pen: What it draws with.
+        pen: Colour and width of its line.
         pen_on: Whether it draws.
         rotation: The rotation being worked on, or None.
     """
@@ -191,7 +191,7 @@ class Turtle:
 
     @property
     def pose(self) -> Pose:
-        """Where it is and how fast it was told to move."""
+        """Its pose and the velocities of the last command."""
         state = (self.x, self.y_down, self.theta, self.forward, self.lateral, self.turning)
         return Pose._make(published(state))
 

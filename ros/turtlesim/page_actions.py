@@ -1,4 +1,4 @@
-"""What the simulator does when a page asks for it, always at the start of a tick."""
+"""Carries out the commands of pages, always at the start of a tick."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["PageActions", "Simulator"]
 
 
 class Simulator(Protocol):
-    """What pages can change."""
+    """The objects that pages can change."""
 
     world: World
 
@@ -81,7 +81,7 @@ class PageActions:
             self._actions[type(command)](command)
 
     def forget(self, turtle: str) -> None:
-        """Close what was made for a turtle that is gone."""
+        """Close the publishers and clients of a turtle that was removed."""
         self._rotations.forget(turtle)
         publisher = self._publishers.pop(turtle, None)
         if publisher is not None:

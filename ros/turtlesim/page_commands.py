@@ -30,7 +30,7 @@ _LARGEST_NUMBER = 1_000_000
 
 
 class CommandError(ValueError):
-    """The browser sent something that is not a command; the text says what is wrong."""
+    """The browser sent something that is not a command; the text names the mistake."""
 
 
 class Drive(NamedTuple):

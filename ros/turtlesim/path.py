@@ -1,4 +1,4 @@
-"""The picture that the pens draw: what the colour sensor sees.
+"""The picture that the pens draw, which the colour sensor reads.
 
 Of 5,579 pixels that the real turtlesim painted (``tests/golden/sim``), 3 differ.
 :mod:`turtlesim.pen_line` says which pixels a line covers.
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["EMPTY_COLOUR", "PathImage"]
 
-#: What the colour sensor reads where no pen has drawn, whatever the background's colour is.
+#: The colour sensor's value where no pen has drawn, for every colour of the background.
 EMPTY_COLOUR = (255, 255, 255)
 #: How many strokes are kept after a tick; only a swarm has more.
 _MAX_PENDING = 64

@@ -99,7 +99,7 @@ def published(
     state: tuple[_Number, _Number, _Number, _Number, _Number, _Number],
     sqrt: _Function = math.sqrt,
 ) -> tuple[_Number, _Number, _Number, _Number, _Number]:
-    """What a turtle publishes of itself: x, y (up), heading, speed (never negative), turning rate.
+    """A turtle's published pose: x, y (up), heading, speed (never negative), turning rate.
 
     Args:
         state: x, y_down, heading, speed ahead, speed to the left, turning rate.

@@ -1,8 +1,8 @@
 """The simulator's screen: a page in any browser of this machine, fed at the simulation's rate.
 
-What goes to a browser: ``scene`` texts (JSON) when turtles, background or hints change, ``tf``
-texts a few times a second while it watches the frames, and one binary frame for each tick (of a
-crowd: each second tick) that it keeps up with. A frame is little-endian: five 32-bit unsigned
+A browser receives ``scene`` texts (JSON) when turtles, background or hints change, ``tf`` texts a
+few times a second while it watches the frames, and one binary frame for each tick (of a crowd: each
+second tick) that it keeps up with. A frame is little-endian: five 32-bit unsigned
 integers (tick, version of the scene that it belongs to, number of turtles, number of strokes, 1 if
 the picture starts empty), five 32-bit floats for each turtle in the scene's order (x, y, theta,
 linear and angular velocity), and the strokes as :mod:`turtlesim.drawing` packs them. What comes
@@ -46,7 +46,7 @@ _FRAMES_PERIOD_S = 0.2
 
 
 class Scene(NamedTuple):
-    """What changes rarely.
+    """The part of the picture that changes rarely.
 
     Attributes:
         node: Fully qualified name of the simulator's node.
@@ -128,7 +128,7 @@ class Screen:
             self._drawing.clear()
 
     def close(self) -> None:
-        """Stop serving; pages say that they lost the simulator and try again."""
+        """Stop serving; pages show that the simulator is lost, and reconnect when it returns."""
         self._server.close()
         self.transforms.close()
 

@@ -156,5 +156,5 @@ class TurtleEndpoints:
 
 
 def are_finite(*numbers: float) -> bool:
-    """Whether a turtle can be told these numbers and stay on the field."""
+    """Whether none is NaN or too large for the arithmetic of a pose."""
     return all(abs(number) <= _LARGEST for number in numbers)  # false for NaN, too

@@ -49,7 +49,7 @@ _DRIVES = {
     b"C": _Drive(0.0, -1.0),
     b"D": _Drive(0.0, 1.0),
 }
-#: The keys around F, each for the heading [rad] in whose direction it lies from there.
+#: The keys around F with headings [rad]: each key means its own direction as seen from F.
 _HEADINGS = {
     b"g": 0.0,
     b"t": 0.7854,

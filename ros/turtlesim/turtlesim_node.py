@@ -227,7 +227,7 @@ class TurtlesimNode(CppNode):
         self._show_scene()
 
     def clear(self) -> None:
-        """Wipe what the pens have drawn."""
+        """Clear the drawing."""
         self.get_logger().info("Clearing turtlesim.")
         self._clear_drawing()
 

@@ -12,6 +12,7 @@ module        what it holds
 `testing`     a domain, a filled buffer and waiting, for users' tests
 `tf`          the transform buffer, the listener that fills it, and its pictures
 `trajectory`  poses over time: sampled, in files, compared
+`urdf`        robots: a parser of URDF and forward kinematics
 `web`         a small HTTP and WebSocket server for this machine's browsers
 `wire`        the middleware: bytes, QoS, names and the graph
 ============  ==================================================================

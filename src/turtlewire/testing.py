@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 __all__ = ["filled_buffer", "isolated_domain", "reserved_domain", "wait_for"]
 
 _FIRST_PORT, _PORTS_OF_DOMAIN = 7410, 250
-_LAST_DOMAIN = 101  # the ports of those above are among those that systems hand out to anybody
+_LAST_DOMAIN = 101  # systems assign the ports of those above to any program
 
 
 @contextlib.contextmanager

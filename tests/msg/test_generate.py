@@ -175,8 +175,8 @@ def test_stubs_satisfy_a_type_checker(generated, tmp_path):
     ]
     assert errors == [
         (
-            '12: error: Argument "radius" to "Sphere" has incompatible type "str"; expected "float"  '
-            "[arg-type]"
+            '12: error: Argument "radius" to "Sphere" has incompatible type "str"; '
+            'expected "float"  [arg-type]'
         ),
         '13: error: "Sphere" has no attribute "rdius"; maybe "radius"?  [attr-defined]',
     ]

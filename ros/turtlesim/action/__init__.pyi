@@ -73,7 +73,10 @@ class RotateAbsolute_SendGoal_Event(Message):
     ) -> None: ...
 
 class RotateAbsolute_SendGoal(
-    Service[RotateAbsolute_SendGoal_Request, RotateAbsolute_SendGoal_Response]
+    Service[
+        RotateAbsolute_SendGoal_Request,
+        RotateAbsolute_SendGoal_Response,
+    ]
 ):
     Request: TypeAlias = RotateAbsolute_SendGoal_Request
     Response: TypeAlias = RotateAbsolute_SendGoal_Response
@@ -113,7 +116,10 @@ class RotateAbsolute_GetResult_Event(Message):
     ) -> None: ...
 
 class RotateAbsolute_GetResult(
-    Service[RotateAbsolute_GetResult_Request, RotateAbsolute_GetResult_Response]
+    Service[
+        RotateAbsolute_GetResult_Request,
+        RotateAbsolute_GetResult_Response,
+    ]
 ):
     Request: TypeAlias = RotateAbsolute_GetResult_Request
     Response: TypeAlias = RotateAbsolute_GetResult_Response

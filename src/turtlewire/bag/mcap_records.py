@@ -89,7 +89,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class ChunkIndex:
-    """Where a chunk lies and what it holds.
+    """Position, time span and topics of a chunk.
 
     Attributes:
         start_ns: Smallest log time of its messages.
@@ -108,7 +108,7 @@ class ChunkIndex:
 
 @dataclass(frozen=True)
 class Statistics:
-    """What the whole file holds.
+    """Topics, times and counts of a whole file.
 
     Attributes:
         message_count: Number of messages.

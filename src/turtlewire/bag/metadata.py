@@ -1,8 +1,8 @@
-"""What a bag says of itself: ``metadata.yaml``, of every version from 1 to 9.
+"""``metadata.yaml`` of a bag, of every version from 1 to 9.
 
 Source: rosbag2 (Jazzy, version 9). Versions differ in the keys that exist and in how the QoS of the
 publishers is written: a text that holds YAML up to version 8, plain YAML since; numbers for the
-policies up to 8, words since. Both are told apart by what is there, as rosbag2 does.
+policies up to 8, words since. The content decides which it is, as in rosbag2.
 """
 
 from __future__ import annotations
@@ -78,11 +78,11 @@ class FileInfo:
 
 @dataclass
 class BagMetadata:
-    """What a bag holds.
+    """The topics, times and files of a bag.
 
     Attributes:
         storage: ``mcap`` or ``sqlite3``.
-        paths: Where its files lie, relative to the bag's folder.
+        paths: Its files, relative to the bag's folder.
         files: Times and counts of its files, in the same order; empty before version 5. Their
             paths lack the ``.zstd`` of files that were compressed whole.
         topics: Its topics.

@@ -122,7 +122,7 @@ class SqliteFile:
         """Log time, topic id and bytes of the messages in order of time.
 
         Raises:
-            BagError: The file is damaged; what lies before was yielded.
+            BagError: The file is damaged; the messages before the damage were yielded.
         """
         where = "timestamp BETWEEN ? AND ?"
         if topic_ids is not None:

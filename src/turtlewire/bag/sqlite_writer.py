@@ -116,7 +116,7 @@ class SqliteWriter:
         self._pending_bytes = 0
 
     def close(self) -> None:
-        """Write what is pending, merge the log and close the file."""
+        """Write pending messages, merge the log and close the file."""
         try:
             self.flush()
             self._database.execute("PRAGMA journal_mode = DELETE")

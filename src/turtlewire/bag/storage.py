@@ -27,7 +27,7 @@ _SQLITE_MAGIC = b"SQLite format 3\0"
 
 
 class StorageFile(Protocol):
-    """What the rest of this package needs of a bag's file.
+    """The interface of a bag's file for the rest of this package.
 
     Attributes:
         path: Where it is.
@@ -38,7 +38,7 @@ class StorageFile(Protocol):
     problems: list[str]
 
     def summary(self) -> BagMetadata:
-        """What the file holds, from the file itself."""
+        """Topics, types and times, read from the file itself."""
 
     def definitions(self) -> dict[str, tuple[str, str]]:
         """Encoding and text of the definition of each type, as far as the file has them."""
@@ -53,7 +53,7 @@ class StorageFile(Protocol):
         """The messages in order of log time; bounds are included.
 
         Args:
-            wanted: Says of a topic whether its messages are wanted.
+            wanted: Decides of a topic whether its messages are read.
             start_ns: The first log time.
             end_ns: The last log time.
             damaged: Called for each part that cannot be read.
@@ -64,7 +64,7 @@ class StorageFile(Protocol):
 
 
 def open_storage(path: str) -> StorageFile:
-    """Open a ``.mcap`` or ``.db3`` file; which of both it is tell its first bytes.
+    """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which of both it is.
 
     Raises:
         FileNotFoundError: There is no such file.
@@ -118,7 +118,7 @@ class McapStorage:
         )
 
     def summary(self) -> BagMetadata:
-        """What the file holds; two channels of one topic count together."""
+        """The file's topics and times; channels of one topic count together."""
         topics: dict[str, TopicInfo] = {}
         for channel_id in sorted(self.file.channels):
             topic = self._read_topic(channel_id)

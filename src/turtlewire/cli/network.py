@@ -14,7 +14,7 @@ __all__ = ["domains_of", "multicast_works", "udp_ports"]
 
 # How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
 _FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
-#: Of the domains above it, the ports are among those that a system hands out to anybody.
+#: The ports of the domains above it are among those that systems assign to any program.
 _LAST_SURE_DOMAIN = 101
 
 _GROUP = "239.255.0.1"  # the one that DDS announces itself to

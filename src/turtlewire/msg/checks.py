@@ -124,7 +124,7 @@ def _check_values(name: str, type_: AbstractNestedType, value: Any) -> None:
 def _is_native_storage(name: str, type_: AbstractNestedType, value: Any) -> bool:
     """Whether the value is the array.array or NumPy array of the field.
 
-    Such a one must have the right element type and size.
+    An array must have the right element type and size.
     """
     if isinstance(type_, AbstractSequence) and isinstance(value, array):
         code = element_code(type_)

@@ -130,11 +130,14 @@ class _StubWriter:
 
     def parts(self, name: str, base: str, *parts: str) -> None:
         arguments = [part for part in parts if part != "Event"]
-        bases = f"{base}[{', '.join(f'{name}_{part}' for part in arguments)}]"
-        line = f"class {name}({bases}):"
+        types = [f"{name}_{part}" for part in arguments]
+        line = f"class {name}({base}[{', '.join(types)}]):"
+        if len(line) > _LINE_LENGTH:
+            listed = "".join(f"        {type_},\n" for type_ in types)
+            line = f"class {name}(\n    {base}[\n{listed}    ]\n):"
         self.lines += [
             "",
-            *([line] if len(line) <= _LINE_LENGTH else [f"class {name}(", f"    {bases}", "):"]),
+            line,
             *(f"    {part}: TypeAlias = {name}_{part}" for part in parts),
         ]
 

@@ -18,6 +18,8 @@ Many classes are called some kind of Buffer. From the inside out:
 module                     what it holds
 =========================  =================================================================
 `buffer`                   `Buffer`: the compiled core, or its plain twin
+`surface`                  what buffers of both cores offer in Python: bags, trajectories, operators
+`datetimes`                stamps given as ``datetime64``
 `plain`                    the plain-Python twin of the compiled core
 `status`                   `LookupStatus`: one answer of a batch lookup
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers

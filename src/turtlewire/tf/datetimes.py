@@ -1,6 +1,6 @@
 """Times that are no integers: NumPy's ``datetime64``, and what can be made one, as pandas' times.
 
-NumPy is imported by whoever has such a time, never here.
+This module does not import NumPy: a caller that has such a time has imported it.
 """
 
 from __future__ import annotations

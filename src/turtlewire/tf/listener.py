@@ -102,7 +102,7 @@ class _Arrivals:
         self.tell()
 
     def tell(self) -> None:
-        """Call everybody who waits."""
+        """Call all that wait."""
         with self._lock:
             calls, self._calls = self._calls, {}
         for call in calls:

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["buffer_svg", "transform_html"]
 
-#: A picture of more links takes a browser seconds to show, and nobody can read it.
+#: A picture of more links is unreadable and takes a browser seconds to show.
 _MOST_LINKS = 500
 _AXIS_COLOURS = ("#d33f3f", "#3a9a3a", "#3f6fd3")
 _SIDE = 190.0

@@ -8,15 +8,20 @@
     kinematics = Kinematics(robot)
     poses = kinematics.link_poses({"shoulder": [0.0, 0.1], "elbow": 0.5})   # (2, links, 7)
 
-===============  ==============================================================
-module           what it holds
-===============  ==============================================================
-`parser`         `parse_urdf`, `load_urdf`: urdfdom's rules and error texts
-`model`          `Robot`, `Link`, `Joint` and their parts
-`kinematics`     `Kinematics`: poses of all links for many joint states at once
-`mimic`          chains of joints that follow others
-`faults`         `UrdfError`: texts, line and element
-===============  ==============================================================
+==================  ==============================================================
+module              what it holds
+==================  ==============================================================
+`model`             links, joints and their properties: metres, radians, kilograms
+`parser`            `parse_urdf`: urdfdom's rules and error texts
+`elements`          XML as a tree of elements with their lines
+`bodies`, `joints`  ``link`` and ``material`` elements; ``joint`` elements
+`values`            numbers and vectors in attributes
+`tree`              checks that links and joints are one tree
+`faults`            errors of a URDF
+`joint_model`       transforms of joints at given positions, as arrays
+`mimic`             joints that follow other joints
+`kinematics`        forward kinematics for many joint states at once
+==================  ==============================================================
 """
 
 from __future__ import annotations

@@ -324,8 +324,8 @@ class WaitSet(Entity):
 
         Returns:
             The ready entities, empty after a wake-up or at the end of the time. An entity stays
-            ready until all of its data is taken (level-triggered). A wake-up that came while nobody
-            waited ends the next wait at once.
+            ready until all of its data is taken (level-triggered). A wake-up without a
+            waiting thread ends the next wait at once.
         """
 
     @abstractmethod

@@ -55,7 +55,7 @@ class StatusEvent(Event):
         self.pending = False
 
     def add(self, news: EventStatus) -> None:
-        """Take over new counters; their changes are added to those that nobody took yet."""
+        """Take over new counters; their changes are added to those not taken yet."""
         with self._lock:
             self._status = news._replace(
                 total_count_change=self._status.total_count_change + news.total_count_change,

@@ -1,4 +1,4 @@
-"""The graph: what is common to all middlewares, and the one message that makes a ROS node visible.
+"""The graph: what all middlewares share, and the message that makes ROS nodes visible.
 
 A DDS endpoint does not say which node owns it. Every ROS process therefore publishes its nodes and
 their endpoints on ``ros_discovery_info``; :func:`pack_discovery_info` and
@@ -144,7 +144,7 @@ def format_user_data(**values: str) -> bytes:
 def parse_user_data(user_data: bytes) -> dict[str, str]:
     """Read ``key=value;`` pairs.
 
-    Other content is left out (peers that are not ROS put there what they like).
+    Other content is left out: peers other than ROS may put anything there.
     """
     text = user_data.rstrip(b"\x00").decode("utf-8", "replace")
     pairs = (item.partition("=") for item in text.split(";"))
@@ -154,8 +154,8 @@ def parse_user_data(user_data: bytes) -> dict[str, str]:
 class GraphView(Graph):
     """The part of :class:`Graph` that derives from ``nodes()`` and ``endpoints()``, and waiting.
 
-    Whoever keeps the data calls :meth:`notify_changed` after each change, without locks held, and
-    :meth:`end_waits` at the end.
+    The subclass, which keeps the data, calls :meth:`notify_changed` after each change, without
+    locks held, and :meth:`end_waits` at the end.
     """
 
     def __init__(self) -> None:
@@ -202,14 +202,14 @@ class GraphView(Graph):
     def is_complete(self) -> bool:
         """See :meth:`Graph.is_complete`.
 
-        Nothing is under way where nothing has to be discovered.
+        Always true here: without discovery there is nothing to wait for.
         """
         return True
 
     def hurry(self) -> None:
         """See :meth:`Graph.hurry`.
 
-        Nobody keeps silent where nothing has to be discovered.
+        Does nothing here: without discovery there is nothing to ask for.
         """
 
     def add_listener(self, on_change: Callable[[], None]) -> Callable[[], None]:

@@ -1,4 +1,4 @@
-"""What the wire has to say to a person: one line on stderr, and each thing once."""
+"""Warnings of the wire: one line on stderr, each printed once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def warn_once(key: str, text: str) -> None:
 
 
 def warn(text: str) -> None:
-    """Write ``text`` as a ROS 2 warning, on one line whatever a peer put into it."""
+    """Write ``text`` as a ROS 2 warning, on one line even if a peer's name has line feeds."""
     seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
     sys.stderr.write(f"[WARN] [{seconds}.{nanoseconds:09d}] [turtlewire.wire]: {printable(text)}\n")
     sys.stderr.flush()
@@ -35,13 +35,13 @@ def warn(text: str) -> None:
 def call_guarded(
     on_message: Callable[[bytes, MessageInfo], None], message: tuple[bytes, MessageInfo], topic: str
 ) -> None:
-    """Hand over a message on a thread that serves others too.
+    """Call ``on_message`` on a thread that serves other subscriptions, too.
 
-    An exception is said once, and goes no further.
+    An exception is reported once per topic and goes no further, because it would end the thread.
     """
     try:
         on_message(*message)
-    except Exception as error:  # noqa: BLE001 - whatever it is
+    except Exception as error:  # noqa: BLE001 - the thread must go on
         warn_once(
             f"on_message {topic}", f"a message on {topic} was lost, its callback raised {error!r}"
         )

@@ -16,7 +16,13 @@ __all__ = [
 class GoalID(Message):
     stamp: builtin_interfaces.msg.Time
     id: str
-    def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., id: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        stamp: builtin_interfaces.msg.Time = ...,
+        id: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GoalStatus(Message):
     PENDING: ClassVar[int]
@@ -32,9 +38,22 @@ class GoalStatus(Message):
     goal_id: GoalID
     status: int
     text: str
-    def __init__(self, *, goal_id: GoalID = ..., status: int = ..., text: str = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        goal_id: GoalID = ...,
+        status: int = ...,
+        text: str = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GoalStatusArray(Message):
     header: std_msgs.msg.Header
     status_list: list[GoalStatus]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., status_list: list[GoalStatus] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        status_list: list[GoalStatus] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

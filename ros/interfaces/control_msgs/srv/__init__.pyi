@@ -24,7 +24,14 @@ class QueryCalibrationState_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[QueryCalibrationState_Request]
     response: list[QueryCalibrationState_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[QueryCalibrationState_Request] = ..., response: list[QueryCalibrationState_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[QueryCalibrationState_Request] = ...,
+        response: list[QueryCalibrationState_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class QueryCalibrationState(Service[QueryCalibrationState_Request, QueryCalibrationState_Response]):
     Request: TypeAlias = QueryCalibrationState_Request
@@ -33,7 +40,12 @@ class QueryCalibrationState(Service[QueryCalibrationState_Request, QueryCalibrat
 
 class QueryTrajectoryState_Request(Message):
     time: builtin_interfaces.msg.Time
-    def __init__(self, *, time: builtin_interfaces.msg.Time = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        time: builtin_interfaces.msg.Time = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class QueryTrajectoryState_Response(Message):
     success: bool
@@ -51,13 +63,30 @@ class QueryTrajectoryState_Response(Message):
     def acceleration(self) -> array.array[float]: ...
     @acceleration.setter
     def acceleration(self, value: Iterable[float]) -> None: ...
-    def __init__(self, *, success: bool = ..., message: str = ..., name: list[str] = ..., position: Iterable[float] = ..., velocity: Iterable[float] = ..., acceleration: Iterable[float] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        success: bool = ...,
+        message: str = ...,
+        name: list[str] = ...,
+        position: Iterable[float] = ...,
+        velocity: Iterable[float] = ...,
+        acceleration: Iterable[float] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class QueryTrajectoryState_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[QueryTrajectoryState_Request]
     response: list[QueryTrajectoryState_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[QueryTrajectoryState_Request] = ..., response: list[QueryTrajectoryState_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[QueryTrajectoryState_Request] = ...,
+        response: list[QueryTrajectoryState_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class QueryTrajectoryState(Service[QueryTrajectoryState_Request, QueryTrajectoryState_Response]):
     Request: TypeAlias = QueryTrajectoryState_Request

@@ -32,33 +32,70 @@ __all__ = [
 class BoundingBox(Message):
     min_pt: GeoPoint
     max_pt: GeoPoint
-    def __init__(self, *, min_pt: GeoPoint = ..., max_pt: GeoPoint = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        min_pt: GeoPoint = ...,
+        max_pt: GeoPoint = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPath(Message):
     header: std_msgs.msg.Header
     poses: list[GeoPoseStamped]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., poses: list[GeoPoseStamped] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        poses: list[GeoPoseStamped] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPoint(Message):
     latitude: float
     longitude: float
     altitude: float
-    def __init__(self, *, latitude: float = ..., longitude: float = ..., altitude: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        latitude: float = ...,
+        longitude: float = ...,
+        altitude: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPointStamped(Message):
     header: std_msgs.msg.Header
     position: GeoPoint
-    def __init__(self, *, header: std_msgs.msg.Header = ..., position: GeoPoint = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        position: GeoPoint = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPose(Message):
     position: GeoPoint
     orientation: geometry_msgs.msg.Quaternion
-    def __init__(self, *, position: GeoPoint = ..., orientation: geometry_msgs.msg.Quaternion = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        position: GeoPoint = ...,
+        orientation: geometry_msgs.msg.Quaternion = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPoseStamped(Message):
     header: std_msgs.msg.Header
     pose: GeoPose
-    def __init__(self, *, header: std_msgs.msg.Header = ..., pose: GeoPose = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        pose: GeoPose = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPoseWithCovariance(Message):
     pose: GeoPose
@@ -66,12 +103,24 @@ class GeoPoseWithCovariance(Message):
     def covariance(self) -> numpy.typing.NDArray[numpy.float64]: ...
     @covariance.setter
     def covariance(self, value: Iterable[Any]) -> None: ...
-    def __init__(self, *, pose: GeoPose = ..., covariance: Iterable[Any] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        pose: GeoPose = ...,
+        covariance: Iterable[Any] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeoPoseWithCovarianceStamped(Message):
     header: std_msgs.msg.Header
     pose: GeoPoseWithCovariance
-    def __init__(self, *, header: std_msgs.msg.Header = ..., pose: GeoPoseWithCovariance = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        pose: GeoPoseWithCovariance = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeographicMap(Message):
     header: std_msgs.msg.Header
@@ -80,13 +129,30 @@ class GeographicMap(Message):
     points: list[WayPoint]
     features: list[MapFeature]
     props: list[KeyValue]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., id: unique_identifier_msgs.msg.UUID = ..., bounds: BoundingBox = ..., points: list[WayPoint] = ..., features: list[MapFeature] = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        id: unique_identifier_msgs.msg.UUID = ...,
+        bounds: BoundingBox = ...,
+        points: list[WayPoint] = ...,
+        features: list[MapFeature] = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GeographicMapChanges(Message):
     header: std_msgs.msg.Header
     diffs: GeographicMap
     deletes: list[unique_identifier_msgs.msg.UUID]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., diffs: GeographicMap = ..., deletes: list[unique_identifier_msgs.msg.UUID] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        diffs: GeographicMap = ...,
+        deletes: list[unique_identifier_msgs.msg.UUID] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class KeyValue(Message):
     key: str
@@ -97,7 +163,14 @@ class MapFeature(Message):
     id: unique_identifier_msgs.msg.UUID
     components: list[unique_identifier_msgs.msg.UUID]
     props: list[KeyValue]
-    def __init__(self, *, id: unique_identifier_msgs.msg.UUID = ..., components: list[unique_identifier_msgs.msg.UUID] = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        id: unique_identifier_msgs.msg.UUID = ...,
+        components: list[unique_identifier_msgs.msg.UUID] = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class RouteNetwork(Message):
     header: std_msgs.msg.Header
@@ -106,24 +179,57 @@ class RouteNetwork(Message):
     points: list[WayPoint]
     segments: list[RouteSegment]
     props: list[KeyValue]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., id: unique_identifier_msgs.msg.UUID = ..., bounds: BoundingBox = ..., points: list[WayPoint] = ..., segments: list[RouteSegment] = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        id: unique_identifier_msgs.msg.UUID = ...,
+        bounds: BoundingBox = ...,
+        points: list[WayPoint] = ...,
+        segments: list[RouteSegment] = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class RoutePath(Message):
     header: std_msgs.msg.Header
     network: unique_identifier_msgs.msg.UUID
     segments: list[unique_identifier_msgs.msg.UUID]
     props: list[KeyValue]
-    def __init__(self, *, header: std_msgs.msg.Header = ..., network: unique_identifier_msgs.msg.UUID = ..., segments: list[unique_identifier_msgs.msg.UUID] = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        network: unique_identifier_msgs.msg.UUID = ...,
+        segments: list[unique_identifier_msgs.msg.UUID] = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class RouteSegment(Message):
     id: unique_identifier_msgs.msg.UUID
     start: unique_identifier_msgs.msg.UUID
     end: unique_identifier_msgs.msg.UUID
     props: list[KeyValue]
-    def __init__(self, *, id: unique_identifier_msgs.msg.UUID = ..., start: unique_identifier_msgs.msg.UUID = ..., end: unique_identifier_msgs.msg.UUID = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        id: unique_identifier_msgs.msg.UUID = ...,
+        start: unique_identifier_msgs.msg.UUID = ...,
+        end: unique_identifier_msgs.msg.UUID = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class WayPoint(Message):
     id: unique_identifier_msgs.msg.UUID
     position: GeoPoint
     props: list[KeyValue]
-    def __init__(self, *, id: unique_identifier_msgs.msg.UUID = ..., position: GeoPoint = ..., props: list[KeyValue] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        id: unique_identifier_msgs.msg.UUID = ...,
+        position: GeoPoint = ...,
+        props: list[KeyValue] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

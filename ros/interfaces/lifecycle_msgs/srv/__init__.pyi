@@ -101,7 +101,10 @@ class GetAvailableTransitions_Event(Message):
     ) -> None: ...
 
 class GetAvailableTransitions(
-    Service[GetAvailableTransitions_Request, GetAvailableTransitions_Response]
+    Service[
+        GetAvailableTransitions_Request,
+        GetAvailableTransitions_Response,
+    ]
 ):
     Request: TypeAlias = GetAvailableTransitions_Request
     Response: TypeAlias = GetAvailableTransitions_Response

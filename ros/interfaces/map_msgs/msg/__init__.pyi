@@ -26,7 +26,17 @@ class OccupancyGridUpdate(Message):
     def data(self) -> array.array[int]: ...
     @data.setter
     def data(self, value: Iterable[int]) -> None: ...
-    def __init__(self, *, header: std_msgs.msg.Header = ..., x: int = ..., y: int = ..., width: int = ..., height: int = ..., data: Iterable[int] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        x: int = ...,
+        y: int = ...,
+        width: int = ...,
+        height: int = ...,
+        data: Iterable[int] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class PointCloud2Update(Message):
     ADD: ClassVar[int]
@@ -34,13 +44,27 @@ class PointCloud2Update(Message):
     header: std_msgs.msg.Header
     type: int
     points: sensor_msgs.msg.PointCloud2
-    def __init__(self, *, header: std_msgs.msg.Header = ..., type: int = ..., points: sensor_msgs.msg.PointCloud2 = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        header: std_msgs.msg.Header = ...,
+        type: int = ...,
+        points: sensor_msgs.msg.PointCloud2 = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ProjectedMap(Message):
     map: nav_msgs.msg.OccupancyGrid
     min_z: float
     max_z: float
-    def __init__(self, *, map: nav_msgs.msg.OccupancyGrid = ..., min_z: float = ..., max_z: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        map: nav_msgs.msg.OccupancyGrid = ...,
+        min_z: float = ...,
+        max_z: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ProjectedMapInfo(Message):
     frame_id: str
@@ -50,4 +74,15 @@ class ProjectedMapInfo(Message):
     height: float
     min_z: float
     max_z: float
-    def __init__(self, *, frame_id: str = ..., x: float = ..., y: float = ..., width: float = ..., height: float = ..., min_z: float = ..., max_z: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        frame_id: str = ...,
+        x: float = ...,
+        y: float = ...,
+        width: float = ...,
+        height: float = ...,
+        min_z: float = ...,
+        max_z: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...

@@ -24,17 +24,37 @@ class GetMapROI_Request(Message):
     y: float
     l_x: float
     l_y: float
-    def __init__(self, *, x: float = ..., y: float = ..., l_x: float = ..., l_y: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x: float = ...,
+        y: float = ...,
+        l_x: float = ...,
+        l_y: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetMapROI_Response(Message):
     sub_map: nav_msgs.msg.OccupancyGrid
-    def __init__(self, *, sub_map: nav_msgs.msg.OccupancyGrid = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        sub_map: nav_msgs.msg.OccupancyGrid = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetMapROI_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetMapROI_Request]
     response: list[GetMapROI_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetMapROI_Request] = ..., response: list[GetMapROI_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetMapROI_Request] = ...,
+        response: list[GetMapROI_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetMapROI(Service[GetMapROI_Request, GetMapROI_Response]):
     Request: TypeAlias = GetMapROI_Request
@@ -46,13 +66,25 @@ class GetPointMap_Request(Message):
 
 class GetPointMap_Response(Message):
     map: sensor_msgs.msg.PointCloud2
-    def __init__(self, *, map: sensor_msgs.msg.PointCloud2 = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        map: sensor_msgs.msg.PointCloud2 = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPointMap_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetPointMap_Request]
     response: list[GetPointMap_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetPointMap_Request] = ..., response: list[GetPointMap_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetPointMap_Request] = ...,
+        response: list[GetPointMap_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPointMap(Service[GetPointMap_Request, GetPointMap_Response]):
     Request: TypeAlias = GetPointMap_Request
@@ -67,17 +99,40 @@ class GetPointMapROI_Request(Message):
     l_x: float
     l_y: float
     l_z: float
-    def __init__(self, *, x: float = ..., y: float = ..., z: float = ..., r: float = ..., l_x: float = ..., l_y: float = ..., l_z: float = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        x: float = ...,
+        y: float = ...,
+        z: float = ...,
+        r: float = ...,
+        l_x: float = ...,
+        l_y: float = ...,
+        l_z: float = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPointMapROI_Response(Message):
     sub_map: sensor_msgs.msg.PointCloud2
-    def __init__(self, *, sub_map: sensor_msgs.msg.PointCloud2 = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        sub_map: sensor_msgs.msg.PointCloud2 = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPointMapROI_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[GetPointMapROI_Request]
     response: list[GetPointMapROI_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[GetPointMapROI_Request] = ..., response: list[GetPointMapROI_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[GetPointMapROI_Request] = ...,
+        response: list[GetPointMapROI_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class GetPointMapROI(Service[GetPointMapROI_Request, GetPointMapROI_Response]):
     Request: TypeAlias = GetPointMapROI_Request
@@ -86,7 +141,12 @@ class GetPointMapROI(Service[GetPointMapROI_Request, GetPointMapROI_Response]):
 
 class ProjectedMapsInfo_Request(Message):
     projected_maps_info: list[map_msgs.msg.ProjectedMapInfo]
-    def __init__(self, *, projected_maps_info: list[map_msgs.msg.ProjectedMapInfo] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        projected_maps_info: list[map_msgs.msg.ProjectedMapInfo] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ProjectedMapsInfo_Response(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -95,7 +155,14 @@ class ProjectedMapsInfo_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[ProjectedMapsInfo_Request]
     response: list[ProjectedMapsInfo_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[ProjectedMapsInfo_Request] = ..., response: list[ProjectedMapsInfo_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[ProjectedMapsInfo_Request] = ...,
+        response: list[ProjectedMapsInfo_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class ProjectedMapsInfo(Service[ProjectedMapsInfo_Request, ProjectedMapsInfo_Response]):
     Request: TypeAlias = ProjectedMapsInfo_Request
@@ -104,7 +171,12 @@ class ProjectedMapsInfo(Service[ProjectedMapsInfo_Request, ProjectedMapsInfo_Res
 
 class SaveMap_Request(Message):
     filename: std_msgs.msg.String
-    def __init__(self, *, filename: std_msgs.msg.String = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        filename: std_msgs.msg.String = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SaveMap_Response(Message):
     def __init__(self, *, check_fields: bool = ...) -> None: ...
@@ -113,7 +185,14 @@ class SaveMap_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SaveMap_Request]
     response: list[SaveMap_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SaveMap_Request] = ..., response: list[SaveMap_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SaveMap_Request] = ...,
+        response: list[SaveMap_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SaveMap(Service[SaveMap_Request, SaveMap_Response]):
     Request: TypeAlias = SaveMap_Request
@@ -125,13 +204,25 @@ class SetMapProjections_Request(Message):
 
 class SetMapProjections_Response(Message):
     projected_maps_info: list[map_msgs.msg.ProjectedMapInfo]
-    def __init__(self, *, projected_maps_info: list[map_msgs.msg.ProjectedMapInfo] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        projected_maps_info: list[map_msgs.msg.ProjectedMapInfo] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetMapProjections_Event(Message):
     info: service_msgs.msg.ServiceEventInfo
     request: list[SetMapProjections_Request]
     response: list[SetMapProjections_Response]
-    def __init__(self, *, info: service_msgs.msg.ServiceEventInfo = ..., request: list[SetMapProjections_Request] = ..., response: list[SetMapProjections_Response] = ..., check_fields: bool = ...) -> None: ...
+    def __init__(
+        self,
+        *,
+        info: service_msgs.msg.ServiceEventInfo = ...,
+        request: list[SetMapProjections_Request] = ...,
+        response: list[SetMapProjections_Response] = ...,
+        check_fields: bool = ...,
+    ) -> None: ...
 
 class SetMapProjections(Service[SetMapProjections_Request, SetMapProjections_Response]):
     Request: TypeAlias = SetMapProjections_Request

@@ -284,7 +284,10 @@ class SetParametersAtomically_Event(Message):
     ) -> None: ...
 
 class SetParametersAtomically(
-    Service[SetParametersAtomically_Request, SetParametersAtomically_Response]
+    Service[
+        SetParametersAtomically_Request,
+        SetParametersAtomically_Response,
+    ]
 ):
     Request: TypeAlias = SetParametersAtomically_Request
     Response: TypeAlias = SetParametersAtomically_Response

@@ -98,7 +98,10 @@ class LookupTransform_SendGoal_Event(Message):
     ) -> None: ...
 
 class LookupTransform_SendGoal(
-    Service[LookupTransform_SendGoal_Request, LookupTransform_SendGoal_Response]
+    Service[
+        LookupTransform_SendGoal_Request,
+        LookupTransform_SendGoal_Response,
+    ]
 ):
     Request: TypeAlias = LookupTransform_SendGoal_Request
     Response: TypeAlias = LookupTransform_SendGoal_Response
@@ -138,14 +141,21 @@ class LookupTransform_GetResult_Event(Message):
     ) -> None: ...
 
 class LookupTransform_GetResult(
-    Service[LookupTransform_GetResult_Request, LookupTransform_GetResult_Response]
+    Service[
+        LookupTransform_GetResult_Request,
+        LookupTransform_GetResult_Response,
+    ]
 ):
     Request: TypeAlias = LookupTransform_GetResult_Request
     Response: TypeAlias = LookupTransform_GetResult_Response
     Event: TypeAlias = LookupTransform_GetResult_Event
 
 class LookupTransform(
-    Action[LookupTransform_Goal, LookupTransform_Result, LookupTransform_Feedback]
+    Action[
+        LookupTransform_Goal,
+        LookupTransform_Result,
+        LookupTransform_Feedback,
+    ]
 ):
     Goal: TypeAlias = LookupTransform_Goal
     Result: TypeAlias = LookupTransform_Result

@@ -21,7 +21,11 @@ def check_frames(**frames: object) -> None:
 
 
 def nanoseconds(**times: Any) -> list[int]:
-    """The times as Python's integers; ``datetime64``, too; a TypeError for floats, which cannot hold a present stamp."""
+    """The times, integers or ``datetime64``, as Python's integers.
+
+    Raises:
+        TypeError: A time is a float, which cannot hold a present stamp exactly.
+    """
     return [_nanoseconds(argument, time) for argument, time in times.items()]
 
 

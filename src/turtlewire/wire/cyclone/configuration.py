@@ -53,7 +53,7 @@ def _general(discovery: Discovery) -> str:
     if discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}:
         return ""
     # Without the loopback interface Cyclone 11 drops what processes with a configuration of
-    # rmw_cyclonedds send to localhost; and with it alone, nobody from outside gets in.
+    # rmw_cyclonedds send to localhost; and with it alone, no other host gets in.
     loopback = '<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>'
     interfaces = "" if discovery.static_peers else loopback
     return f"<General><AllowMulticast>false</AllowMulticast>{interfaces}</General>"

@@ -124,7 +124,7 @@ class CycloneLog:
             self._stderr.value = before
 
     def unread(self) -> list[str]:
-        """What was written and nobody has read; for the time before :meth:`start`."""
+        """The unread lines; for the time before :meth:`start`."""
         if self._file is None or self._thread is not None:
             return []
         return [_text_of(line) for line in self._read().splitlines()]

@@ -76,7 +76,7 @@ class _Domains:
             )
         if (
             handle == dds.RETCODE_PRECONDITION_NOT_MET
-        ):  # somebody else in this process made it: it is theirs
+        ):  # other code of this process made it and ends it
             return
         if handle < 0:
             raise _failure(handle, domain_id, self._log.unread())
@@ -84,7 +84,7 @@ class _Domains:
         self._log.start()
 
     def leave(self, domain_id: int) -> None:
-        """End the domain if nobody else is in it."""
+        """End the domain if it has no other participant."""
         with self._lock:
             self._users[domain_id] -= 1
             if not self._users[domain_id] and domain_id in self._handles:
@@ -163,7 +163,7 @@ class Participant:
 
         Bytes that go in come out.
 
-        Nobody sees this: Cyclone does not announce topics, only their readers and writers.
+        Peers do not see this: Cyclone does not announce topics, only their readers and writers.
         """
         topic = self.topic("turtlewire/check", "turtlewire/msg/Check")
         sertype = ctypes.c_void_p()

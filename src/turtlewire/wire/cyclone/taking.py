@@ -29,7 +29,7 @@ def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
             if infos[index].valid_data:
                 data = bytes(
                     dds.serdata_size(serdata[index])
-                )  # new, and nobody else's yet: filled in place
+                )  # new and not shared yet, so it may be filled in place
                 dds.serdata_to_bytes(serdata[index], 0, len(data), data)
                 taken.append((data, infos[index].publication_handle, infos[index].source_timestamp))
             dds.serdata_unref(serdata[index])
