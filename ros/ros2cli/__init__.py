@@ -21,6 +21,7 @@ module                             what it holds
 `qos_options`                      QoS on the command line
 `topic_type`, `interface_names`    message classes of topics; installed interfaces
 `values`                           YAML values on the command line
+`bag_options`                      options that verbs of ``ros2 bag`` share
 `output`                           printing without control characters of other processes
 `suggestion`                       the nearest names to a wrong one
 `system_report`                    ``ros2 doctor --report``

@@ -5,6 +5,9 @@ module                              what it holds
 ==================================  ================================================
 `_reader`, `_writer`                readers and writers, message by message
 `_info`                             reads metadata; counts requests and responses
+`_recorder`                         recording as scripts start it
+`_open_writer`                      a bag to write, by storage options
+`_log_level`                        the level of the logs of recorder and player
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
 `_storage`, `_compression_options`  options; the engine's types translated
 `_reindexer`                        makes ``metadata.yaml`` anew

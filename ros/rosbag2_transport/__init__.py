@@ -11,5 +11,8 @@ module                what it holds
 `recorder_qos`        which QoS receives from all publishers of a topic
 `topic_filter`        which topics are recorded
 `session`             a context, a node and its executor for one command
+`record`              one recording from beginning to end
+`progress`            its progress, on one line of a terminal
+`qos_overrides`       QoS profiles by topic, from YAML
 ====================  ===========================================================
 """

@@ -6,6 +6,7 @@ module        what it holds
 `bag`         rosbag2 folders, MCAP and sqlite3, read and written
 `cli`         the ``turtlewire`` command: ``doctor`` and ``frames``
 `errors`      every error that turtlewire raises on purpose
+`keyboard`    keys of a terminal, as they are typed
 `msg`         interface definitions, message classes, CDR and type hashes
 `printable`   text from other processes, made safe for a terminal
 `suggestion`  the nearest names to one that does not exist
