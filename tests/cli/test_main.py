@@ -27,7 +27,8 @@ TF = TypeId("tf2_msgs/msg/TFMessage", msg.type_hash("tf2_msgs/msg/TFMessage"))
         ("frames --vresion", 2, "turtlewire frames: error: unrecognized arguments: --vresion"),
         ("--vresion", 2, "Did you mean: --version"),
         ("doctor --listen soon", 2, "'soon' is not a number of seconds, above 0 and up to 3600"),
-        ("doctor now", 2, "unrecognized arguments: now"),
+        ("doctor now", 2, "turtlewire doctor: there is no bag at now"),
+        ("doctor now then", 2, "unrecognized arguments: then"),
         ("frames a b", 2, "unrecognized arguments: b"),
         ("", 0, "usage: turtlewire [-h] [--version]"),
         ("--version", 0, f"turtlewire {version('turtlewire')}\n"),
@@ -61,14 +62,17 @@ def offered(line, answers):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("turtlewire ", ["--version", "doctor", "frames"]),
+        ("turtlewire ", ["--version", "bag", "compare", "doctor", "frames", "trajectory"]),
         ("turtlewire d", ["doctor"]),
         ("turtlewire doctor --", ["--json", "--listen"]),
-        ("turtlewire doctor ", ["--json", "--listen"]),  # no names of files
+        ("turtlewire doctor ", ["--json", "--listen", "my_bag/"]),  # and no other files
         ("turtlewire frames --p", ["--period"]),
     ],
 )
-def test_completion_of_words(line, words, tmp_path):
+def test_completion_of_words(line, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "notes.txt").touch()
+    (tmp_path / "my_bag").mkdir()
     assert sorted(offered(line, tmp_path / "answers")) == words
 
 

@@ -47,7 +47,7 @@ def _add_bag(commands: Any) -> None:
     )
     summary = "Show the tree of frames of a bag: rates, times, gaps, and what looks wrong"
     tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
-    _add_file(tf, "file", "FILE", "A bag: a folder, a .mcap or a .db3 file")
+    _add_file(tf, "file", "BAG", "A folder, a .mcap or a .db3 file")
     tf.add_argument(
         "--topic", action="append", metavar="T", help="Where transforms are (default: /tf)"
     )
@@ -73,7 +73,7 @@ def _add_trajectory(commands: Any) -> None:
     )
     names.completer = _complete_names
     output = parser.add_argument("-o", "--output", metavar="FILE", help="Write the trajectory")
-    output.completer = complete_bags
+    output.completer = _complete_any
     parser.add_argument(
         "--format",
         choices=_FORMATS,
@@ -92,7 +92,7 @@ def _add_trajectory(commands: Any) -> None:
         help="Longer pauses are gaps (default: ten times the median pause, at least 0.5)",
     )
     plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
-    plot.completer = complete_bags
+    plot.completer = _complete_any
     parser.add_argument(
         "--kind",
         choices=("path", "positions", "angles", "speeds"),
@@ -124,7 +124,7 @@ def _add_compare(commands: Any) -> None:
     )
     _add_pairing(parser)
     plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
-    plot.completer = complete_bags
+    plot.completer = _complete_any
     parser.add_argument(
         "--kind",
         choices=("path", "error-path", "errors", "box", "histogram"),
@@ -170,11 +170,17 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
 
 def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None = None) -> None:
     argument = parser.add_argument(name, metavar=metavar, help=text, nargs=nargs)
-    argument.completer = complete_bags
+    argument.completer = complete_bags if metavar == "BAG" else _complete_any
 
 
 def complete_bags(prefix: str, **_: Any) -> list[str]:
-    """For the shell: files and folders."""
+    """For the shell: bags."""
+    from turtlewire.cli.trajectory_sources import complete_files
+
+    return complete_files(prefix, bags=True)
+
+
+def _complete_any(prefix: str, **_: Any) -> list[str]:
     from turtlewire.cli.trajectory_sources import complete_files
 
     return complete_files(prefix)

@@ -113,11 +113,12 @@ def _names_are_missing(path: str) -> str:
     )
 
 
-def complete_files(prefix: str, **_: object) -> list[str]:
-    """For the shell: files and folders."""
+def complete_files(prefix: str, *, bags: bool = False) -> list[str]:
+    """For the shell: files and folders; of the files only bags, if those are wanted."""
     from argcomplete.completers import FilesCompleter
 
-    return list(FilesCompleter()(prefix))
+    endings = ("mcap", "db3", "zstd") if bags else ()
+    return list(FilesCompleter(allowednames=endings)(prefix))
 
 
 def complete_names(path: str) -> list[str]:
