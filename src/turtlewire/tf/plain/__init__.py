@@ -26,6 +26,7 @@ module                 what it holds
 from __future__ import annotations
 
 from turtlewire.tf.plain.buffer import Buffer
+from turtlewire.tf.plain.record_walk import RecordWalk
 from turtlewire.tf.plain.transform import Transform
 
-__all__ = ["Buffer", "Transform"]
+__all__ = ["Buffer", "RecordWalk", "Transform"]
