@@ -27,6 +27,5 @@ module                             what it holds
 `system_report`                    ``ros2 doctor --report``
 `multicast`                        datagrams of ``ros2 multicast``
 `package_template`                 files that ``ros2 pkg create`` writes
-`extension_points`                 names of the kinds of commands and verbs
 =================================  ========================================================
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.extension_points import EXTENSION_POINTS, extensions
+from ros2cli.commands._extension_points import EXTENSION_POINTS, extensions
 
 if TYPE_CHECKING:
     import argparse
