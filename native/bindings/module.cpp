@@ -2,6 +2,7 @@
 #include "cyclone.hpp"
 #include "errors.hpp"
 #include "intake.hpp"
+#include "joint_frames.hpp"
 #include "message.hpp"
 #include "record_walk.hpp"
 #include "transform.hpp"
@@ -17,6 +18,7 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
+  add_joint_frames_type(module);
   add_record_walk_type(module);
   add_cyclone_types(module);
 }

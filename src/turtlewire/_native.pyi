@@ -203,6 +203,19 @@ class Buffer:
     def _rename_sender(self, name: str, shown: str) -> None: ...
     def _fault(self) -> str: ...
 
+class JointFrames:
+    def __init__(
+        self,
+        template: bytes,
+        stamps: list[int],
+        poses: list[int],
+        constants: list[float],
+        sources: list[int],
+        factors: list[float],
+        offsets: list[float],
+    ) -> None: ...
+    def message(self, joint_state: bytes, positions: int) -> bytes: ...
+
 class RecordWalk:
     def __init__(self, start_ns: int, end_ns: int) -> None: ...
     def walk(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from turtlewire.urdf.faults import UrdfError, reported
+from turtlewire.urdf.faults import UrdfError, UrdfWarning, reported
 from turtlewire.urdf.model import (
     Box,
     Collision,
@@ -14,7 +14,6 @@ from turtlewire.urdf.model import (
     Material,
     Mesh,
     Sphere,
-    UrdfWarning,
     Visual,
 )
 from turtlewire.urdf.values import color_of, number_of, pose_of, vector_of

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import TurtlewireError
+from turtlewire.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["UrdfError", "reported"]
+__all__ = ["UrdfError", "UrdfWarning", "log_lines", "reported"]
 
 
 class UrdfError(TurtlewireError, ValueError):
@@ -38,6 +40,37 @@ class UrdfError(TurtlewireError, ValueError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return (type(self), (str(self), self.line, self.element), {"reports": self.reports})
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfWarning:
+    """Something that urdfdom warns of and accepts.
+
+    Attributes:
+        text: urdfdom's text.
+        line: The line of the element.
+        element: The element.
+    """
+
+    text: str
+    line: int
+    element: str
+
+    @property
+    def place(self) -> str:
+        """Line and element, for example ``line 7 in <link name="arm">``."""
+        return f"line {self.line} in {self.element}"
+
+
+def log_lines(fault: UrdfError | UrdfWarning) -> Iterator[str]:
+    """What urdfdom prints on stderr; the line number is one of the description, not of C++ code."""
+    if isinstance(fault, UrdfError):
+        first, *others = (f"Error:   {printable(text)}" for text in fault.reports)
+    else:
+        first, others = f"Warning: {printable(fault.text)}", []
+    yield first
+    yield f"         at {printable(fault.place)}"
+    yield from others
 
 
 @contextmanager

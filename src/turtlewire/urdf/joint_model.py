@@ -1,4 +1,4 @@
-"""What joints do at given positions, as arrays: the transform from a joint's child to its parent.
+"""What a joint does at a given position, as numbers: the pose of its child in its parent.
 
 A rotation about the unit axis ``a`` by the angle ``q`` after the origin's rotation ``r`` is
 ``cos(q/2) r + sin(q/2) (r * a)``, with ``a`` as a quaternion. A translation by ``q`` is that of the
@@ -10,16 +10,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
     from turtlewire.urdf.model import Joint, Vector
 
-__all__ = ["JointModel", "quaternion_from_rpy", "unit_axis"]
+__all__ = ["NUMBER_OF_CONSTANTS", "joint_constants", "quaternion_from_rpy", "unit_axis"]
+
+NUMBER_OF_CONSTANTS = 15
 
 
 def quaternion_from_rpy(rpy: Vector) -> tuple[float, float, float, float]:
@@ -44,40 +40,20 @@ def unit_axis(axis: Vector) -> Vector:
     return (x / length, y / length, z / length)
 
 
-class JointModel:
-    """Constants of joints, for their transforms at many positions.
+def joint_constants(joint: Joint) -> tuple[float, ...]:
+    """The 15 numbers that make the transform of a joint out of its position q.
 
-    Attributes:
-        constants: (joints, 15) float64, contiguous: translation at 0, its change by position; the
-            quaternion x y z w that cos(q/2) multiplies, the one that sin(q/2) multiplies; 1 if the
-            joint turns, else 0.
+    Translation at 0, and its change by q; the quaternion x y z w that cos(q/2) multiplies, and the
+    one that sin(q/2) multiplies; 1 if the joint turns, else 0. Joints that are neither revolute nor
+    continuous nor prismatic do not move.
     """
-
-    def __init__(self, joints: Sequence[Joint]) -> None:
-        self.constants: NDArray[np.float64] = np.array(
-            [_constants(joint) for joint in joints], dtype=np.float64
-        ).reshape(len(joints), 15)
-
-    def transforms(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Transforms at ``positions`` (N, joints): (N, joints, 7) as x y z and x y z w."""
-        half = positions * (0.5 * self.constants[:, 14])
-        out = np.empty((*positions.shape, 7))
-        out[..., :3] = self.constants[:, :3] + positions[..., None] * self.constants[:, 3:6]
-        out[..., 3:] = (
-            np.cos(half)[..., None] * self.constants[:, 6:10]
-            + np.sin(half)[..., None] * self.constants[:, 10:14]
-        )
-        return out
-
-
-def _constants(joint: Joint) -> list[float]:
     rotation = quaternion_from_rpy(joint.origin.rpy)
     change, turned, turns = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), 0.0
     if joint.type == "prismatic":
         change = _rotated(rotation, unit_axis(joint.axis))
     elif joint.moves:
         turned, turns = _times_axis(rotation, unit_axis(joint.axis)), 1.0
-    return [*joint.origin.xyz, *change, *rotation, *turned, turns]
+    return (*joint.origin.xyz, *change, *rotation, *turned, turns)
 
 
 def _times_axis(

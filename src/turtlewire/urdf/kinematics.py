@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from turtlewire.suggestion import did_you_mean
-from turtlewire.urdf.joint_model import JointModel
+from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
 from turtlewire.urdf.mimic import followers_of
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = NDArray[np.float64]
 
-__all__ = ["Kinematics"]
+__all__ = ["Kinematics", "transforms_at"]
 
 
 class Kinematics:
@@ -59,7 +59,9 @@ class Kinematics:
         self.links = (robot.root, *(joint for level in levels for joint in level))
         index = {name: number for number, name in enumerate(self.links)}
         above = [robot.parent_joints[name] for name in self.links[1:]]
-        self._model = JointModel(above)
+        self._constants: Array = np.array(
+            [joint_constants(joint) for joint in above], dtype=np.float64
+        ).reshape(len(above), NUMBER_OF_CONSTANTS)
         self._parents = np.array([index[joint.parent] for joint in above], dtype=np.intp)
         self._ends = np.cumsum([len(level) for level in levels], dtype=np.intp).tolist()
         self._sources, self._factors, self._offsets = self._drives([joint.name for joint in above])
@@ -113,7 +115,9 @@ class Kinematics:
         """
         states = self.joint_states(positions)
         padded = np.concatenate([states, np.zeros((len(states), 1))], axis=1)
-        return self._model.transforms(padded[:, self._sources] * self._factors + self._offsets)
+        return transforms_at(
+            self._constants, padded[:, self._sources] * self._factors + self._offsets
+        )
 
     def link_poses(self, positions: Mapping[str, ArrayLike] | ArrayLike) -> Array:
         """Pose of each link in the root link.
@@ -166,6 +170,25 @@ class Kinematics:
         text = f"the robot {self.robot.name!r} has no free joint {name!r}"
         near = did_you_mean(name, self.joints)
         return f"{text}. {near}" if near else text
+
+
+def transforms_at(constants: Array, positions: Array) -> Array:
+    """Transforms of joints.
+
+    Args:
+        constants: (joints, 15), each row from :func:`.joint_model.joint_constants`.
+        positions: (N, joints), or (joints,), in radians or metres.
+
+    Returns:
+        (N, joints, 7), or (joints, 7): x y z and the quaternion x y z w of the child in the parent.
+    """
+    half = positions * (0.5 * constants[:, 14])
+    out = np.empty((*positions.shape, 7))
+    out[..., :3] = constants[:, :3] + positions[..., None] * constants[:, 3:6]
+    out[..., 3:] = (
+        np.cos(half)[..., None] * constants[:, 6:10] + np.sin(half)[..., None] * constants[:, 10:14]
+    )
+    return out
 
 
 def _levels(robot: Robot) -> list[list[str]]:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from turtlewire.urdf.faults import UrdfWarning
 
 __all__ = [
     "MOVING_TYPES",
@@ -26,7 +29,6 @@ __all__ = [
     "Robot",
     "Safety",
     "Sphere",
-    "UrdfWarning",
     "Vector",
     "Visual",
 ]
@@ -224,21 +226,6 @@ class Joint:
     def moves(self) -> bool:
         """Whether one number is the joint's position: revolute, continuous or prismatic."""
         return self.type in MOVING_TYPES
-
-
-@dataclass(frozen=True, slots=True)
-class UrdfWarning:
-    """Something that urdfdom warns of and accepts.
-
-    Attributes:
-        text: urdfdom's text.
-        line: The line of the element.
-        element: The element.
-    """
-
-    text: str
-    line: int
-    element: str
 
 
 @dataclass(frozen=True)

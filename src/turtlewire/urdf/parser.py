@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from turtlewire.urdf.bodies import read_link, read_material
 from turtlewire.urdf.elements import Element, parse_xml
-from turtlewire.urdf.faults import UrdfError, reported
+from turtlewire.urdf.faults import UrdfError, UrdfWarning, reported
 from turtlewire.urdf.joints import read_joint
-from turtlewire.urdf.model import Robot, UrdfWarning
+from turtlewire.urdf.model import Robot
 from turtlewire.urdf.tree import root_of
 from turtlewire.urdf.values import as_number
 

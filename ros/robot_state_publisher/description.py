@@ -1,0 +1,71 @@
+"""Reads robot descriptions with the log lines of urdf, urdfdom and kdl_parser."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from turtlewire.urdf import UrdfError, parse_urdf
+from turtlewire.urdf.faults import log_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from turtlewire.urdf import Joint, Robot
+
+__all__ = ["DescriptionError", "oddities", "parse_description", "static_joints"]
+
+
+class DescriptionError(RuntimeError):
+    """The description is no robot; the text is ROS 2's."""
+
+
+def parse_description(text: str) -> Robot:
+    """The robot; what urdfdom logs goes to stderr, with the line and element of the description.
+
+    Raises:
+        DescriptionError: urdfdom refuses the description.
+    """
+    try:
+        robot = parse_urdf(text)
+    except UrdfError as error:
+        _print(*log_lines(error))
+        _print("Failed to parse robot description using: urdf_xml_parser/URDFXMLParser")
+        raise DescriptionError("Unable to initialize urdf::model from robot description") from error
+    for warning in robot.warnings:
+        _print(*log_lines(warning))
+    return robot
+
+
+def oddities(robot: Robot) -> Iterator[str]:
+    """The warnings of kdl_parser: inertia of the root link, joints that it takes for fixed ones."""
+    if robot.links[robot.root].inertial is not None:
+        yield (
+            f"The root link {robot.root} has an inertia specified in the URDF, but KDL does not"
+            " support a root link with an inertia.  As a workaround, you can add an extra dummy"
+            " link to your URDF."
+        )
+    for joint in _in_depth(robot):
+        if joint.type in {"floating", "planar"}:
+            yield f"Converting unknown joint type of joint '{joint.name}' into a fixed joint"
+
+
+def static_joints(robot: Robot) -> list[Joint]:
+    """Joints whose transforms never change, sorted by name: fixed ones, and planar ones as in KDL.
+
+    Floating joints are missing: another program publishes their transforms.
+    """
+    found = [joint for joint in robot.joints.values() if joint.type in {"fixed", "planar"}]
+    return sorted(found, key=lambda joint: joint.name)
+
+
+def _in_depth(robot: Robot) -> Iterator[Joint]:
+    left = list(reversed(robot.child_joints[robot.root]))
+    while left:
+        joint = left.pop()
+        yield joint
+        left += reversed(robot.child_joints[joint.child])
+
+
+def _print(*lines: str) -> None:
+    print(*lines, sep="\n", file=sys.stderr, flush=True)  # noqa: T201 -- as urdfdom does

@@ -1,0 +1,244 @@
+"""The node: joint states in, transforms out."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.exceptions import InvalidParameterTypeException
+from rclpy.logging import get_logger
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from robot_state_publisher.description import (
+    DescriptionError,
+    oddities,
+    parse_description,
+    static_joints,
+)
+from robot_state_publisher.diagnosis import Diagnosis
+from robot_state_publisher.publish_times import PublishTimes
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+from turtlewire.errors import CdrError
+from turtlewire.printable import printable
+from turtlewire.urdf import UrdfError, followers_of
+from turtlewire.urdf.joint_messages import JointMessages, stamp_of
+from turtlewire.urdf.joint_model import quaternion_from_rpy
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from builtin_interfaces.msg import Time
+    from rclpy.parameter import Parameter
+    from turtlewire.urdf import Joint, Robot
+    from turtlewire.urdf.joint_messages import Layout
+
+__all__ = ["RobotStatePublisher", "StartError"]
+
+_FALLBACK = (
+    "No robot_description parameter, but command-line argument available.  Assuming argument is"
+    " name of URDF file.  This backwards compatibility fallback will be removed in the future."
+)
+
+
+_NO_DESCRIPTION = (
+    "Give the URDF as a parameter, for example in a launch file: {'robot_description':"
+    " ParameterValue(Command(['xacro ', path]), value_type=str)}"
+)
+
+
+class StartError(RuntimeError):
+    """The node cannot start; the text is ROS 2's.
+
+    Attributes:
+        hint: What to do; may be empty.
+    """
+
+    def __init__(self, text: str, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class RobotStatePublisher(Node):
+    """Publishes where the links of a robot are.
+
+    Parameters: ``robot_description`` (URDF), ``publish_frequency`` (0 to 1000 Hz, 0: no limit),
+    ``ignore_timestamp`` and ``frame_prefix``; all can be changed at run time.
+
+    Args:
+        urdf_file: Path of a URDF that is read if the parameter ``robot_description`` is empty.
+        **options: Options of the node.
+
+    Raises:
+        StartError: There is no description, or it or another parameter is refused.
+    """
+
+    def __init__(self, *, urdf_file: str | None = None, **options: Any) -> None:
+        super().__init__("robot_state_publisher", **options)
+        description: str = self._declare("robot_description", "")
+        if not description:
+            description = self._read_file(urdf_file)
+        self._frequency: float = self._declare("publish_frequency", 20.0)
+        if not 0.0 <= self._frequency <= 1000.0:
+            raise StartError("publish_frequency must be between 0 and 1000")
+        self._ignores_stamps: bool = self._declare("ignore_timestamp", False)
+        self._prefix: str = self._declare("frame_prefix", "")
+        self._times = PublishTimes()
+        self._last_call = 0
+        self._diagnosis = Diagnosis(self)
+        try:
+            self._robot = parse_description(description)
+        except DescriptionError as error:
+            raise StartError(str(error)) from error
+        self._use_robot()
+        self._dynamic = TransformBroadcaster(self)
+        self._static = StaticTransformBroadcaster(self)
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._description_publisher = self.create_publisher(String, "robot_description", latched)
+        self._publish_robot(description)
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._use_parameters)
+        self.create_subscription(
+            JointState,
+            "joint_states",
+            self._on_joint_state,
+            qos_profile_sensor_data,
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+            raw=True,
+        )
+
+    @property
+    def robot(self) -> Robot:
+        """The robot whose links are published."""
+        return self._robot
+
+    def _declare(self, name: str, default: Any) -> Any:
+        try:
+            return self.declare_parameter(name, default).value
+        except InvalidParameterTypeException as error:
+            types = re.findall(r" type '([A-Z_]+)'", str(error))
+            given, expected = (found.lower() for found in types[-2:])
+            raise StartError(
+                f"parameter '{name}' has invalid type: Wrong parameter type, parameter {{{name}}}"
+                f" is of type {{{expected}}}, setting it to {{{given}}} is not allowed.",
+                error.hint,
+            ) from error
+
+    def _read_file(self, path: str | None) -> str:
+        if path is None:
+            text = "robot_description parameter must not be empty"
+            self.get_logger().fatal(text)
+            raise StartError(text, _NO_DESCRIPTION)
+        self.get_logger().warning(_FALLBACK)
+        try:
+            with open(path, encoding="utf-8") as file:
+                return file.read()
+        except (OSError, UnicodeDecodeError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            text = f"Failed to open URDF file: {path}: {reason}"
+            self.get_logger().fatal(text)
+            raise StartError(text) from error
+
+    def _use_robot(self) -> None:
+        """Take over the robot, and log what is odd about it."""
+        kdl = get_logger("kdl_parser")
+        for text in oddities(self._robot):
+            kdl.warning(printable(text))
+        try:
+            followers_of(self._robot)
+        except UrdfError as error:
+            self.get_logger().warning(printable(f"{error} ({error.place})"))
+        self._joints = JointMessages(self._robot, self._prefix)
+        self.get_logger().info("Robot initialized")
+        self._diagnosis.start(self._robot)
+
+    def _publish_robot(self, description: str) -> None:
+        self._description_publisher.publish(String(data=description))
+        now = self.get_clock().now().to_msg()
+        self._static.sendTransform(
+            [_transform(joint, self._prefix, now) for joint in static_joints(self._robot)]
+        )
+
+    def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        for parameter in parameters:
+            reason = self._refusal(parameter)
+            if reason:
+                return SetParametersResult(successful=False, reason=reason)
+        return SetParametersResult(successful=True)
+
+    def _refusal(self, parameter: Parameter) -> str:
+        if parameter.name == "robot_description":
+            if not parameter.value:
+                return "Empty URDF is not allowed"
+            try:
+                self._checked = (parameter.value, parse_description(parameter.value))
+            except DescriptionError as error:
+                self.get_logger().warning(str(error))
+                return str(error)
+        if parameter.name == "publish_frequency" and not 0.0 <= parameter.value <= 1000.0:
+            return "publish_frequency must be between 0.0 and 1000.0"
+        return ""
+
+    def _use_parameters(self, parameters: Sequence[Parameter]) -> None:
+        values = {parameter.name: parameter.value for parameter in parameters}
+        if "publish_frequency" in values:
+            self._frequency = values["publish_frequency"]
+            self._diagnosis.frequency_changed()
+        if "ignore_timestamp" in values:
+            self._ignores_stamps = values["ignore_timestamp"]
+        if "frame_prefix" in values:
+            self._prefix = values["frame_prefix"]
+            self._joints = JointMessages(self._robot, self._prefix)
+        if "robot_description" in values:
+            description, self._robot = self._checked
+            self._use_robot()
+            self._publish_robot(description)
+
+    def _on_joint_state(self, cdr: bytes) -> None:
+        try:
+            layout = self._joints.layout_of(cdr)
+        except CdrError as error:
+            self.get_logger().error(f"Ignoring {error}", throttle_duration_sec=5.0)
+            return
+        if len(layout.names) != layout.number_of_positions:
+            self._refuse(layout)
+            return
+        now = self.get_clock().now().nanoseconds
+        if now < self._last_call:
+            self.get_logger().warning("Moved backwards in time, re-publishing joint transforms!")
+            self._times.clear()
+        self._last_call = now
+        self._diagnosis.received(layout.names, layout.knows_a_joint)
+        stamp = stamp_of(cdr)
+        interval_ms = int(1000.0 / self._frequency) if self._frequency else 0
+        last = self._times.earliest(layout.names, now)
+        if not self._ignores_stamps and stamp < last + interval_ms * 1_000_000:
+            if layout.knows_a_joint:
+                self._diagnosis.skipped(stamp, last, interval_ms, self._frequency)
+            return
+        self._dynamic.pub_tf.publish(layout.transforms(cdr))
+        self._times.published(layout.names, stamp)
+
+    def _refuse(self, layout: Layout) -> None:
+        if layout.number_of_positions == 0:
+            self.get_logger().warning(
+                "Robot state publisher ignored a JointState message about joint(s)"
+                f' "{printable(layout.names[0])}"(,...) whose position member was empty.'
+            )
+        else:
+            self.get_logger().error("Robot state publisher ignored an invalid JointState message")
+
+
+def _transform(joint: Joint, prefix: str, stamp: Time) -> TransformStamped:
+    message = TransformStamped()
+    message.header.stamp = stamp
+    message.header.frame_id = prefix + joint.parent
+    message.child_frame_id = prefix + joint.child
+    translation, rotation = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = joint.origin.xyz
+    rotation.x, rotation.y, rotation.z, rotation.w = quaternion_from_rpy(joint.origin.rpy)
+    return message

@@ -1,0 +1,47 @@
+"""When joints were published last, which decides whether a joint state is published."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["PublishTimes"]
+
+_MOST_NAMES = 10_000  # beyond it, publishers invent names
+
+
+class PublishTimes:
+    """Stamps in nanoseconds of the last joint state that was published, for each joint."""
+
+    def __init__(self) -> None:
+        self._times: dict[str, int] = {}
+        # The names of the last joint state, and its stamp, which are not yet in the dictionary.
+        self._names: Sequence[str] = ()
+        self._time = 0
+
+    def earliest(self, names: Sequence[str], now: int) -> int:
+        """The smallest stamp of these joints, 0 for a new one; ``now`` if all are later."""
+        if names is self._names:
+            return min(now, self._time) if names else now
+        self._remember()
+        return min((now, *(self._times.get(name, 0) for name in names)))
+
+    def published(self, names: Sequence[str], stamp: int) -> None:
+        """A joint state of these joints was published."""
+        if names is not self._names:
+            self._remember()
+            self._names = names
+        self._time = stamp
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._times.clear()
+        self._names = ()
+
+    def _remember(self) -> None:
+        if len(self._times) > _MOST_NAMES:
+            self._times.clear()
+        self._times.update(dict.fromkeys(self._names, self._time))
+        self._names = ()

@@ -1,0 +1,1 @@
+"""urdfdom's programs: check_urdf reads a robot description, urdf_to_graphviz draws its tree."""

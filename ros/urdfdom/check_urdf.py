@@ -1,0 +1,60 @@
+"""``check_urdf FILE``: whether a file is a URDF, and its tree of links."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from turtlewire.cli.pipes import leave_pipe
+from turtlewire.printable import printable
+from turtlewire.urdf import UrdfError
+from urdfdom.reading import read_robot
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from turtlewire.urdf import Robot
+
+__all__ = ["main", "tree_lines"]
+
+_USAGE = "Expect URDF xml file to parse. Use - for stdin"
+
+
+def tree_lines(robot: Robot) -> Iterator[str]:
+    """The tree in the words of urdfdom's check_urdf, children sorted by their joints."""
+    children = robot.child_joints[robot.root]
+    yield f"root Link: {printable(robot.root)} has {len(children)} child(ren)"
+    left = [(1, number, joint) for number, joint in reversed([*enumerate(children, 1)])]
+    while left:
+        level, number, joint = left.pop()
+        yield f"{'  ' * (level + 1)}child({number}):  {printable(joint.child)}"
+        below = robot.child_joints[joint.child]
+        left += [(level + 1, count, each) for count, each in reversed([*enumerate(below, 1)])]
+
+
+def main(args: list[str] | None = None) -> int:
+    """Check a file; the exit status: 0 for a robot, 1 for none, -1 (255) without a file."""
+    words = sys.argv[1:] if args is None else args[1:]
+    if words in (["-h"], ["--help"]):
+        print(f"usage: check_urdf FILE\n\n{_USAGE}")  # noqa: T201
+        return 0
+    if not words:
+        print(_USAGE, file=sys.stderr)  # noqa: T201
+        return 255
+    try:
+        robot = read_robot(words[0])
+    except UrdfError:
+        print("ERROR: Model Parsing the xml failed", file=sys.stderr)  # noqa: T201
+        return 1
+    except OSError as error:
+        print(f"check_urdf: {words[0]}: {error.strerror}", file=sys.stderr)  # noqa: T201
+        return 1
+    heading = (
+        f"robot name is: {printable(robot.name)}",
+        "---------- Successfully Parsed XML ---------------",
+    )
+    try:
+        print("\n".join([*heading, *tree_lines(robot)]), flush=True)  # noqa: T201
+    except BrokenPipeError:
+        return leave_pipe()
+    return 0

@@ -1,0 +1,171 @@
+"""From the bytes of a JointState to the bytes of the TFMessage that it means.
+
+A publisher of joint states sends the same names again and again. So the names are read once, and a
+:class:`Layout` holds all that follows from them: which joints move, what drives them, and a
+TFMessage in which only stamps and poses are left to write.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.errors import CdrError
+from turtlewire.urdf.frames_writer import FramesWriter, Moving
+
+if TYPE_CHECKING:
+    from turtlewire.urdf.model import Joint, Robot
+
+__all__ = ["JointMessages", "Layout", "stamp_of"]
+
+_FRAME_ID = 12  # where the frame_id begins: behind the encapsulation and the stamp
+_MOST_LAYOUTS = 64
+_STAMP = struct.Struct("<iI")
+_COUNT = struct.Struct("<I")
+
+
+class _Drive(NamedTuple):
+    """``position of the joint = factor * positions[source] + offset``."""
+
+    source: int
+    factor: float
+    offset: float
+
+
+class Layout:
+    """What the names in a JointState mean for a robot.
+
+    Attributes:
+        names: The names.
+        number_of_positions: How many positions follow them.
+        joints: The robot's joints that the message moves, mimic joints included, sorted.
+        knows_a_joint: Whether a moving joint of the robot is among the names.
+    """
+
+    def __init__(self, robot: Robot, prefix: str, cdr: bytes) -> None:
+        names, after_names = _names_of(cdr)
+        self.names = names
+        self.number_of_positions = _COUNT.unpack_from(cdr, after_names)[0]
+        self._head = cdr[_FRAME_ID : after_names + 4]
+        begin = after_names + 4
+        self._positions = begin + (4 - begin) % 8  # alignment counts from behind the encapsulation
+        self._end = self._positions + 8 * self.number_of_positions
+        moved = _moved_joints(robot, names) if len(names) == self.number_of_positions else []
+        self.joints = tuple(joint.name for joint, _ in moved)
+        self.knows_a_joint = any(
+            name in robot.joints and robot.joints[name].moves for name in names
+        )
+        self._writer = FramesWriter(
+            [
+                Moving(prefix + joint.parent, prefix + joint.child, joint, *drive)
+                for joint, drive in moved
+            ]
+        )
+
+    def fits(self, cdr: bytes) -> bool:
+        """Whether a message has this layout, and all of its positions."""
+        return cdr.startswith(self._head, _FRAME_ID) and len(cdr) >= self._end
+
+    def transforms(self, cdr: bytes) -> bytes:
+        """The TFMessage of a JointState with this layout, in CDR; stamps are the JointState's."""
+        return self._writer.message(cdr, self._positions)
+
+
+class JointMessages:
+    """Reads JointStates for one robot.
+
+    Args:
+        robot: The robot.
+        prefix: Is put before the names of all frames.
+    """
+
+    def __init__(self, robot: Robot, prefix: str = "") -> None:
+        self._robot = robot
+        self._prefix = prefix
+        self._layouts: list[Layout] = []  # the latest one first
+
+    def layout_of(self, cdr: bytes) -> Layout:
+        """The layout of a JointState in CDR.
+
+        Raises:
+            CdrError: The bytes are no JointState.
+        """
+        for number, layout in enumerate(self._layouts):
+            if layout.fits(cdr):
+                if number:
+                    self._layouts.insert(0, self._layouts.pop(number))
+                return layout
+        try:
+            layout = Layout(self._robot, self._prefix, cdr)
+        except (struct.error, UnicodeDecodeError) as error:
+            raise CdrError(f"malformed sensor_msgs/msg/JointState: {error}") from None
+        if not layout.fits(cdr):
+            raise CdrError("malformed sensor_msgs/msg/JointState: it ends within its positions")
+        self._layouts.insert(0, layout)
+        del self._layouts[_MOST_LAYOUTS:]
+        return layout
+
+
+def stamp_of(cdr: bytes) -> int:
+    """The stamp of a message whose first field is a header, in nanoseconds."""
+    seconds, nanoseconds = _STAMP.unpack_from(cdr, 4)
+    return int(seconds) * 1_000_000_000 + int(nanoseconds)
+
+
+def _names_of(cdr: bytes) -> tuple[tuple[str, ...], int]:
+    """The names, and where the number of positions is."""
+    if cdr[1:2] != b"\x01":
+        raise struct.error("it is not in little-endian CDR")
+    _, at = _string(cdr, _FRAME_ID)
+    at += -at % 4
+    (count,) = _COUNT.unpack_from(cdr, at)
+    at += 4
+    if count > len(cdr) // 4:  # each name takes four bytes at least
+        raise struct.error("it ends within its names")
+    names = []
+    for _ in range(count):
+        name, at = _string(cdr, at + -at % 4)
+        names.append(name)
+    return tuple(names), at + -at % 4
+
+
+def _string(cdr: bytes, at: int) -> tuple[str, int]:
+    (size,) = _COUNT.unpack_from(cdr, at)
+    begin, end = at + 4, at + 4 + size
+    if end > len(cdr):
+        raise struct.error("it ends within a text")
+    return cdr[begin:end].rstrip(b"\0").decode(), end
+
+
+def _moved_joints(robot: Robot, names: tuple[str, ...]) -> list[tuple[Joint, _Drive]]:
+    """The moving joints that follow from these names, sorted, and what drives them."""
+    drives: dict[str, _Drive | None] = {}
+    for source, name in enumerate(names):
+        drives.setdefault(name, _Drive(source, 1.0, 0.0))  # of equal names the first one counts
+    found = []
+    for joint in sorted(robot.joints.values(), key=lambda joint: joint.name):
+        drive = _drive(robot, joint, drives) if joint.moves else None
+        if drive is not None:
+            found.append((joint, drive))
+    return found
+
+
+def _drive(robot: Robot, joint: Joint, drives: dict[str, _Drive | None]) -> _Drive | None:
+    """What drives a joint, through all joints that it follows; ``drives`` gets them all."""
+    chain = []
+    name = joint.name
+    while name not in drives:
+        drives[name] = None  # if the chain comes back here, nothing drives it
+        part = robot.joints.get(name)
+        if part is None or part.mimic is None:
+            break
+        chain.append(part)
+        name = part.mimic.joint
+    drive = drives[name]
+    for part in reversed(chain):
+        assert part.mimic is not None, "a joint that follows none ends the chain"
+        if drive is not None:
+            factor, offset = part.mimic.multiplier, part.mimic.offset
+            drive = _Drive(drive.source, factor * drive.factor, factor * drive.offset + offset)
+        drives[part.name] = drive
+    return drive
