@@ -18,7 +18,13 @@ class Bytes {
     if (view_.obj != nullptr) PyBuffer_Release(&view_);
   }
   // False with a Python error set if the object has no bytes.
-  bool read(PyObject* object) { return PyObject_GetBuffer(object, &view_, PyBUF_SIMPLE) == 0; }
+  bool read(PyObject* object) {
+    if (!PyBytes_CheckExact(object)) return PyObject_GetBuffer(object, &view_, PyBUF_SIMPLE) == 0;
+    view_.obj = Py_NewRef(object);  // as PyObject_GetBuffer() would do it
+    view_.buf = PyBytes_AS_STRING(object);
+    view_.len = PyBytes_GET_SIZE(object);
+    return true;
+  }
   const unsigned char* data() const { return static_cast<const unsigned char*>(view_.buf); }
   std::size_t size() const { return static_cast<std::size_t>(view_.len); }
   std::span<const unsigned char> span() const { return {data(), size()}; }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -108,13 +109,23 @@ inline bool text_of(PyObject* object, std::string_view& text, const char* what) 
   return true;
 }
 
+// As PyLong_AsLongLong(), which takes a detour through an array of bytes for ints of stamps' size.
+inline std::int64_t to_int64(PyObject* object) {
+  if (PyLong_CheckExact(object)) {
+    int overflow = 0;
+    const long long value = PyLong_AsLongLongAndOverflow(object, &overflow);
+    if (overflow == 0) [[likely]]
+      return value;
+  }
+  return taking_gil([object] { return PyLong_AsLongLong(object); });
+}
+
 // Nanoseconds from an int (or what has __index__) or a datetime64; a null object leaves the
-// default. False with a Python error set. The second function goes on where PyLong_AsLongLong has
-// failed.
+// default. False with a Python error set. The second function goes on where to_int64 has failed.
 bool nanoseconds_of_other(PyObject* object, Stamp& value, const char* what);
 inline bool nanoseconds_of(PyObject* object, Stamp& value, const char* what) {
   if (object == nullptr) return true;
-  value = taking_gil([object] { return PyLong_AsLongLong(object); });
+  value = to_int64(object);
   if (value != -1 || PyErr_Occurred() == nullptr) [[likely]]
     return true;
   return nanoseconds_of_other(object, value, what);

@@ -18,6 +18,35 @@ void prefetch(const void* address) {
 #endif
 }
 
+// The two samples around a time that a link covers, looked for from index `guess` on; twice the
+// newest one at its own time.
+Samples::Pair pair_at(const Samples& samples, Stamp t, std::size_t guess) {
+  if (t == samples.newest()) return {&samples.back(), &samples.back(), t, t};
+  const Samples::Pair pair =
+      t == samples.oldest() ? samples.pair(0) : samples.around(t, guess);
+  prefetch(pair.older);
+  prefetch(pair.newer);
+  return pair;
+}
+
+void find_in_order(const Samples& samples, const Stamp* times, std::size_t& hint,
+                   Samples::Pair* pairs) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    hint = samples.last_at_or_before(times[i], hint);
+    pairs[i] = pair_at(samples, times[i], hint);
+  }
+}
+
+// The stamps of all guesses are fetched before the first one is read.
+void find_in_any_order(const Samples& samples, const Stamp* times, Samples::Pair* pairs) {
+  std::size_t guesses[kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    guesses[i] = samples.guess(times[i]);
+    prefetch(samples.address_of_stamp(guesses[i]));
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) pairs[i] = pair_at(samples, times[i], guesses[i]);
+}
+
 }  // namespace
 
 BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::string_view source)
@@ -122,35 +151,27 @@ void BatchLookup::arm(const std::vector<Step>& steps, const Stamp* stamps, Hints
 void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& hint, bool* missing,
                             Lanes& result) {
   const Samples& samples = link.samples();
-  const Stamp oldest = samples.oldest(), newest = samples.newest();
-  const std::size_t last = samples.size() - 1;
-  const bool in_order = std::is_sorted(stamps, stamps + kLanes);
-  std::size_t places[kLanes];
+  Stamp times[kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    missing[i] |= !link.covers(stamps[i]);
+    times[i] = stamps[i] == 0 || missing[i] ? samples.newest() : stamps[i];
+  }
+  Samples::Pair pairs[kLanes];
+  if (std::is_sorted(times, times + kLanes)) {
+    find_in_order(samples, times, hint, pairs);
+  } else {
+    find_in_any_order(samples, times, pairs);
+  }
+  Lanes older, newer;
   double ratios[kLanes], spans[kLanes], cosines[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
-    Stamp t = stamps[i] != 0 ? stamps[i] : newest;
-    if (!link.covers(t)) {
-      missing[i] = true;
-      t = newest;
-    }
-    if (t == oldest && t != newest) {
-      hint = 0;
-    } else {
-      hint = in_order ? samples.last_at_or_before(t, hint) : samples.last_at_or_before(t);
-    }
-    places[i] = hint;
-    prefetch(&samples[hint]);
-    prefetch(&samples[std::min(hint + 1, last)]);
-    const Stamp older = samples.stamp(hint), newer = samples.stamp(std::min(hint + 1, last));
-    ratios[i] = static_cast<double>(t - older);
-    spans[i] = static_cast<double>(newer - older + (newer == older));
+    const auto [first, second, begin, end] = pairs[i];
+    older.set(i, first->pose);
+    newer.set(i, second->pose);
+    ratios[i] = static_cast<double>(times[i] - begin);
+    spans[i] = static_cast<double>(end - begin + (end == begin));
   }
   for (std::size_t i = 0; i < kLanes; ++i) ratios[i] /= spans[i];
-  Lanes older, newer;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    older.set(i, samples[places[i]].pose);
-    newer.set(i, samples[std::min(places[i] + 1, last)].pose);
-  }
   kernels().interpolate(older, newer, ratios, result, cosines);
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (cosines[i] <= kNineTermsCosine)

@@ -67,8 +67,9 @@ class Link {
     for (const Flood& flood : floods_) n += flood.dropped;
     return n;
   }
-  Stamp oldest() const { return is_static() || samples_.empty() ? 0 : samples_.oldest(); }
-  Stamp newest() const { return is_static() || samples_.empty() ? 0 : samples_.newest(); }
+  // Of a history; 0 without one.
+  Stamp oldest() const { return samples_.oldest(); }
+  Stamp newest() const { return samples_.newest(); }
 
   // What is wrong with the link's own state; empty if nothing is.
   std::string fault() const;
@@ -168,11 +169,9 @@ class Link {
       return t == samples_.newest() ? sample_reading(samples_.back()) : Reading{ReadStatus::future};
     if (t <= samples_.oldest())
       return t == samples_.oldest() ? sample_reading(samples_.front()) : Reading{ReadStatus::past};
-    const std::size_t i = samples_.last_at_or_before(t);
-    const Sample& older = samples_[i];
-    const Sample& newer = samples_[i + 1];
-    if (older.parent != newer.parent) return sample_reading(older);
-    return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
+    const Samples::Pair pair = samples_.around(t);
+    if (pair.older->parent != pair.newer->parent) return sample_reading(*pair.older);
+    return {ReadStatus::ok, pair.older->parent, interpolated(pair, t)};
   }
 
   // As read, but up to `limit` before the oldest and after the newest sample: the motion between
@@ -183,10 +182,11 @@ class Link {
     const bool after = reading.status == ReadStatus::future;
     const std::size_t i = after ? samples_.size() - 2 : 0;
     const Stamp gap = after ? t - samples_.newest() : samples_.oldest() - t;
-    const Sample &older = samples_[i], &newer = samples_[i + 1];
-    if (gap > limit || older.parent != newer.parent || samples_.stamp(i) == samples_.stamp(i + 1))
+    const Samples::Pair pair = samples_.pair(i);
+    if (gap > limit || pair.older->parent != pair.newer->parent ||
+        pair.older_stamp == pair.newer_stamp)
       return reading;
-    return {ReadStatus::ok, older.parent, interpolate(older.pose, newer.pose, ratio(i, t))};
+    return {ReadStatus::ok, pair.older->parent, interpolated(pair, t)};
   }
 
   // Whether a dynamic link of one parent has a pose at `t`, without computing it.
@@ -195,22 +195,15 @@ class Link {
     return t == 0 || (t <= samples_.newest() && t >= samples_.oldest());
   }
 
-  // The pose of a dynamic link of one parent; false when it has none at `t`.
-  bool pose_at(Stamp t, Pose& pose) const {
-    if (samples_.empty()) return false;
-    const Stamp newest = samples_.newest();
-    if (t == newest || t == 0) {
-      pose = samples_.back().pose;
-      return true;
-    }
-    if (t > newest || t <= samples_.oldest()) {
-      if (t != samples_.oldest()) return false;
-      pose = samples_.front().pose;
-      return true;
-    }
-    const std::size_t i = samples_.last_at_or_before(t);
-    pose = interpolate(samples_[i].pose, samples_[i + 1].pose, ratio(i, t));
-    return true;
+  // The pose of a dynamic link of one parent, where it is stored or in `room`; null when it has none
+  // at `t`.
+  const Pose* pose_at(Stamp t, Pose& room) const {
+    if (samples_.empty()) return nullptr;
+    if (t == samples_.newest() || t == 0) return &samples_.back().pose;
+    if (t == samples_.oldest()) return &samples_.front().pose;
+    if (t > samples_.newest() || t < samples_.oldest()) return nullptr;
+    room = interpolated(samples_.around(t), t);
+    return &room;
   }
 
  private:
@@ -223,9 +216,8 @@ class Link {
     return {ReadStatus::ok, sample.parent, sample.pose};
   }
 
-  double ratio(std::size_t i, Stamp t) const {
-    const Stamp older = samples_.stamp(i);
-    return static_cast<double>(t - older) / static_cast<double>(samples_.stamp(i + 1) - older);
+  static Pose interpolated(const Samples::Pair& pair, Stamp t) {
+    return interpolate(pair.older->pose, pair.newer->pose, pair.ratio(t));
   }
 
   void append(Stamp stamp, const Sample& sample) {

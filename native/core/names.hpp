@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <optional>
 #include <string>
@@ -11,13 +12,24 @@
 
 namespace turtlewire {
 
+// Whether two names are equal; without a call for those of 8 to 16 bytes, as most names are.
+inline bool same_name(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  if (a.size() < 8 || a.size() > 16) return a == b;
+  std::uint64_t a_first, a_last, b_first, b_last;
+  std::memcpy(&a_first, a.data(), 8);
+  std::memcpy(&b_first, b.data(), 8);
+  std::memcpy(&a_last, a.data() + a.size() - 8, 8);
+  std::memcpy(&b_last, b.data() + b.size() - 8, 8);
+  return a_first == b_first && a_last == b_last;
+}
+
 // Numbers are given in order of arrival; those of freed names are given again.
 class Names {
  public:
   explicit Names(std::string_view zeroth) { intern(zeroth); }
 
   // All numbers that were ever given are below it.
-
   std::uint32_t size() const { return static_cast<std::uint32_t>(names_.size()); }
   std::string_view operator[](std::uint32_t id) const { return shown_[id]; }
 

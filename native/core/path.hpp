@@ -38,23 +38,35 @@ inline Stamp latest_common_time(const Path& path) {
   return latest;
 }
 
-// top_from_start of one arm; false when a link has no data at `t`.
+// The pose of one step, where it is stored or in `room`; null when its link has no data at `t`.
+inline const Pose* pose_at(const Step& step, Stamp t, Pose& room) {
+  return step.link != nullptr ? step.link->pose_at(t, room) : &step.fixed;
+}
+
+// top_from_start of one arm; false when a link has no data at `t`. A pose just computed is not
+// copied: copies are made in larger pieces than it was written in, for which processors wait.
 inline bool follow(const std::vector<Step>& arm, Stamp t, Pose& result) {
-  Pose pose;
-  for (std::size_t i = 0; i < arm.size(); ++i) {
-    const Step& step = arm[i];
-    if (step.link != nullptr && !step.link->pose_at(t, pose)) return false;
-    const Pose& parent_from_child = step.link != nullptr ? pose : step.fixed;
-    result = i == 0 ? parent_from_child : parent_from_child * result;
+  if (arm.empty()) return true;
+  const Pose* first = pose_at(arm.front(), t, result);
+  if (first == nullptr) return false;
+  if (first != &result) result = *first;
+  Pose room;
+  for (std::size_t i = 1; i < arm.size(); ++i) {
+    const Pose* pose = pose_at(arm[i], t, room);
+    if (pose == nullptr) return false;
+    result = *pose * result;
   }
   return true;
 }
 
 // target_from_source; false when a link has no data at `t`.
 inline bool follow(const Path& path, Stamp t, Pose& target_from_source) {
-  Pose up, down;
-  if (!follow(path.up, t, up) || !follow(path.down, t, down)) return false;
-  target_from_source = path.down.empty() ? up : between(down, up);
+  if (path.up.empty()) target_from_source = {};
+  if (!follow(path.up, t, target_from_source)) return false;
+  if (path.down.empty()) return true;
+  Pose down;
+  if (!follow(path.down, t, down)) return false;
+  target_from_source = between(down, target_from_source);
   return true;
 }
 

@@ -55,22 +55,26 @@ class Samples {
   std::size_t capacity() const { return room_ - head_; }
   // What the samples take, with the room for more.
   std::size_t bytes() const {
-    return room_ * (sizeof(Stamp) + sizeof(Sample)) + blocks_.capacity() * sizeof(std::byte*);
+    return room_ * (sizeof(Stamp) + sizeof(Sample)) + blocks_.capacity() * sizeof(Block);
   }
 
   Stamp stamp(std::size_t i) const { return stamp_at(head_ + i); }
   const Sample& operator[](std::size_t i) const { return sample_at(head_ + i); }
   Sample& operator[](std::size_t i) { return sample_at(head_ + i); }
-  Stamp oldest() const { return stamp_at(head_); }
-  Stamp newest() const { return stamp_at(head_ + size_ - 1); }
+  // Both are 0 if there are no samples.
+  Stamp oldest() const { return oldest_; }
+  Stamp newest() const { return newest_; }
   const Sample& front() const { return sample_at(head_); }
-  const Sample& back() const { return sample_at(head_ + size_ - 1); }
+  const Sample& back() const { return *back_; }
 
   void push_back(Stamp stamp, const Sample& sample) {
     if (head_ + size_ == room_) grow();
     const std::size_t at = head_ + size_;
-    stamp_at(at) = stamp;
-    sample_at(at) = sample;
+    const Block& block = block_at(at);
+    block.stamps[at % kBlock] = newest_ = stamp;
+    back_ = block.samples + at % kBlock;
+    *back_ = sample;
+    if (size_ == 0) oldest_ = stamp;
     ++size_;
     if (size_ < 64 || at % kBlock == 0) measure_rate();
   }
@@ -83,6 +87,7 @@ class Samples {
     }
     stamp_at(head_ + i) = stamp;
     sample_at(head_ + i) = sample;
+    note_ends();
     measure_rate();
   }
 
@@ -90,12 +95,15 @@ class Samples {
     ++head_;
     --size_;
     if (head_ == kBlock) drop_first_block();
+    oldest_ = size_ > 0 ? stamp_at(head_) : 0;
   }
 
   void clear() {
     for (std::size_t i = first_; i < first_ + (room_ + kBlock - 1) / kBlock; ++i)
-      arena_->give_back(blocks_[i], size_class_);
+      give_back(blocks_[i]);
     blocks_ = {};
+    back_ = nullptr;
+    oldest_ = newest_ = 0;
     first_ = size_class_ = room_ = head_ = size_ = 0;
     per_ns_ = 0.0;
   }
@@ -103,13 +111,10 @@ class Samples {
   // The last sample at or before `t`; needs oldest() <= t. The place is guessed from the mean rate,
   // so that its cost depends on how regular the stamps are and not on how old `t` is.
   std::size_t last_at_or_before(Stamp t) const {
-    const std::size_t last = size_ - 1;
-    if (t >= newest()) return last;
-    const double back = static_cast<double>(newest() - t) * per_ns_;
-    const std::size_t guess =
-        back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
-    if (stamp(guess) > t) return gallop_down(guess, t);
-    return stamp(guess + 1) > t ? guess : gallop_up(guess, t);
+    if (t >= newest()) return size_ - 1;
+    const std::size_t i = guess(t);
+    if (stamp(i) > t) return gallop_down(i, t);
+    return stamp(i + 1) > t ? i : gallop_up(i, t);
   }
 
   // The same, tried first at `hint` and its successor: for stamps that come in order.
@@ -121,22 +126,74 @@ class Samples {
     return last_at_or_before(t);
   }
 
+  // Two samples that follow each other.
+  struct Pair {
+    const Sample *older, *newer;
+    Stamp older_stamp, newer_stamp;
+
+    double ratio(Stamp t) const {
+      return static_cast<double>(t - older_stamp) / static_cast<double>(newer_stamp - older_stamp);
+    }
+  };
+  Pair pair(std::size_t i) const {
+    const std::size_t at = head_ + i, place = at % kBlock;
+    const Block& block = block_at(at);
+    const Block& next = place + 1 < kBlock ? block : block_at(at + 1);
+    const std::size_t next_place = (place + 1) % kBlock;
+    return {block.samples + place, next.samples + next_place, block.stamps[place],
+            next.stamps[next_place]};
+  }
+  // The pair around `t`; needs oldest() <= t < newest().
+  Pair around(Stamp t) const { return around(t, guess(t)); }
+  // The same, looked for from a guess on.
+  Pair around(Stamp t, std::size_t guess) const {
+    const Pair guessed = pair(guess);
+    if (guessed.older_stamp > t) return pair(gallop_down(guess, t));
+    return guessed.newer_stamp > t ? guessed : pair(gallop_up(guess, t));
+  }
+
+  // Where `t` lies by the mean rate; never the last sample. Needs t <= newest().
+  std::size_t guess(Stamp t) const {
+    const std::size_t last = size_ - 1;
+    const double back = static_cast<double>(newest() - t) * per_ns_;
+    return back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
+  }
+  // What around() reads first.
+  const Stamp* address_of_stamp(std::size_t i) const { return &stamp_at(head_ + i); }
+
  private:
   static constexpr std::size_t kSmallestBlock = 8, kBlock = 32;  // samples
   static constexpr std::size_t kLargestClass = 2;
   static_assert(Arena::kSmallest == kSmallestBlock * (sizeof(Stamp) + sizeof(Sample)));
   static_assert(Arena::kSizes == kLargestClass + 1 && kSmallestBlock << kLargestClass == kBlock);
 
+  // One piece of the arena's memory, which starts with the stamps.
+  struct Block {
+    Stamp* stamps;
+    Sample* samples;
+  };
+
   // Samples of one block; only a link with a single block can have a smaller one.
   std::size_t per_block() const { return kSmallestBlock << size_class_; }
-  std::byte* block_at(std::size_t at) const { return blocks_[first_ + at / kBlock]; }
-  // A block holds its stamps and then its samples. `at` counts from the start of the first block.
-  Stamp& stamp_at(std::size_t at) const {
-    return reinterpret_cast<Stamp*>(block_at(at))[at % kBlock];
+  // `at` counts from the start of the first block.
+  const Block& block_at(std::size_t at) const { return blocks_[first_ + at / kBlock]; }
+  Stamp& stamp_at(std::size_t at) const { return block_at(at).stamps[at % kBlock]; }
+  Sample& sample_at(std::size_t at) const { return block_at(at).samples[at % kBlock]; }
+
+  Block take(std::size_t size_class) {
+    std::byte* memory = arena_->take(size_class);
+    const std::size_t bytes_of_stamps = (kSmallestBlock << size_class) * sizeof(Stamp);
+    return {reinterpret_cast<Stamp*>(memory),
+            reinterpret_cast<Sample*>(memory + bytes_of_stamps)};
   }
-  Sample& sample_at(std::size_t at) const {
-    auto* samples = reinterpret_cast<Sample*>(block_at(at) + per_block() * sizeof(Stamp));
-    return samples[at % kBlock];
+  void give_back(const Block& block) {
+    arena_->give_back(reinterpret_cast<std::byte*>(block.stamps), size_class_);
+  }
+
+  void note_ends() {
+    oldest_ = stamp_at(head_);
+    newest_ = stamp_at(head_ + size_ - 1);
+    back_ = &sample_at(head_ + size_ - 1);
   }
 
   void measure_rate() {
@@ -178,8 +235,8 @@ class Samples {
       return;
     }
     const std::size_t used = first_ + room_ / kBlock;
-    if (used == blocks_.size()) blocks_.push_back(nullptr);
-    blocks_[used] = arena_->take(size_class_);
+    if (used == blocks_.size()) blocks_.push_back({});
+    blocks_[used] = take(size_class_);
     room_ += per_block();
   }
 
@@ -187,19 +244,18 @@ class Samples {
   // to a block of twice the size.
   void grow_only_block() {
     const std::size_t wanted = 2 * size_ <= room_ ? size_class_ : size_class_ + 1;
-    std::byte* block = arena_->take(wanted);
-    auto* stamps = reinterpret_cast<Stamp*>(block);
-    auto* samples = reinterpret_cast<Sample*>(block + (kSmallestBlock << wanted) * sizeof(Stamp));
-    std::copy_n(&stamp_at(head_), size_, stamps);
-    std::copy_n(&sample_at(head_), size_, samples);
-    arena_->give_back(std::exchange(blocks_[first_], block), size_class_);
+    const Block block = take(wanted);
+    std::copy_n(&stamp_at(head_), size_, block.stamps);
+    std::copy_n(&sample_at(head_), size_, block.samples);
+    give_back(std::exchange(blocks_[first_], block));
     size_class_ = wanted;
     room_ = per_block();
     head_ = 0;
+    note_ends();
   }
 
   void drop_first_block() {
-    arena_->give_back(blocks_[first_], size_class_);
+    give_back(blocks_[first_]);
     ++first_;
     room_ -= kBlock;
     head_ = 0;
@@ -210,12 +266,14 @@ class Samples {
   }
 
   Arena* arena_;
-  std::vector<std::byte*> blocks_;  // from index first_ on, in order of time
+  std::vector<Block> blocks_;  // from index first_ on, in order of time
   std::size_t first_ = 0;
   std::size_t size_class_ = 0;  // of all blocks
   std::size_t room_ = 0;        // samples that fit into the blocks
   std::size_t head_ = 0;        // samples at the start of the first block that were dropped
   std::size_t size_ = 0;
+  Stamp oldest_ = 0, newest_ = 0;  // stand here, too, because all questions ask for them
+  Sample* back_ = nullptr;         // likewise
   double per_ns_ = 0.0;
 };
 

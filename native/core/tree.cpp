@@ -42,8 +42,17 @@ FrameId Tree::frame(std::string_view name) {
   return id;
 }
 
+SourceId Tree::sender(std::string_view name) {
+  if (!same_name(name, last_sender_name_)) {
+    const SourceId id = senders_.intern(name);
+    last_sender_name_ = name;
+    last_sender_ = id;
+  }
+  return last_sender_;
+}
+
 FrameId Tree::predicted(FrameId id, std::string_view name) const {
-  return id != 0 && frames_[id] == name ? id : 0;
+  return id != 0 && same_name(frames_[id], name) ? id : 0;
 }
 
 Verdict Tree::set(std::string_view parent, std::string_view child, Stamp stamp, const Pose& pose,

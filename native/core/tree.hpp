@@ -48,7 +48,7 @@ class Tree {
   // stand for nothing. Takes time in proportion to the number of all frames. Returns the names of
   // the frames that had a link.
   std::vector<std::string> remove(std::span<const FrameId> children);
-  SourceId sender(std::string_view name) { return senders_.intern(name); }
+  SourceId sender(std::string_view name);
   std::string_view sender_name(SourceId id) const { return senders_[id]; }
   // For a sender whose name becomes known only after its first data.
   void rename_sender(std::string_view name, std::string_view shown) {
@@ -124,6 +124,8 @@ class Tree {
   Stamp keep_;
   Names frames_{kNoParent};
   Names senders_{"no recorded authority"};
+  std::string last_sender_name_ = "no recorded authority";  // saves hashing it
+  SourceId last_sender_ = 0;
   Arena arena_;                               // of the links' samples
   std::vector<std::unique_ptr<Link>> links_;  // by child frame; paths point to them
   Link* last_link_;                           // of the sample before this one
