@@ -30,7 +30,27 @@ constexpr std::array<const char*, kClasses> kNames{"CdrError",
                                                    "BackwardExtrapolationException",
                                                    "NoDataForExtrapolationException"};
 std::array<PyObject*, kClasses> classes;  // those of turtlewire.errors
-PyObject* details_name;
+
+// The attributes of the exceptions, by the names that turtlewire.errors documents.
+enum Field : std::size_t {
+  frame,
+  buffer_asked,
+  target_frame,
+  source_frame,
+  target_root,
+  source_root,
+  parent_frame,
+  child_frame,
+  requested_ns,
+  oldest_ns,
+  newest_ns,
+  has_data,
+  kFields
+};
+constexpr std::array<const char*, kFields> kFieldNames{
+    "frame",        "_buffer",     "target_frame", "source_frame", "target_root", "source_root",
+    "parent_frame", "child_frame", "requested_ns", "oldest_ns",    "newest_ns",   "_has_data"};
+std::array<PyObject*, kFields> field_names;
 
 PyObject* text_of(const std::string& text) {
   return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
@@ -56,44 +76,50 @@ Class class_of(Status status, Question question) {
   }
 }
 
-// The attributes of the exception, by the names that turtlewire.errors gives them. Null without an
-// error: there are none.
-PyObject* details_of(const Failure& f, Question question, PyObject* buffer) {
+// Each sets one attribute; false with a Python error set.
+bool set(PyObject* error, Field field, PyObject* value) {
+  return PyObject_SetAttr(error, field_names[field], value) == 0;
+}
+bool set_new(PyObject* error, Field field, PyObject* value) {
+  const bool done = value != nullptr && set(error, field, value);
+  Py_XDECREF(value);
+  return done;
+}
+bool set(PyObject* error, Field field, const std::string& text) {
+  return set_new(error, field, text_of(text));
+}
+bool set(PyObject* error, Field field, Stamp stamp) {
+  return set_new(error, field, PyLong_FromLongLong(stamp));
+}
+
+bool describe(PyObject* error, const Failure& f, Question question, PyObject* buffer) {
   switch (f.status) {
     case Status::unknown_frame:
-      return Py_BuildValue("{sNsO}", "frame", text_of(f.name), "buffer", buffer);
+      return set(error, frame, f.name) && set(error, buffer_asked, buffer);
     case Status::not_connected:
-      if (question == Question::latest_common_time) return nullptr;
-      return Py_BuildValue("{sNsNsNsN}", "target_frame", text_of(f.target), "source_frame",
-                           text_of(f.source), "target_root", text_of(f.target_root), "source_root",
-                           text_of(f.source_root));
+      return question == Question::latest_common_time ||
+             (set(error, target_frame, f.target) && set(error, source_frame, f.source) &&
+              set(error, target_root, f.target_root) && set(error, source_root, f.source_root));
     case Status::no_data:
     case Status::future:
     case Status::past:
-      return Py_BuildValue(
-          "{sNsNsNsNsLsLsLsO}", "target_frame", text_of(f.target), "source_frame",
-          text_of(f.source), "parent_frame", text_of(f.link_parent), "child_frame",
-          text_of(f.link_child), "requested_ns", static_cast<long long>(f.requested), "oldest_ns",
-          static_cast<long long>(f.oldest), "newest_ns", static_cast<long long>(f.newest),
-          "has_data", f.emptied ? Py_False : Py_True);
+      return set(error, target_frame, f.target) && set(error, source_frame, f.source) &&
+             set(error, parent_frame, f.link_parent) && set(error, child_frame, f.link_child) &&
+             set(error, requested_ns, f.requested) && set(error, oldest_ns, f.oldest) &&
+             set(error, newest_ns, f.newest) &&
+             set(error, has_data, f.emptied ? Py_False : Py_True);
     default:
-      return nullptr;
+      return true;
   }
 }
 
-PyObject* raise_class(Class which, const std::string& text, PyObject* details) {
+// Null with a Python error set if there is no memory for it.
+PyObject* make(Class which, const std::string& text) {
   PyObject* message = text_of(text);
-  PyObject* error = message == nullptr
-                        ? nullptr
-                        : taking_gil([=] { return PyObject_CallOneArg(classes[which], message); });
-  if (error != nullptr &&
-      (details == nullptr || PyObject_SetAttr(error, details_name, details) == 0)) {
-    PyErr_SetObject(classes[which], error);
-  }
-  Py_XDECREF(error);
-  Py_XDECREF(message);
-  Py_XDECREF(details);
-  return nullptr;
+  if (message == nullptr) return nullptr;
+  PyObject* error = taking_gil([=] { return PyObject_CallOneArg(classes[which], message); });
+  Py_DECREF(message);
+  return error;
 }
 
 }  // namespace
@@ -102,17 +128,24 @@ void load_error_classes() {
   const nb::module_ errors = nb::module_::import_("turtlewire.errors");
   for (std::size_t i = 0; i < kClasses; ++i)
     classes[i] = nb::object(errors.attr(kNames[i])).release().ptr();
-  details_name = PyUnicode_InternFromString("_details");
+  for (std::size_t i = 0; i < kFields; ++i)
+    field_names[i] = PyUnicode_InternFromString(kFieldNames[i]);
 }
 
 PyObject* raise(const Failure& failure, Question question, PyObject* buffer) {
-  PyObject* details = details_of(failure, question, buffer);
-  if (details == nullptr && PyErr_Occurred() != nullptr) return nullptr;
-  return raise_class(class_of(failure.status, question), explain(failure, question), details);
+  const Class which = class_of(failure.status, question);
+  PyObject* error = make(which, explain(failure, question));
+  if (error != nullptr && describe(error, failure, question, buffer))
+    PyErr_SetObject(classes[which], error);
+  Py_XDECREF(error);
+  return nullptr;
 }
 
 PyObject* raise_cdr_error(const std::string& what) {
-  return raise_class(cdr, "not a TFMessage: " + what, nullptr);
+  PyObject* error = make(cdr, "not a TFMessage: " + what);
+  if (error != nullptr) PyErr_SetObject(classes[cdr], error);
+  Py_XDECREF(error);
+  return nullptr;
 }
 
 }  // namespace turtlewire::python

@@ -24,10 +24,7 @@ Python 3.11 and later.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from typing import Any
 
 __all__ = [
     "BackwardExtrapolationException",
@@ -81,19 +78,13 @@ class WireError(TurtlewireError, RuntimeError):
     """The middleware refused an operation, or cannot be loaded on this platform."""
 
 
-def _detail(name: str, default: object) -> Any:
-    """A property that shows one of the details."""
-    return property(lambda self: self._details.get(name, default))
-
-
 class TransformException(TurtlewireError):
     """Base of the errors of a transform lookup; catching it catches all of them.
 
     The hint is made when it is first asked for: a lookup may fail often, and be expected to.
     """
 
-    # The attributes by name, as the buffer sets them; empty for an error that no buffer raised.
-    _details: Mapping[str, Any] = {}
+    # The buffer sets the attributes of its errors, and is the only one to do so.
 
     def _make_hint(self) -> str:
         return ""
@@ -102,7 +93,7 @@ class TransformException(TurtlewireError):
     def hint(self) -> str:
         """What exists and what to do, in one or two sentences; may be empty."""
         if "_hint" not in self.__dict__:
-            self.__dict__["_hint"] = self._make_hint() if self._details else ""
+            self.__dict__["_hint"] = self._make_hint()
         text: str = self.__dict__["_hint"]
         return text
 
@@ -125,11 +116,8 @@ class TransformException(TurtlewireError):
 
     def __reduce__(self) -> Any:
         # A copy in another process cannot ask the buffer: the hint travels as text.
-        state = {"_hint": self.hint, "_details": self._picklable_details()}
-        return (type(self), self.args, state)
-
-    def _picklable_details(self) -> Mapping[str, Any]:
-        return self._details
+        kept = {k: v for k, v in self.__dict__.items() if k not in {"_buffer", "_notes"}}
+        return (type(self), self.args, {**kept, "_hint": self.hint})
 
 
 class ConnectivityException(TransformException):
@@ -143,12 +131,14 @@ class ConnectivityException(TransformException):
         source_root: The root of the source's tree.
     """
 
-    target_frame = _detail("target_frame", "")
-    source_frame = _detail("source_frame", "")
-    target_root = _detail("target_root", "")
-    source_root = _detail("source_root", "")
+    target_frame: str = ""
+    source_frame: str = ""
+    target_root: str = ""
+    source_root: str = ""
 
     def _make_hint(self) -> str:
+        if not self.target_frame:
+            return ""
         target, source = f"'{self.target_frame}'", f"'{self.source_frame}'"
         if self.target_root == self.source_root:
             return (
@@ -169,13 +159,15 @@ class LookupException(TransformException):
         frame: The name; empty if unknown.
     """
 
-    frame = _detail("frame", "")
+    frame: str = ""
+    _buffer: Any = None
 
     def _make_hint(self) -> str:
         import difflib
 
-        frame, buffer = self.frame, self._details["buffer"]
-        names = buffer.frame_strings() if buffer is not None else []
+        if self._buffer is None:
+            return ""
+        frame, names = self.frame, self._buffer.frame_strings()
         if not names:
             return (
                 "No transform has arrived yet. Is a broadcaster running, and does a "
@@ -186,9 +178,6 @@ class LookupException(TransformException):
             return f"Did you mean {' or '.join(map(repr, near))}?"
         some = ", ".join(map(repr, names[:10]))
         return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
-
-    def _picklable_details(self) -> Mapping[str, Any]:
-        return {**self._details, "buffer": None} if self._details else {}
 
 
 class ExtrapolationException(TransformException):
@@ -206,13 +195,20 @@ class ExtrapolationException(TransformException):
         newest_ns: The time of the newest data of the link; 0 without data.
     """
 
-    target_frame = _detail("target_frame", "")
-    source_frame = _detail("source_frame", "")
-    parent_frame = _detail("parent_frame", "")
-    child_frame = _detail("child_frame", "")
-    requested_ns = _detail("requested_ns", 0)
-    oldest_ns = _detail("oldest_ns", 0)
-    newest_ns = _detail("newest_ns", 0)
+    target_frame: str = ""
+    source_frame: str = ""
+    parent_frame: str = ""
+    child_frame: str = ""
+    requested_ns: int = 0
+    oldest_ns: int = 0
+    newest_ns: int = 0
+    _has_data: bool = True
+
+    def _make_hint(self) -> str:
+        return self._describe() if self.child_frame else ""
+
+    def _describe(self) -> str:
+        return ""
 
     def _link(self) -> str:
         return f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
@@ -221,7 +217,7 @@ class ExtrapolationException(TransformException):
 class BackwardExtrapolationException(ExtrapolationException):
     """The requested time is older than the oldest data of a link."""
 
-    def _make_hint(self) -> str:
+    def _describe(self) -> str:
         gap = (self.oldest_ns - self.requested_ns) / 1e9
         kept = (self.newest_ns - self.oldest_ns) / 1e9
         return (
@@ -233,7 +229,7 @@ class BackwardExtrapolationException(ExtrapolationException):
 class ForwardExtrapolationException(ExtrapolationException):
     """The requested time is newer than the newest data of a link."""
 
-    def _make_hint(self) -> str:
+    def _describe(self) -> str:
         gap = (self.requested_ns - self.newest_ns) / 1e9
         return (
             f"The newest data of {self._link()} is {gap:.6g} s older than the time asked for. "
@@ -244,8 +240,8 @@ class ForwardExtrapolationException(ExtrapolationException):
 class NoDataForExtrapolationException(ExtrapolationException):
     """A link has no data at all, or a single sample of another time."""
 
-    def _make_hint(self) -> str:
-        if not self._details["has_data"]:
+    def _describe(self) -> str:
+        if not self._has_data:
             return (
                 f"Nothing is known of the transform of '{self.child_frame}' since the buffer was "
                 "cleared."

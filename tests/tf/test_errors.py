@@ -38,8 +38,7 @@ def failures(buffer: turtlewire.Buffer) -> list[errors.TransformException]:
 
 
 def attributes(error: errors.TransformException) -> dict[str, object]:
-    names = [name for name in dir(type(error)) if isinstance(getattr(type(error), name), property)]
-    return {name: getattr(error, name) for name in names}
+    return {name: value for name, value in vars(error).items() if not name.startswith("_")}
 
 
 def test_attributes(buffer: turtlewire.Buffer) -> None:

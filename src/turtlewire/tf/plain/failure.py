@@ -73,7 +73,8 @@ def name_failure(status: LookupStatus, name: str, question: Question, argument: 
         text = f'"{name}" passed to {where} does not exist. '
     else:
         text = f'Invalid argument "{name}" passed to {where} - in tf2 frame_ids {why}'
-    return Failure(text, status, {"frame": name}, hopeless=status != LookupStatus.UNKNOWN_FRAME)
+    unknown = status == LookupStatus.UNKNOWN_FRAME
+    return Failure(text, status, {"frame": name} if unknown else None, hopeless=not unknown)
 
 
 def connection_failure(target: str, source: str, target_root: str, source_root: str) -> Failure:
@@ -132,7 +133,7 @@ def time_failure(
             "requested_ns": stamp,
             "oldest_ns": link.oldest,
             "newest_ns": link.newest,
-            "has_data": link.has_data,
+            "_has_data": link.has_data,
         },
         hopeless=status != LookupStatus.FUTURE and link.has_data and stamp < link.newest - keep,
     )

@@ -76,9 +76,10 @@ class SharedTree:
 
     def _error(self, failure: Failure) -> TransformException:
         error = ERRORS[failure.status](str(failure))
-        error._details = failure.details
+        for name, value in failure.details.items():
+            setattr(error, name, value)
         if failure.status == LookupStatus.UNKNOWN_FRAME:
-            error._details = {**failure.details, "buffer": self}
+            error._buffer = self  # type: ignore[attr-defined] # ERRORS says that it is one
         return error
 
     def _reason(self, ask: Callable[[], object], timeout_ns: int) -> str:
