@@ -22,8 +22,7 @@ void prefetch(const void* address) {
 // newest one at its own time.
 Samples::Pair pair_at(const Samples& samples, Stamp t, std::size_t guess) {
   if (t == samples.newest()) return {&samples.back(), &samples.back(), t, t};
-  const Samples::Pair pair =
-      t == samples.oldest() ? samples.pair(0) : samples.around(t, guess);
+  const Samples::Pair pair = t == samples.oldest() ? samples.pair(0) : samples.around(t, guess);
   prefetch(pair.older);
   prefetch(pair.newer);
   return pair;

@@ -3,6 +3,7 @@
 #include <cinttypes>
 #include <cstdarg>
 #include <cstdio>
+#include <initializer_list>
 
 namespace turtlewire {
 namespace {
@@ -18,7 +19,17 @@ namespace {
   return text;
 }
 
-const char* argument_name(Argument argument) {
+// With a single allocation: programs expect lookups to fail, and do it often.
+std::string join(std::initializer_list<std::string_view> parts) {
+  std::size_t size = 0;
+  for (const std::string_view part : parts) size += part.size();
+  std::string text;
+  text.reserve(size);
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
+std::string_view argument_name(Argument argument) {
   switch (argument) {
     case Argument::target:
       return " argument target_frame";
@@ -32,19 +43,22 @@ const char* argument_name(Argument argument) {
 
 std::string explain_name(const Failure& f, Question question) {
   if (question == Question::can_transform) {
-    const char* why = f.status == Status::empty_name   ? "in tf2 frame_ids cannot be empty"
-                      : f.status == Status::slash_name ? "in tf2 frame_ids cannot start with a '/'"
-                                                       : "frame does not exist";
-    return "Invalid frame ID \"" + f.name + "\" passed to canTransform" +
-           argument_name(f.argument) + " - " + why;
+    const std::string_view why = f.status == Status::empty_name ? "in tf2 frame_ids cannot be empty"
+                                 : f.status == Status::slash_name
+                                     ? "in tf2 frame_ids cannot start with a '/'"
+                                     : "frame does not exist";
+    return join({"Invalid frame ID \"", f.name, "\" passed to canTransform",
+                 argument_name(f.argument), " - ", why});
   }
-  const std::string where = question == Question::lookup
-                                ? std::string("lookupTransform") + argument_name(f.argument)
-                                : std::string("get_latest_common_time");
+  const bool is_lookup = question == Question::lookup;
+  const std::string_view where = is_lookup ? "lookupTransform" : "get_latest_common_time";
+  const std::string_view argument = is_lookup ? argument_name(f.argument) : "";
   if (f.status == Status::unknown_frame)
-    return "\"" + f.name + "\" passed to " + where + " does not exist. ";
-  const char* why = f.status == Status::empty_name ? "cannot be empty" : "cannot start with a '/'";
-  return "Invalid argument \"" + f.name + "\" passed to " + where + " - in tf2 frame_ids " + why;
+    return join({"\"", f.name, "\" passed to ", where, argument, " does not exist. "});
+  const std::string_view why =
+      f.status == Status::empty_name ? "cannot be empty" : "cannot start with a '/'";
+  return join({"Invalid argument \"", f.name, "\" passed to ", where, argument,
+               " - in tf2 frame_ids ", why});
 }
 
 std::string explain_time(const Failure& f) {

@@ -195,8 +195,8 @@ class Link {
     return t == 0 || (t <= samples_.newest() && t >= samples_.oldest());
   }
 
-  // The pose of a dynamic link of one parent, where it is stored or in `room`; null when it has none
-  // at `t`.
+  // The pose of a dynamic link of one parent, where it is stored or in `room`; null when it has
+  // none at `t`.
   const Pose* pose_at(Stamp t, Pose& room) const {
     if (samples_.empty()) return nullptr;
     if (t == samples_.newest() || t == 0) return &samples_.back().pose;

@@ -183,8 +183,7 @@ class Samples {
   Block take(std::size_t size_class) {
     std::byte* memory = arena_->take(size_class);
     const std::size_t bytes_of_stamps = (kSmallestBlock << size_class) * sizeof(Stamp);
-    return {reinterpret_cast<Stamp*>(memory),
-            reinterpret_cast<Sample*>(memory + bytes_of_stamps)};
+    return {reinterpret_cast<Stamp*>(memory), reinterpret_cast<Sample*>(memory + bytes_of_stamps)};
   }
   void give_back(const Block& block) {
     arena_->give_back(reinterpret_cast<std::byte*>(block.stamps), size_class_);
