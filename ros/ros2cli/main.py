@@ -8,14 +8,11 @@ import os
 import re
 import signal
 import sys
-import threading
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from ros2cli.arguments import add_arguments
 from ros2cli.commands import COMMANDS
-from ros2cli.output import escaped_output, tell
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -68,7 +65,7 @@ def main(argv: list[str] | None = None) -> int:
         The exit status.
     """
     words = sys.argv[1:] if argv is None else argv
-    if threading.current_thread() is threading.main_thread():  # no other may set handlers
+    with suppress(ValueError):  # only the main thread may set handlers
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         return _run(words)
@@ -138,6 +135,8 @@ def _add_choices(
 
 
 def _load(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
+    from ros2cli.arguments import add_arguments
+
     module = import_module(module_name)
     add_arguments(parser, getattr(module, "ARGUMENTS", ()))
     if hasattr(module, "main"):
@@ -153,6 +152,8 @@ def _status(args: argparse.Namespace) -> int:
     if module is None:
         args.show_help()
         return 0
+    from ros2cli.output import escaped_output, tell
+
     # launch passes on the colours of its processes, and escapes nothing that it did not write
     escaped = nullcontext() if getattr(module, "PASSES_COLOURS_ON", False) else escaped_output()
     try:
