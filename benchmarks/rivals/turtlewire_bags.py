@@ -36,6 +36,16 @@ def write(path, messages):
             writer.write("/tf", data, stamp)
 
 
+def writing(path):
+    messages = list(tf_messages(SINGLE, 1, 1_000_000))
+
+    def write_again():
+        shutil.rmtree(path, ignore_errors=True)
+        write(path, messages)
+
+    return cpu(write_again, 3)
+
+
 def plain_walk(path):
     """What is done without the native walk: records in Python, samples in the native store."""
     buffer, walk = Buffer(None), RecordWalk(0, (1 << 64) - 1)
@@ -49,15 +59,7 @@ def plain_walk(path):
 
 def main():
     one, several = folder() / "one", folder() / "several"
-    messages = list(tf_messages(SINGLE, 1, 1_000_000))
-    figures = {}
-
-    def write_again():
-        shutil.rmtree(one, ignore_errors=True)
-        write(one, messages)
-
-    figures["writing"] = cpu(write_again, 3)
-    del messages
+    figures = {"writing": writing(one)}
     write(several, tf_messages(SEVERAL, LINKS, 10_000_000))
     figures["one"] = cpu(lambda: Buffer.from_bag(one))
     figures["plain walk"] = cpu(lambda: plain_walk(one), 3)

@@ -96,10 +96,12 @@ def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part
         ValueError: The trajectories differ in length, or the relation is another.
     """
     _check(reference, estimate, relation, tuple(RELATIONS)[:-1])
-    distance = np.linalg.norm(estimate.positions - reference.positions, axis=1)
+    rows = np.arange(len(reference))
+    distance = quaternions.lengths(estimate.positions - reference.positions)
+    if relation in ("trans_part", "point_distance"):
+        return Errors("APE", relation, distance, rows)
     turn = quaternions.multiply(quaternions.conjugate(reference.rotations), estimate.rotations)
-    kind = "trans_part" if relation == "point_distance" else relation
-    return Errors("APE", relation, _value(kind, distance, turn), np.arange(len(reference)))
+    return Errors("APE", relation, _value(relation, distance, turn), rows)
 
 
 def rpe(
@@ -137,10 +139,11 @@ def rpe(
         raise ValueError(f"no two poses are {delta} {unit} apart")
     if relation.startswith("point_distance"):
         return _rpe_of_distances(reference, estimate, relation, i, j)
-    move_p, turn_p = _motions(estimate, i, j)
-    move_q, turn_q = _motions(reference, i, j)
-    distance = np.linalg.norm(move_p - move_q, axis=1)
-    turn = quaternions.multiply(quaternions.conjugate(turn_q), turn_p)
+    distance = quaternions.lengths(_move(estimate, i, j) - _move(reference, i, j))
+    if relation == "trans_part":
+        return Errors("RPE", relation, distance, j)
+    back = quaternions.conjugate(_turn(reference, i, j))
+    turn = quaternions.multiply(back, _turn(estimate, i, j))
     return Errors("RPE", relation, _value(relation, distance, turn), j)
 
 
@@ -151,8 +154,8 @@ def _rpe_of_distances(
     i: NDArray[np.intp],
     j: NDArray[np.intp],
 ) -> Errors:
-    q = np.linalg.norm(reference.positions[i] - reference.positions[j], axis=1)
-    p = np.linalg.norm(estimate.positions[i] - estimate.positions[j], axis=1)
+    q = quaternions.lengths(reference.positions[i] - reference.positions[j])
+    p = quaternions.lengths(estimate.positions[i] - estimate.positions[j])
     errors = np.abs(q - p)
     if relation == "point_distance_error_ratio":
         moved = q > 0
@@ -160,26 +163,28 @@ def _rpe_of_distances(
     return Errors("RPE", relation, errors, j)
 
 
-def _motions(
-    trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Translation and rotation of pose j as pose i sees it."""
+def _move(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The position of pose j as pose i sees it."""
     back = quaternions.conjugate(trajectory.rotations[i])
-    move = quaternions.rotate(back, trajectory.positions[j] - trajectory.positions[i])
-    return move, quaternions.multiply(back, trajectory.rotations[j])
+    return quaternions.rotate(back, trajectory.positions[j] - trajectory.positions[i])
+
+
+def _turn(trajectory: Trajectory, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The rotation of pose j as pose i sees it."""
+    return quaternions.multiply(
+        quaternions.conjugate(trajectory.rotations[i]), trajectory.rotations[j]
+    )
 
 
 def _value(
     relation: str, distance: NDArray[np.float64], turn: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """The error of each difference, given the length of its translation and its rotation."""
-    if relation == "trans_part":
-        return distance
     if relation.startswith("angle"):
         angles = quaternions.angle(turn)
         return np.degrees(angles) if relation == "angle_deg" else angles
     # The Frobenius norm of R - I is 2 sqrt(2) |sin(angle / 2)|, and that sine is the length of xyz.
-    sine = np.linalg.norm(turn[:, :3], axis=1)
+    sine = quaternions.lengths(turn[:, :3])
     squares = 8 * sine**2 if relation == "rot_part" else 8 * sine**2 + distance**2
     norms: NDArray[np.float64] = np.sqrt(squares)
     return norms

@@ -9,7 +9,16 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["angle", "conjugate", "euler", "from_matrices", "matrices", "multiply", "rotate"]
+__all__ = [
+    "angle",
+    "conjugate",
+    "euler",
+    "from_matrices",
+    "lengths",
+    "matrices",
+    "multiply",
+    "rotate",
+]
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -36,9 +45,22 @@ def conjugate(q: NDArray[np.float64]) -> NDArray[np.float64]:
 def rotate(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
     """The vectors ``v`` (N, 3) turned by ``q`` (N, 4)."""
     axis, w = q[..., :3], q[..., 3:]
-    t = 2.0 * np.cross(axis, v)
-    turned: NDArray[np.float64] = v + w * t + np.cross(axis, t)
+    t = 2.0 * _cross(axis, v)
+    turned: NDArray[np.float64] = v + w * t + _cross(axis, t)
     return turned
+
+
+def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cross products; `numpy.cross` takes three times as long."""
+    ax, ay, az = np.moveaxis(a, -1, 0)
+    bx, by, bz = np.moveaxis(b, -1, 0)
+    return np.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=-1)
+
+
+def lengths(v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The lengths (N,) of vectors (N, K): `numpy.linalg.norm` takes four times as long."""
+    squares: NDArray[np.float64] = np.einsum("ij,ij->i", v, v)
+    return np.sqrt(squares, out=squares)
 
 
 def angle(q: NDArray[np.float64]) -> NDArray[np.float64]:
