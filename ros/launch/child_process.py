@@ -5,17 +5,20 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
+import signal
 import subprocess
+import sys
 from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
-    import signal
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
+    from logging import Logger
 
-__all__ = ["ChildProcess"]
+__all__ = ["ChildProcess", "escalate", "stdin_is_terminal"]
 
 # A grandchild may hold the pipes open; the child's own output is there at once.
 _DRAIN_S = 0.5
+_SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
 
 
 class ChildProcess:
@@ -56,13 +59,7 @@ class ChildProcess:
         loop = asyncio.get_running_loop()
         protocol = _Protocol(on_start, on_output)
         terminals = _open_terminals() if emulate_tty else {}
-        options: dict[str, Any] = {
-            "cwd": cwd,
-            "env": dict(env),
-            "stdin": None if inherit_stdin else subprocess.PIPE,
-            "stdout": terminals[1][1] if terminals else subprocess.PIPE,
-            "stderr": terminals[2][1] if terminals else subprocess.PIPE,
-        }
+        options = {"cwd": cwd, "env": dict(env), **_streams(terminals, inherit_stdin)}
         try:
             if shell:
                 started = loop.subprocess_shell(lambda: protocol, " ".join(command), **options)
@@ -115,6 +112,38 @@ class ChildProcess:
         pipe = self._transport.get_pipe_transport(0)
         if pipe is not None and not pipe.is_closing():
             cast("asyncio.WriteTransport", pipe).write(data)
+
+
+def stdin_is_terminal() -> bool:
+    """Whether a child could read keys from this process's stdin."""
+    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
+
+
+async def escalate(
+    process: ChildProcess,
+    name: str,
+    timeouts: Iterable[str],
+    send: Callable[[signal.Signals], None],
+    logger: Logger,
+) -> None:
+    """Send SIGTERM, then SIGKILL, to a process that does not end in time after SIGINT.
+
+    Args:
+        process: The process.
+        name: Its name in log lines.
+        timeouts: Seconds to wait after SIGINT, and after SIGTERM.
+        send: Sends a signal to it.
+        logger: Where each step is logged, in ROS 2's words.
+    """
+    steps = (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, _SIGKILL)
+    for (before, after), timeout in zip(steps, timeouts, strict=True):
+        if await process.wait(float(timeout)) is not None:
+            return
+        logger.error(
+            "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to '%s'",
+            *(name, timeout, before.name, after.name),
+        )
+        send(after)
 
 
 class _Protocol(asyncio.SubprocessProtocol):
@@ -171,6 +200,15 @@ class _TerminalStream(asyncio.Protocol):
     def connection_lost(self, error: Exception | None) -> None:
         # Linux reports the end of a pseudo terminal as an input/output error; it is no error here.
         self._child.pipe_connection_lost(self._fd, error)
+
+
+def _streams(terminals: dict[int, tuple[int, int]], inherit_stdin: bool) -> dict[str, Any]:
+    """Where a child's streams go: pseudo terminals, or pipes without them."""
+    return {
+        "stdin": None if inherit_stdin else subprocess.PIPE,
+        "stdout": terminals[1][1] if terminals else subprocess.PIPE,
+        "stderr": terminals[2][1] if terminals else subprocess.PIPE,
+    }
 
 
 def _open_terminals() -> dict[int, tuple[int, int]]:

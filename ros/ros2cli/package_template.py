@@ -89,11 +89,7 @@ def files(
         node_name: Name of an executable to begin with, or None.
     """
     depends = "".join(f"  <depend>{escape(dependency)}</depend>\n" for dependency in dependencies)
-    script = (
-        ""
-        if node_name is None
-        else f"\n            '{node_name} = {name}.{node_name}:main',\n        "
-    )
+    script = f"\n            '{node_name} = {name}.{node_name}:main',\n        "
     made = {
         "package.xml": _MANIFEST.format(
             format=package_format,
@@ -111,7 +107,7 @@ def files(
             email=maintainer[1],
             description=description,
             license=license_name,
-            script=script,
+            script="" if node_name is None else script,
         ),
         "setup.cfg": _SETUP_CFG.format(name=name),
         f"resource/{name}": "",

@@ -9,14 +9,15 @@ x, y and z axes; ``"rzyx"`` is yaw, pitch, roll about axes that turn along.
 Functions of one quaternion work on plain floats, so that a node that only needs
 :func:`quaternion_from_euler` starts without NumPy; everything else loads it at its first use.
 
-==============  =========================================
+==============  =============================================
 module          what it holds
-==============  =========================================
+==============  =============================================
 `_quaternions`  one quaternion at a time, on plain floats
-`_matrices`     4x4 matrices, made and taken apart
+`_matrices`     4x4 matrices of single operations, and back
+`_composition`  of angles, quaternions and all parts together
 `_arrays`       vectors, interpolation, random rotations
 `_arcball`      rotations with the mouse
-==============  =========================================
+==============  =============================================
 """
 
 from __future__ import annotations
@@ -48,25 +49,27 @@ if TYPE_CHECKING:
         unit_vector,
         vector_norm,
     )
+    from ._composition import (
+        compose_matrix,
+        decompose_matrix,
+        euler_from_matrix,
+        euler_matrix,
+        orthogonalization_matrix,
+        quaternion_from_matrix,
+        quaternion_matrix,
+    )
     from ._matrices import (
         ROTATION_IDENTITY,
         SHEAR_IDENTITY,
         TRANSLATION_IDENTITY,
         ZOOM_IDENTITY,
         clip_matrix,
-        compose_matrix,
         concatenate_matrices,
-        decompose_matrix,
-        euler_from_matrix,
-        euler_matrix,
         identity_matrix,
         inverse_matrix,
         is_same_transform,
-        orthogonalization_matrix,
         projection_from_matrix,
         projection_matrix,
-        quaternion_from_matrix,
-        quaternion_matrix,
         reflection_from_matrix,
         reflection_matrix,
         rotation_from_matrix,
@@ -131,9 +134,9 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from . import _arcball, _arrays, _matrices
+    from . import _arcball, _arrays, _composition, _matrices
 
-    for module in (_matrices, _arrays, _arcball):
+    for module in (_matrices, _composition, _arrays, _arcball):
         if hasattr(module, name):
             value = globals()[name] = getattr(module, name)
             return value

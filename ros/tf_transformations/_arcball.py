@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._arrays import quaternion_slerp, unit_vector
-from ._matrices import quaternion_from_matrix, quaternion_matrix
+from ._composition import quaternion_from_matrix, quaternion_matrix
 from ._quaternions import EPSILON, quaternion_multiply
 
 if TYPE_CHECKING:

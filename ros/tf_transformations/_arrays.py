@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._matrices import identity_matrix, quaternion_matrix
+from ._composition import quaternion_matrix
+from ._matrices import identity_matrix
 from ._quaternions import EPSILON
 
 if TYPE_CHECKING:

@@ -9,17 +9,12 @@ import numpy as np
 
 from ._quaternions import (
     EPSILON,
-    euler_from_rotation,
-    quaternion_from_euler,
-    rotation_from_quaternion,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
-
-    from ._quaternions import Axes, Quaternion
 
     Matrix = NDArray[np.float64]
 
@@ -37,7 +32,8 @@ def _unit(vector: ArrayLike) -> Matrix:
     return array / math.sqrt(array @ array)
 
 
-def _affine(linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
+def affine_matrix(linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
+    """The matrix of a linear map, shape (3, 3), followed by a translation."""
     matrix = np.identity(4)
     matrix[:3, :3] = linear
     matrix[:3, 3] = offset
@@ -69,7 +65,7 @@ def identity_matrix() -> Matrix:
 
 def translation_matrix(direction: Sequence[float]) -> Matrix:
     """Matrix that moves by ``direction`` (three numbers, metres)."""
-    return _affine(ROTATION_IDENTITY, direction)
+    return affine_matrix(ROTATION_IDENTITY, direction)
 
 
 def translation_from_matrix(matrix: ArrayLike) -> Matrix:
@@ -80,7 +76,7 @@ def translation_from_matrix(matrix: ArrayLike) -> Matrix:
 def reflection_matrix(point: Sequence[float], normal: Sequence[float]) -> Matrix:
     """Matrix that mirrors at the plane through ``point`` with ``normal``."""
     unit = _unit(normal)
-    return _affine(
+    return affine_matrix(
         np.identity(3) - 2.0 * np.outer(unit, unit),
         2.0 * (np.asarray(point, dtype=np.float64)[:3] @ unit) * unit,
     )
@@ -113,9 +109,9 @@ def rotation_matrix(
         + (1.0 - math.cos(angle)) * np.outer(axis, axis)
     )
     if point is None:
-        return _affine(rotation)
+        return affine_matrix(rotation)
     centre = np.asarray(point, dtype=np.float64)[:3]
-    return _affine(rotation, centre - rotation @ centre)
+    return affine_matrix(rotation, centre - rotation @ centre)
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
@@ -153,9 +149,9 @@ def scale_matrix(
     """
     centre = np.zeros(3) if origin is None else np.asarray(origin, dtype=np.float64)[:3]
     if direction is None:
-        return _affine(factor * np.identity(3), (1.0 - factor) * centre)
+        return affine_matrix(factor * np.identity(3), (1.0 - factor) * centre)
     unit = _unit(direction)
-    return _affine(
+    return affine_matrix(
         np.identity(3) - (1.0 - factor) * np.outer(unit, unit),
         (1.0 - factor) * (centre @ unit) * unit,
     )
@@ -204,7 +200,7 @@ def projection_matrix(
         return matrix
     along = unit if direction is None else np.asarray(direction, dtype=np.float64)[:3]
     along = along / (along @ unit)
-    return _affine(np.identity(3) - np.outer(along, unit), (origin @ unit) * along)
+    return affine_matrix(np.identity(3) - np.outer(along, unit), (origin @ unit) * along)
 
 
 def projection_from_matrix(
@@ -287,7 +283,7 @@ def shear_matrix(
         raise ValueError("direction, normal vectors not orthogonal")
     slope = math.tan(angle)
     offset = -slope * (np.asarray(point, dtype=np.float64)[:3] @ unit) * along
-    return _affine(np.identity(3) + slope * np.outer(along, unit), offset)
+    return affine_matrix(np.identity(3) + slope * np.outer(along, unit), offset)
 
 
 def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]:
@@ -302,140 +298,6 @@ def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]
     if slope < EPSILON:
         raise ValueError("the matrix does not shear")
     return math.atan(slope), direction, -(array[:3, 3] @ direction) / slope * normal, normal
-
-
-def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
-    """QR decomposition of a 3x3 matrix, with a positive diagonal of R."""
-    rotation, triangle = np.linalg.qr(np.asarray(linear, dtype=np.float64))
-    signs = np.where(np.diag(triangle) < 0.0, -1.0, 1.0)
-    return rotation * signs, triangle * signs[:, np.newaxis]
-
-
-def decompose_matrix(
-    matrix: ArrayLike,
-) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
-    """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective.
-
-    These are the arguments of :func:`compose_matrix`.
-
-    Raises:
-        ValueError: The matrix is singular.
-    """
-    array = np.array(matrix, dtype=np.float64)
-    if abs(array[3, 3]) < EPSILON:
-        raise ValueError("M[3, 3] is zero")
-    array /= array[3, 3]
-    affine = array.copy()
-    affine[3] = 0.0, 0.0, 0.0, 1.0
-    if not np.linalg.det(affine):
-        raise ValueError("Matrix is singular")
-    perspective = array[3] @ np.linalg.inv(affine)
-    rotation, triangle = orthogonal_parts(affine[:3, :3])
-    if np.linalg.det(rotation) < 0.0:
-        rotation, triangle = -rotation, -triangle
-    scale = np.diag(triangle).copy()
-    shear = [triangle[0, 1] / scale[1], triangle[0, 2] / scale[2], triangle[1, 2] / scale[2]]
-    return scale, shear, euler_from_rotation(rotation.tolist()), affine[:3, 3], perspective
-
-
-def compose_matrix(
-    scale: Sequence[float] | None = None,
-    shear: Sequence[float] | None = None,
-    angles: Sequence[float] | None = None,
-    translate: Sequence[float] | None = None,
-    perspective: Sequence[float] | None = None,
-) -> Matrix:
-    """Scale, then shear, rotate (Euler angles ``sxyz``), move and apply a perspective."""
-    linear = np.diag(ZOOM_IDENTITY if scale is None else [float(factor) for factor in scale])
-    if shear is not None:
-        xy, xz, yz = shear
-        linear = np.array([[1.0, xy, xz], [0.0, 1.0, yz], [0.0, 0.0, 1.0]]) @ linear
-    if angles is not None:
-        roll, pitch, yaw = angles
-        linear = euler_matrix(roll, pitch, yaw)[:3, :3] @ linear
-    matrix = _affine(linear, TRANSLATION_IDENTITY if translate is None else translate)
-    if perspective is not None:
-        projection = np.identity(4)
-        projection[3] = perspective
-        matrix = projection @ matrix
-    normalized: Matrix = matrix / matrix[3, 3]
-    return normalized
-
-
-def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
-    """Matrix from crystallographic to Cartesian coordinates.
-
-    The cell has three ``lengths``, and three ``angles`` in degrees.
-    """
-    a, b, c = lengths
-    alpha, beta, gamma = (math.radians(angle) for angle in angles)
-    along = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (
-        math.sin(alpha) * math.sin(beta)
-    )
-    return _affine(
-        [
-            [a * math.sin(beta) * math.sqrt(1.0 - along * along), 0.0, 0.0],
-            [-a * math.sin(beta) * along, b * math.sin(alpha), 0.0],
-            [a * math.cos(beta), b * math.cos(alpha), c],
-        ]
-    )
-
-
-def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
-    """Rotation matrix of three angles [rad].
-
-    :func:`quaternion_from_euler` explains ``axes``.
-    """
-    return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
-
-
-def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """Angles [rad] of the rotation in a 4x4 or 3x3 matrix."""
-    return euler_from_rotation(np.asarray(matrix, dtype=np.float64)[:3, :3].tolist(), axes)
-
-
-def quaternion_matrix(quaternion: Sequence[float]) -> Matrix:
-    """Rotation matrix of a quaternion, which need not be normalised."""
-    return _affine(rotation_from_quaternion(quaternion))
-
-
-def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
-    """Quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix.
-
-    Its scales, shears and its translation are left aside.
-
-    Raises:
-        ValueError: The matrix is singular.
-    """
-    array = np.asarray(matrix, dtype=np.float64)[:3, :3]
-    if not np.linalg.det(array):
-        raise ValueError("Matrix is singular")
-    rotation, _ = orthogonal_parts(array)
-    if np.linalg.det(rotation) < 0.0:
-        rotation[:, 0] *= -1.0
-    return _quaternion_from_rotation(rotation.tolist())
-
-
-def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion:
-    trace = rotation[0][0] + rotation[1][1] + rotation[2][2]
-    if trace > 0.0:
-        s = 2.0 * math.sqrt(1.0 + trace)
-        x, y, z = (
-            (rotation[2][1] - rotation[1][2]) / s,
-            (rotation[0][2] - rotation[2][0]) / s,
-            (rotation[1][0] - rotation[0][1]) / s,
-        )
-        return x + 0.0, y + 0.0, z + 0.0, s / 4.0  # no negative zeros
-    i = max(range(3), key=lambda axis: rotation[axis][axis])
-    j, k = (i + 1) % 3, (i + 2) % 3
-    s = 2.0 * math.sqrt(1.0 + rotation[i][i] - rotation[j][j] - rotation[k][k])
-    vector = [0.0, 0.0, 0.0]
-    vector[i] = s / 4.0
-    vector[j] = (rotation[j][i] + rotation[i][j]) / s
-    vector[k] = (rotation[k][i] + rotation[i][k]) / s
-    w = (rotation[k][j] - rotation[j][k]) / s
-    sign = -1.0 if w < 0.0 else 1.0
-    return sign * vector[0] + 0.0, sign * vector[1] + 0.0, sign * vector[2] + 0.0, sign * w + 0.0
 
 
 def inverse_matrix(matrix: ArrayLike) -> Any:

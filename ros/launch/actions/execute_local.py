@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import signal
-import sys
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
-from launch.child_process import ChildProcess
+from launch.child_process import ChildProcess, escalate, stdin_is_terminal
 from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
@@ -261,7 +260,7 @@ class ExecuteLocal(ProcessAction):
             # Without it, what a Python node prints would only be seen when it has ended.
             env=context.marked_environment({"PYTHONUNBUFFERED": "1", **description.final_env}),
             shell=self._shell,
-            inherit_stdin=emulate_tty and not context.noninteractive and _stdin_is_terminal(),
+            inherit_stdin=emulate_tty and not context.noninteractive and stdin_is_terminal(),
             emulate_tty=emulate_tty,
             on_start=self._on_start,
             on_output=lambda fd, data: self._on_output(context, fd, data),
@@ -362,26 +361,12 @@ class ExecuteLocal(ProcessAction):
             return
         if send_sigint:
             self._send_signal(signal.SIGINT)
-        context.add_completion_future(
-            context.asyncio_loop.create_task(self._escalate(context, self._process))
+        timeouts = (
+            perform_substitutions(context, timeout)
+            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
         )
-
-    async def _escalate(self, context: LaunchContext, process: ChildProcess) -> None:
-        """Send SIGTERM, then SIGKILL, when the process does not end in time."""
-        steps = (
-            (signal.SIGINT, signal.SIGTERM, self._sigterm_timeout),
-            (signal.SIGTERM, _SIGKILL, self._sigkill_timeout),
-        )
-        for before, after, timeout in steps:
-            text = perform_substitutions(context, timeout)
-            if await process.wait(float(text)) is not None:
-                return
-            self._logger.error(
-                "process[%s] failed to terminate '%s' seconds after receiving '%s', "
-                "escalating to '%s'",
-                *(self._name, text, before.name, after.name),
-            )
-            self._send_signal(after)
+        end = escalate(self._process, self._name, timeouts, self._send_signal, self._logger)
+        context.add_completion_future(context.asyncio_loop.create_task(end))
 
     def _send_signal(self, number: signal.Signals) -> None:
         process = self._process
@@ -406,16 +391,9 @@ class ExecuteLocal(ProcessAction):
         )
 
 
-_SIGKILL = getattr(signal, "SIGKILL", signal.SIGTERM)  # Windows has none
-
-
 def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:
     if value is None:
         return normalize_to_list_of_substitutions(LaunchConfiguration(configuration, default=5))
     return normalize_to_list_of_substitutions(
         str(value) if isinstance(value, (int, float)) else value
     )
-
-
-def _stdin_is_terminal() -> bool:
-    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()

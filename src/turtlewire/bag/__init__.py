@@ -9,9 +9,9 @@
         for message in bag.messages("/odom"):
             print(message.log_time_ns, message.decode())
 
-==================  ==================================================================
+==================  ========================================================================
 module              what it holds
-==================  ==================================================================
+==================  ========================================================================
 `reader`            `Bag`, `open_bag`: messages in order of time over all files; `reindex`
 `transforms`        `load_transforms`: the TF of a bag in a buffer
 `transform_report`  `TransformReport`: its links, and what is wrong with them
@@ -30,7 +30,7 @@ module              what it holds
 `qos_yaml`          the QoS of recorded topics as YAML
 `definitions`       message definitions as bags carry them
 `compression`       zstd and lz4, with limits
-==================  ==================================================================
+==================  ========================================================================
 """
 
 from __future__ import annotations

@@ -1,20 +1,26 @@
 """The ``turtlewire`` command: what one looks at and checks without any ROS.
 
-================  =============================================================
-module            what it holds
-================  =============================================================
-`main`            the command and its verbs
-`parser`          command lines that suggest the nearest name for a wrong word
-`doctor`          the verb ``doctor``: runs the checks and prints the findings
-`finding`         one finding: what is wrong and what to do
-`setup_findings`  checks of the installation, the environment and the network
-`graph_findings`  checks of nodes and topics
-`tf_findings`     checks of the published transforms
-`tf_traffic`      who published which transforms during the checks
-`network`         sockets of other domains, and multicast
-`frames`          the verb ``frames``: the tree with ages, rates and publishers
-`frame_picture`   that tree at one moment, as text and as JSON
-`keyboard`        single keys of a terminal, without echo
-`pipes`           a quiet end when the reader of a pipe has gone
-================  =============================================================
+====================  ============================================================
+module                what it holds
+====================  ============================================================
+`main`                the command and its verbs
+`parser`              command lines that suggest the nearest name for a wrong word
+`doctor`              the verb ``doctor``: runs the checks and prints the findings
+`finding`             one finding: what is wrong and what to do
+`setup_findings`      checks of the installation, the environment and the network
+`graph_findings`      checks of nodes and topics
+`tf_findings`         checks of the published transforms
+`tf_traffic`          who published which transforms during the checks
+`network`             sockets of other domains, and multicast
+`frames`              the verb ``frames``: ages, rates and publishers
+`frame_picture`       that tree at one moment, as text and as JSON
+`bag_commands`        the parsers of ``bag``, ``trajectory`` and ``compare``
+`bag_tf`              ``bag tf``: the tree of a bag with rates and gaps
+`bag_findings`        faults of a bag and of its transforms
+`trajectory_command`  the verb ``trajectory``
+`compare_command`     the verb ``compare``
+`trajectory_sources`  trajectories of bags and files, for these verbs
+`keyboard`            single keys of a terminal, without echo
+`pipes`               a quiet end when the reader of a pipe has gone
+====================  ============================================================
 """

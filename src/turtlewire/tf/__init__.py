@@ -14,9 +14,9 @@ Many classes are called some kind of Buffer. From the inside out:
 ``tf2_ros.BufferClient``  the same interface (``BufferInterface``) to a buffer in another process
 ========================  ======================================================================
 
-=========================  =================================================================
+=========================  =========================================================================
 module                     what it holds
-=========================  =================================================================
+=========================  =========================================================================
 `buffer`                   `Buffer`: the compiled core, or its plain twin
 `surface`                  what buffers of both cores offer in Python: bags, trajectories, operators
 `datetimes`                stamps given as ``datetime64``
@@ -31,5 +31,5 @@ module                     what it holds
 `tidy_tree`                positions of the nodes of a drawn tree
 `tree_drawing`, `drawing`  the picture of the tree; boxes, lines and text as SVG
 `notebook`                 how buffers and transforms show themselves in Jupyter
-=========================  =================================================================
+=========================  =========================================================================
 """

@@ -10,20 +10,20 @@
     write_tum(estimate, "estimate.tum")
     print(compare(read_tum("ground_truth.tum"), estimate, "se3").table())
 
-===============  ==============================================================
-module           what it holds
-===============  ==============================================================
-`trajectory`     `Trajectory`: stamps, poses and gaps
-`sampling`       `sample_trajectory`: the poses of a frame out of a buffer
-`files`          TUM, KITTI, EuRoC and CSV
-`comparison`     `compare`: association, alignment and errors in one call
-`alignment`      nearest stamps; Umeyama's and others' alignment
-`metrics`        APE, RPE and their statistics
-`quaternions`    quaternion algebra over arrays
-`plots`          paths, positions, angles and speeds as pictures
-`error_plots`    errors as pictures
-`chart`          axes, lines and boxes as SVG
-===============  ==============================================================
+=============  =========================================================
+module         what it holds
+=============  =========================================================
+`trajectory`   `Trajectory`: stamps, poses and gaps
+`sampling`     `sample_trajectory`: the poses of a frame out of a buffer
+`files`        TUM, KITTI, EuRoC and CSV
+`comparison`   `compare`: association, alignment and errors in one call
+`alignment`    nearest stamps; Umeyama's and others' alignment
+`metrics`      APE, RPE and their statistics
+`quaternions`  quaternion algebra over arrays
+`plots`        paths, positions, angles and speeds as pictures
+`error_plots`  errors as pictures
+`chart`        axes, lines and boxes as SVG
+=============  =========================================================
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@
 module           what it holds
 ===============  ================================================================
 `base`           the contract that every middleware fulfils
+`records`        names, stamps and counts that it takes and returns
 `qos`            `QoS`, with the numbers of ROS 2's rmw
 `names`          rules and expansion of ROS names, and their spelling on the wire
 `environment`    the environment variables that decide whom a process talks to

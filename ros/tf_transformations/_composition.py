@@ -1,0 +1,162 @@
+"""Matrices of Euler angles and quaternions, and of all parts of a transform together."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._matrices import (
+    TRANSLATION_IDENTITY,
+    ZOOM_IDENTITY,
+    affine_matrix,
+)
+from ._quaternions import (
+    EPSILON,
+    euler_from_rotation,
+    quaternion_from_euler,
+    rotation_from_quaternion,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike
+
+    from ._matrices import Matrix
+    from ._quaternions import Axes, Quaternion
+
+
+def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
+    """Rotation matrix of three angles [rad].
+
+    :func:`quaternion_from_euler` explains ``axes``.
+    """
+    return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
+
+
+def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
+    """Angles [rad] of the rotation in a 4x4 or 3x3 matrix."""
+    return euler_from_rotation(np.asarray(matrix, dtype=np.float64)[:3, :3].tolist(), axes)
+
+
+def quaternion_matrix(quaternion: Sequence[float]) -> Matrix:
+    """Rotation matrix of a quaternion, which need not be normalised."""
+    return affine_matrix(rotation_from_quaternion(quaternion))
+
+
+def quaternion_from_matrix(matrix: ArrayLike) -> Quaternion:
+    """Quaternion, with ``w >= 0``, of the rotation in a 4x4 matrix.
+
+    Its scales, shears and its translation are left aside.
+
+    Raises:
+        ValueError: The matrix is singular.
+    """
+    array = np.asarray(matrix, dtype=np.float64)[:3, :3]
+    if not np.linalg.det(array):
+        raise ValueError("Matrix is singular")
+    rotation, _ = orthogonal_parts(array)
+    if np.linalg.det(rotation) < 0.0:
+        rotation[:, 0] *= -1.0
+    return _quaternion_from_rotation(rotation.tolist())
+
+
+def _quaternion_from_rotation(rotation: Sequence[Sequence[float]]) -> Quaternion:
+    trace = rotation[0][0] + rotation[1][1] + rotation[2][2]
+    if trace > 0.0:
+        s = 2.0 * math.sqrt(1.0 + trace)
+        x, y, z = (
+            (rotation[2][1] - rotation[1][2]) / s,
+            (rotation[0][2] - rotation[2][0]) / s,
+            (rotation[1][0] - rotation[0][1]) / s,
+        )
+        return x + 0.0, y + 0.0, z + 0.0, s / 4.0  # no negative zeros
+    i = max(range(3), key=lambda axis: rotation[axis][axis])
+    j, k = (i + 1) % 3, (i + 2) % 3
+    s = 2.0 * math.sqrt(1.0 + rotation[i][i] - rotation[j][j] - rotation[k][k])
+    vector = [0.0, 0.0, 0.0]
+    vector[i] = s / 4.0
+    vector[j] = (rotation[j][i] + rotation[i][j]) / s
+    vector[k] = (rotation[k][i] + rotation[i][k]) / s
+    w = (rotation[k][j] - rotation[j][k]) / s
+    sign = -1.0 if w < 0.0 else 1.0
+    return sign * vector[0] + 0.0, sign * vector[1] + 0.0, sign * vector[2] + 0.0, sign * w + 0.0
+
+
+def orthogonal_parts(linear: ArrayLike) -> tuple[Matrix, Matrix]:
+    """QR decomposition of a 3x3 matrix, with a positive diagonal of R."""
+    rotation, triangle = np.linalg.qr(np.asarray(linear, dtype=np.float64))
+    signs = np.where(np.diag(triangle) < 0.0, -1.0, 1.0)
+    return rotation * signs, triangle * signs[:, np.newaxis]
+
+
+def decompose_matrix(
+    matrix: ArrayLike,
+) -> tuple[Matrix, list[float], tuple[float, float, float], Matrix, Matrix]:
+    """Scale, shear (x-y, x-z, y-z), Euler angles (``sxyz``), translation and perspective.
+
+    These are the arguments of :func:`compose_matrix`.
+
+    Raises:
+        ValueError: The matrix is singular.
+    """
+    array = np.array(matrix, dtype=np.float64)
+    if abs(array[3, 3]) < EPSILON:
+        raise ValueError("M[3, 3] is zero")
+    array /= array[3, 3]
+    affine = array.copy()
+    affine[3] = 0.0, 0.0, 0.0, 1.0
+    if not np.linalg.det(affine):
+        raise ValueError("Matrix is singular")
+    perspective = array[3] @ np.linalg.inv(affine)
+    rotation, triangle = orthogonal_parts(affine[:3, :3])
+    if np.linalg.det(rotation) < 0.0:
+        rotation, triangle = -rotation, -triangle
+    scale = np.diag(triangle).copy()
+    shear = [triangle[0, 1] / scale[1], triangle[0, 2] / scale[2], triangle[1, 2] / scale[2]]
+    return scale, shear, euler_from_rotation(rotation.tolist()), affine[:3, 3], perspective
+
+
+def compose_matrix(
+    scale: Sequence[float] | None = None,
+    shear: Sequence[float] | None = None,
+    angles: Sequence[float] | None = None,
+    translate: Sequence[float] | None = None,
+    perspective: Sequence[float] | None = None,
+) -> Matrix:
+    """Scale, then shear, rotate (Euler angles ``sxyz``), move and apply a perspective."""
+    linear = np.diag(ZOOM_IDENTITY if scale is None else [float(factor) for factor in scale])
+    if shear is not None:
+        xy, xz, yz = shear
+        linear = np.array([[1.0, xy, xz], [0.0, 1.0, yz], [0.0, 0.0, 1.0]]) @ linear
+    if angles is not None:
+        roll, pitch, yaw = angles
+        linear = euler_matrix(roll, pitch, yaw)[:3, :3] @ linear
+    matrix = affine_matrix(linear, TRANSLATION_IDENTITY if translate is None else translate)
+    if perspective is not None:
+        projection = np.identity(4)
+        projection[3] = perspective
+        matrix = projection @ matrix
+    normalized: Matrix = matrix / matrix[3, 3]
+    return normalized
+
+
+def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
+    """Matrix from crystallographic to Cartesian coordinates.
+
+    The cell has three ``lengths``, and three ``angles`` in degrees.
+    """
+    a, b, c = lengths
+    alpha, beta, gamma = (math.radians(angle) for angle in angles)
+    along = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (
+        math.sin(alpha) * math.sin(beta)
+    )
+    return affine_matrix(
+        [
+            [a * math.sin(beta) * math.sqrt(1.0 - along * along), 0.0, 0.0],
+            [-a * math.sin(beta) * along, b * math.sin(alpha), 0.0],
+            [a * math.cos(beta), b * math.cos(alpha), c],
+        ]
+    )

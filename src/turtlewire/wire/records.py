@@ -1,0 +1,115 @@
+"""Names, stamps and counts that a middleware takes and returns beside bytes."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .qos import QoS
+
+__all__ = [
+    "EndpointInfo",
+    "EventKind",
+    "EventStatus",
+    "MessageInfo",
+    "NodeInfo",
+    "RequestId",
+    "TypeId",
+]
+
+
+class TypeId(NamedTuple):
+    """What a peer must know of a type.
+
+    Attributes:
+        name: ROS name, for example ``tf2_msgs/msg/TFMessage`` or ``turtlesim/srv/Spawn_Request``.
+        type_hash: ``RIHS01_`` and 64 hex digits.
+    """
+
+    name: str
+    type_hash: str
+
+
+class MessageInfo(NamedTuple):
+    """What is known of a received message beside its bytes.
+
+    Attributes:
+        source_timestamp_ns: When the sender wrote it, system time.
+        received_timestamp_ns: When it was taken here, system time.
+        publisher_gid: 16 bytes that identify the publisher.
+    """
+
+    source_timestamp_ns: int
+    received_timestamp_ns: int
+    publisher_gid: bytes
+
+
+class RequestId(NamedTuple):
+    """Identifies a service request: the client's 8-byte id and its sequence number."""
+
+    client_id: int
+    sequence_number: int
+
+
+class NodeInfo(NamedTuple):
+    """A node that the graph knows."""
+
+    name: str
+    namespace: str
+    enclave: str
+
+
+class EndpointInfo(NamedTuple):
+    """One end of a topic (service endpoints are topics too; :class:`Graph` splits them).
+
+    Attributes:
+        kind: ``"publisher"`` or ``"subscription"``.
+        topic: Demangled ROS name, or the raw DDS name when it is not a ROS topic.
+        type_name: ROS name (``turtlesim/msg/Pose``), or the raw DDS name.
+        type_hash: ``RIHS01_...`` or an empty string when the peer says none.
+        node: The node that owns it, or None when no node claims it.
+        gid: 16 bytes.
+        qos: As the peer announced it.
+    """
+
+    kind: str
+    topic: str
+    type_name: str
+    type_hash: str
+    node: NodeInfo | None
+    gid: bytes
+    qos: QoS
+
+
+class EventKind(Enum):
+    """A change of circumstances that an endpoint can report."""
+
+    MATCHED = "matched"
+    INCOMPATIBLE_QOS = "incompatible QoS"
+    DEADLINE_MISSED = "deadline missed"
+    LIVELINESS_LOST = "liveliness lost"  # publishers only
+    LIVELINESS_CHANGED = "liveliness changed"  # subscriptions only
+    MESSAGE_LOST = "message lost"  # subscriptions only
+
+
+class EventStatus(NamedTuple):
+    """Counters of an event; changes are counted since the last :meth:`Event.take`.
+
+    Attributes:
+        total_count: How often it happened. ``LIVELINESS_CHANGED``: how many matching publishers are
+            not alive.
+        total_count_change: Change of it.
+        current_count: ``MATCHED``: how many match at the moment. ``LIVELINESS_CHANGED``: how many
+            of them are alive.
+        current_count_change: Change of it.
+        last_policy_kind: ``INCOMPATIBLE_QOS``: the policy that did not fit last, as a number of
+            rmw's ``rmw_qos_policy_kind_t`` (DURABILITY 2, DEADLINE 4, LIVELINESS 8, RELIABILITY 16,
+            HISTORY 32, LIFESPAN 64; INVALID 1).
+    """
+
+    total_count: int = 0
+    total_count_change: int = 0
+    current_count: int = 0
+    current_count_change: int = 0
+    last_policy_kind: int = 1
