@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.discovery import wait_until_discovered
+from turtlewire.wire.lingering import leaving_at_once
 
 if TYPE_CHECKING:
     import argparse
@@ -28,22 +29,26 @@ class DirectNode:
     Args:
         args: The command line, with the options of :func:`ros2cli.discovery.SPIN_ARGUMENTS`.
         name: Name of the node; by default one made of the process id.
+        lingers: Whether the end waits until others have got what was sent last.
     """
 
-    def __init__(self, args: argparse.Namespace, *, name: str | None = None) -> None:
+    def __init__(
+        self, args: argparse.Namespace, *, name: str | None = None, lingers: bool = False
+    ) -> None:
         import rclpy
         import rclpy.executors  # now: Python loses an interrupt that comes during an import
         from rclpy.parameter import Parameter
 
-        rclpy.init(args=[])
         overrides = (
             [Parameter("use_sim_time", value=True)] if getattr(args, "use_sim_time", False) else []
         )
-        self.node: Node = rclpy.create_node(
-            name or f"_ros2cli_{os.getpid()}",
-            start_parameter_services=False,
-            parameter_overrides=overrides,
-        )
+        with nullcontext() if lingers else leaving_at_once():
+            rclpy.init(args=[])
+            self.node: Node = rclpy.create_node(
+                name or f"_ros2cli_{os.getpid()}",
+                start_parameter_services=False,
+                parameter_overrides=overrides,
+            )
         self._spin_time: float | None = getattr(args, "spin_time", None)
 
     @property

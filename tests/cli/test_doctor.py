@@ -210,7 +210,7 @@ def test_listening_takes_both_topics_and_drops_nonsense(context):
     sender = threading.Thread(target=send)
     sender.start()
     listener = TfListener(context)
-    listener.wait(60.0, {static.gid, dynamic.gid, nonsense.gid})
+    listener.wait(60.0, dict.fromkeys((static.gid, dynamic.gid, nonsense.gid), 1))
     sender.join()
     traffic = listener.close()
     assert traffic.parents == {"fixed": {"world"}, "moving": {"world"}}
@@ -219,14 +219,18 @@ def test_listening_takes_both_topics_and_drops_nonsense(context):
 
 
 class Waits(TfListener):
-    """Notes for how long, and for whom, it was told to wait."""
+    """Notes for how long, and for how many messages of whom, it was told to wait."""
 
-    def wait(self, seconds, publishers=None):
-        self.asked = (seconds, publishers)
+    def __init__(self, context):
+        super().__init__(context)
+        self.asked = []
+
+    def wait(self, seconds, wanted=None):
+        self.asked.append((seconds, wanted))
 
 
 @pytest.mark.parametrize(
-    ("topics", "waits_for_all"),
+    ("topics", "known_at_once"),
     [
         ({"/tf_static": Durability.TRANSIENT_LOCAL}, True),
         ({"/tf_static": Durability.VOLATILE}, False),
@@ -234,15 +238,61 @@ class Waits(TfListener):
         ({}, True),
     ],
 )
-def test_only_static_publishers_are_known_to_have_said_all(context, topics, waits_for_all):
+def test_only_static_publishers_are_known_to_have_said_all(context, topics, known_at_once):
     node = context.create_node("one")
-    gids = {
-        node.create_publisher(topic, TF, QoS(durability=durability)).gid
+    wanted = {
+        node.create_publisher(topic, TF, QoS(durability=durability)).gid: 1
+        if durability == Durability.TRANSIENT_LOCAL
+        else 50
         for topic, durability in topics.items()
     }
     listener = Waits(context)
-    listener.gather(context.graph, 2.0)
-    assert listener.asked == ((2.0, gids) if waits_for_all else (2.0, None))
+    assert listener.gather(context.graph, 2.0) == known_at_once
+    assert listener.asked == [(2.0, wanted)]
+
+
+@pytest.mark.parametrize("parents", [["world"], ["world", "elsewhere"]])
+def test_what_is_not_right_is_listened_to_for_all_the_time(context, monkeypatch, parents):
+    node = context.create_node("one")
+    node.create_publisher("/tf", TF, QoS())
+    latched = QoS(durability=Durability.TRANSIENT_LOCAL)
+    static = node.create_publisher("/tf_static", TF, latched)
+    message = transform(parents[0], "fixed")
+    message.transforms += [transform(parent, "fixed").transforms[0] for parent in parents[1:]]
+    static.publish(msg.serialize(message))
+    asked = []
+
+    class Hears(TfListener):
+        def wait(self, seconds, wanted=None):
+            asked.append(wanted)
+            super().wait(60.0, {static.gid: 1})
+
+    monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
+    monkeypatch.setattr(doctor, "TfListener", Hears)
+    doctor.examine()
+    assert len(asked) == len(parents)
+    assert asked[1:] == [None] * (len(parents) - 1)
+
+
+def test_listening_ends_when_each_publisher_was_heard_often(context, monkeypatch):
+    """The time limit is longer than the test's: only the event can end the wait."""
+    monkeypatch.setattr(doctor, "_LISTEN_S", 1000.0)
+    monkeypatch.setattr("turtlewire.wire.open_context", lambda: context)
+    publisher = context.create_node("one").create_publisher("/tf", TF, QoS())
+    end = threading.Event()
+
+    def send():
+        while not end.wait(0.002):
+            publisher.publish(msg.serialize(transform("world", "moving", time.time_ns())))
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    try:
+        found = doctor.examine()
+    finally:
+        end.set()
+        sender.join()
+    assert [finding for finding in found if "moving" in finding.text] == []
 
 
 def test_beside_static_transforms_alone_listening_ends_when_they_came(context, monkeypatch):

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 
 import pytest
 
 from ros2cli import graph as ask
+from ros2cli.direct_node import DirectNode
 from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main
 from turtlewire import msg
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
+from turtlewire.wire.lingering import lingers
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 HASH = "RIHS01_" + "0" * 64
@@ -137,6 +140,16 @@ def test_what_never_comes_is_not_waited_for_forever():
     graph = Incomplete(news_needed=2)
     wait_until_discovered(graph)
     assert graph.listeners == []
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_a_verb_that_has_its_answers_leaves_without_waiting(monkeypatch, waits):
+    lingering = []
+    monkeypatch.setattr("rclpy.init", lambda args: lingering.append(lingers()))
+    monkeypatch.setattr("rclpy.create_node", lambda *_, **__: None)
+    DirectNode(argparse.Namespace(), lingers=waits)
+    assert lingering == [waits]
+    assert lingers()
 
 
 def test_the_commands_own_node_is_listed_only_without_a_daemon(capsys):

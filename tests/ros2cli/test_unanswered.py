@@ -73,6 +73,17 @@ def test_what_is_wrong_is_said_at_once(run, server, words, told):
     ros2(run, *words.split()).wait_for(f"^{told}$")
 
 
+def test_a_rejected_goal_is_told_and_no_error_of_the_command(run):
+    rejecting = SERVER.replace(
+        '"/count", sleep)', '"/count", sleep, goal_callback=lambda _: GoalResponse.REJECT)'
+    )
+    server = run(sys.executable, "-c", f"from rclpy.action import GoalResponse\n{rejecting}")
+    server.wait_for("ready")
+    verb = ros2(run, "action", "send_goal", "/count", "example_interfaces/action/Fibonacci", "{}")
+    assert verb.wait() == 0
+    assert verb.text.splitlines()[-1] == "Goal was rejected."
+
+
 def test_that_there_is_nothing_at_all_is_said(run):
     ros2(run, "service", "call", "/x", "std_srvs/srv/Empty").wait_for("^No node offers any service")
 

@@ -15,6 +15,7 @@ from turtlewire.errors import WireError
 from turtlewire.wire import environment, open_context, report
 from turtlewire.wire.cyclone.configuration import domain_configuration
 from turtlewire.wire.environment import Discovery, Range
+from turtlewire.wire.lingering import leaving_at_once
 
 VARIABLES = [
     "ROS_DOMAIN_ID",
@@ -117,6 +118,13 @@ def peers(domain: ET.Element) -> list[str | None]:
 
 def interfaces(domain: ET.Element) -> list[dict[str, str]]:
     return [interface.attrib for interface in domain.iter("NetworkInterface")]
+
+
+def test_who_leaves_at_once_does_not_wait_for_acknowledgements():
+    here = Discovery(Range.LOCALHOST, ())
+    with leaving_at_once():
+        assert configuration(here).findtext("Internal/WriterLingerDuration") == "0 s"
+    assert configuration(here).find("Internal/WriterLingerDuration") is None
 
 
 def test_localhost_uses_nothing_but_the_loopback_interface():

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
+from typing import TYPE_CHECKING
 
 from turtlewire.cli.finding import Finding, problem
 from turtlewire.cli.graph_findings import graph_findings
@@ -14,6 +16,9 @@ from turtlewire.cli.tf_traffic import TfListener, tf_publishers
 from turtlewire.errors import WireError
 from turtlewire.printable import printable
 from turtlewire.wire.environment import discovery
+
+if TYPE_CHECKING:
+    from turtlewire.wire.base import Graph
 
 __all__ = ["as_json", "examine", "report"]
 
@@ -26,8 +31,8 @@ def examine(listen_s: float | None = None) -> list[Finding]:
     """Examine the setup, the graph and the transforms.
 
     Args:
-        listen_s: How long to listen to the transforms [s]. None listens for two seconds, or, if all
-            publishers are static, until each was heard.
+        listen_s: How long to listen to the transforms [s]. None listens until there is enough of
+            each publisher, at most for two seconds, and so long if what was heard is not right.
     """
     from turtlewire.wire import open_context
 
@@ -45,13 +50,21 @@ def examine(listen_s: float | None = None) -> list[Finding]:
             graph.wait_for(lambda: False, _OTHER_HOSTS_NS)
         graph.wait_for(graph.is_complete, _DISCOVERY_LIMIT_NS)
         if listen_s is None:
-            listener.gather(graph, _LISTEN_S)
+            _listen(listener, graph)
         elif tf_publishers(graph):
             listener.wait(listen_s)
         traffic = listener.close()
         return [*found, *graph_findings(graph), *tf_findings(graph, traffic)]
     finally:
         context.close()
+
+
+def _listen(listener: TfListener, graph: Graph) -> None:
+    end = time.monotonic() + _LISTEN_S
+    heard_all = listener.gather(graph, _LISTEN_S)
+    # What seems to be missing or late may still come.
+    if not heard_all and tf_findings(graph, listener.traffic()):
+        listener.wait(max(0.0, end - time.monotonic()))
 
 
 def report(findings: list[Finding]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
@@ -13,6 +14,8 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from turtlewire.wire.base import Context, EndpointInfo, Graph, MessageInfo
 
 __all__ = [
@@ -29,6 +32,8 @@ _TYPE = "tf2_msgs/msg/TFMessage"
 #: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
 #: late joiners, and a user does not wait longer for a TAB.
 _COMPLETION_NS = 150_000_000
+#: After so many messages in a row a publisher has shown what it does (0.8 s of the demo's).
+_ENOUGH = 50
 #: Steps back of stamps that are as small as a clock's jitter are no fault.
 JITTER_NS = 1_000_000
 #: A frame leaps if it moves by more than this, and faster than any robot.
@@ -92,7 +97,7 @@ class TfListener:
 
     def __init__(self, context: Context) -> None:
         self._messages: list[tuple[bytes, bytes, bool]] = []
-        self._publishers: set[bytes] = set()
+        self._heard: Counter[bytes] = Counter()
         self._news = threading.Condition()
         self._node = context.create_node("_turtlewire_doctor_listener")
         self._subscribe("/tf", Durability.VOLATILE, static=False)
@@ -102,39 +107,53 @@ class TfListener:
         def keep(cdr: bytes, info: MessageInfo) -> None:
             with self._news:
                 self._messages.append((cdr, info.publisher_gid, static))
-                self._publishers.add(info.publisher_gid)
+                self._heard[info.publisher_gid] += 1
                 self._news.notify_all()
 
         kind = TypeId(_TYPE, msg.type_hash(_TYPE))
         self._node.create_subscription(topic, kind, QoS(depth=100, durability=durability), keep)
 
-    def wait(self, seconds: float, publishers: set[bytes] | None = None) -> None:
-        """Listen for so many seconds, or until each of the publishers (gids) was heard."""
+    def wait(self, seconds: float, wanted: Mapping[bytes, int] | None = None) -> None:
+        """Listen for so many seconds, or until so many messages of each publisher (gid) came."""
 
         def heard_all() -> bool:
-            return publishers is not None and publishers <= self._publishers
+            return wanted is not None and all(
+                self._heard[publisher] >= count for publisher, count in wanted.items()
+            )
 
         with self._news:
             self._news.wait_for(heard_all, seconds)
 
-    def gather(self, graph: Graph, seconds: float) -> None:
+    def gather(self, graph: Graph, seconds: float) -> bool:
         """Listen for so many seconds, but no longer than needed.
 
-        A static publisher sends all of its transforms at once to a new subscription: if there are
-        no others, the wait ends when each was heard.
+        A static publisher sends all of its transforms at once to a new subscription. Others were
+        heard for long enough after fifty messages.
+
+        Returns:
+            Whether that was all that there is to hear.
         """
         publishers = tf_publishers(graph)
-        if all(_sends_at_once(publisher) for publisher in publishers):
-            self.wait(seconds, {publisher.gid for publisher in publishers})
-        else:
-            self.wait(seconds)
+        at_once = [_sends_at_once(publisher) for publisher in publishers]
+        wanted = {
+            publisher.gid: 1 if known else _ENOUGH
+            for publisher, known in zip(publishers, at_once, strict=True)
+        }
+        self.wait(seconds, wanted)
+        return all(at_once)
 
     def close(self) -> TfTraffic:
         """Stop listening; what was heard."""
         self._node.close()
+        return self.traffic()
+
+    def traffic(self) -> TfTraffic:
+        """What was heard until now."""
         traffic = TfTraffic()
         traffic.ended_ns = time.time_ns()
-        for cdr, publisher, static in self._messages:
+        with self._news:
+            messages = list(self._messages)
+        for cdr, publisher, static in messages:
             try:
                 message = msg.deserialize(msg.get_message(_TYPE), cdr)
             except CdrError:

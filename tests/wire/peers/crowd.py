@@ -6,6 +6,7 @@ many, in turn).
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 
@@ -16,7 +17,7 @@ from turtlewire.wire.qos import QoS
 LONG = 300_000_000_000
 
 context = open_context()
-node = context.create_node("member", "/crowd")
+node = context.create_node(f"member_{os.getpid()}", "/crowd")
 type_id = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 node.create_publisher("/chatter", type_id, QoS())
 node.create_subscription("/chatter", type_id, QoS())

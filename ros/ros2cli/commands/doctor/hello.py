@@ -52,7 +52,7 @@ def main(args: argparse.Namespace) -> None:
 
     end = Future()
     with (
-        DirectNode(args) as direct,
+        DirectNode(args, lingers=True) as direct,
         MulticastSocket(args.group, args.port, args.ttl) as group,
     ):
         hello = _Hello(args, group)

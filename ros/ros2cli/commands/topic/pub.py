@@ -95,7 +95,7 @@ def main(args: argparse.Namespace) -> str | None:
     except Exception as error:  # noqa: BLE001  any value may be wrong in any way
         return f"Failed to populate field: {shortened(error)}{field_meant(error)}"
     times = 1 if args.once else args.times
-    with DirectNode(args, name=args.node_name) as direct:
+    with DirectNode(args, name=args.node_name, lingers=True) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
         known = direct.graph.topic_names_and_types()
         warn_of_other_type("topic", topic, type_name(type(message)), known)

@@ -7,6 +7,7 @@ import re
 
 from turtlewire.errors import WireError
 from turtlewire.wire.environment import Discovery, Range
+from turtlewire.wire.lingering import lingers
 from turtlewire.wire.report import warn_once
 
 from .ports import max_processes
@@ -16,7 +17,8 @@ __all__ = ["domain_configuration"]
 #: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes,
 #: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are left alone: rarer ones would
 #: calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)
-_INTERNAL = '<Internal><SocketReceiveBufferSize max="10 MB"/></Internal>'
+_BUFFER = '<SocketReceiveBufferSize max="10 MB"/>'
+_NO_LINGER = "<WriterLingerDuration>0 s</WriterLingerDuration>"
 #: Cyclone 11 announces a participant to each address once, and then not for half a minute: one lost
 #: datagram in the crowd of a launch would keep two processes apart for good.
 _ANNOUNCEMENT_INTERVAL = "5s"
@@ -32,7 +34,8 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
     Raises:
         WireError: A static peer is not an address.
     """
-    parts = [_general(discovery), _INTERNAL]
+    internal = _BUFFER if lingers() else _BUFFER + _NO_LINGER
+    parts = [_general(discovery), f"<Internal>{internal}</Internal>"]
     if discovery.range == Range.OFF:
         # A tag of our own: participants with different tags do not see each other, not even on this
         # host.

@@ -1,0 +1,33 @@
+"""Whether the end of a process waits until what it sent last was acknowledged.
+
+Cyclone waits for up to a second, and for a tenth to three tenths as a rule. A program that asks and
+has its answer need not wait.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["leaving_at_once", "lingers"]
+
+_leaving = 0
+
+
+@contextlib.contextmanager
+def leaving_at_once() -> Iterator[None]:
+    """A domain that the process joins meanwhile is left without waiting."""
+    global _leaving  # noqa: PLW0603  domains belong to the process
+    _leaving += 1
+    try:
+        yield
+    finally:
+        _leaving -= 1
+
+
+def lingers() -> bool:
+    """Whether a domain that is joined now is left only after waiting."""
+    return not _leaving
