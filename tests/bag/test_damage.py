@@ -11,9 +11,9 @@ import sys
 import tracemalloc
 
 import pytest
-from tests.bag.conftest import START, contents, write_bag
+from tests.bag.conftest import GOLDEN, START, contents, write_bag
 
-from turtlewire.bag import open_bag, reindex
+from turtlewire.bag import load_transforms, open_bag, reindex
 from turtlewire.errors import BagError
 
 
@@ -95,6 +95,79 @@ def test_a_bomb_needs_no_memory(tmp_path, size):
     assert messages == []
     assert "decompresses to 1001 bytes" in complaint or f"holds {size} bytes" in complaint
     assert peak < 10_000_000
+
+
+@pytest.mark.parametrize("compression", ["zstd", "lz4"])
+def test_what_grows_too_much_is_refused(compression):
+    from turtlewire.bag.compression import compress, decompress
+
+    bomb = compress(compression, bytes(100 << 20))
+    if compression == "zstd":  # lz4 shrinks zeros to a 250th only, which is allowed
+        for size in (None, 100 << 20):
+            with pytest.raises(BagError, match=r"more than 67108864|at most 67108864 are read"):
+                decompress(compression, bomb, size)
+    assert decompress(compression, compress(compression, bytes(1 << 20))) == bytes(1 << 20)
+
+
+def test_a_copy_that_fills_the_disk(tmp_path, monkeypatch):
+    import shutil
+    from types import SimpleNamespace
+
+    folder = write_bag(tmp_path / "made", compression_mode="FILE")
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=1000))
+    messages, complaint = read_what_there_is(folder)
+    assert messages == []
+    assert "would fill the disk" in complaint or "is neither an MCAP nor" in complaint
+
+
+@pytest.mark.parametrize("name", ["d_mcap", "real/g_mcap_zstd_fast", "real/g_sqlite3"])
+def test_a_real_bag_cut_at_every_thousandth_byte(tmp_path, name):
+    """What `load_transforms` takes are the messages before the cut, and it says where that is."""
+    (path,) = (file for file in (GOLDEN / name).iterdir() if file.suffix in {".mcap", ".db3"})
+    whole = path.read_bytes()
+    cut = tmp_path / path.name
+    last, complaints = 0, []
+    for length in range(0, len(whole), 1000):
+        cut.write_bytes(whole[:length])
+        try:
+            _, report = load_transforms(cut)
+        except BagError as error:
+            complaints.append(str(error))
+            continue
+        assert report.messages >= last or path.suffix == ".db3"
+        assert report.problems or report.messages == last or path.suffix == ".db3"
+        last = report.messages
+    _, report = load_transforms(path)
+    assert 0 < last <= report.messages
+    assert all(str(cut) in complaint for complaint in complaints)
+
+
+def test_flipped_bytes_in_the_native_walk(tmp_path):
+    folder = write_bag(tmp_path / "made", compression="zstd", chunk_bytes=1000)
+    (path,) = folder.glob("*.mcap")
+    whole = path.read_bytes()
+    dice = random.Random(2)
+    for _ in range(150):
+        damaged = bytearray(whole)
+        for _ in range(dice.randint(1, 4)):
+            damaged[dice.randrange(len(damaged))] = dice.randrange(256)
+        path.write_bytes(damaged)
+        try:
+            buffer, report = load_transforms(folder)
+        except BagError:
+            continue
+        assert report.messages <= 101 + 10
+        assert len(buffer) < 10
+
+
+def test_a_missing_file_is_named_and_the_others_are_read(tmp_path):
+    folder = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
+    first, second, *_ = sorted(folder.glob("*.mcap"))
+    second.unlink()
+    _, report = load_transforms(folder)
+    assert 10 < report.messages < 101
+    assert second.name in " ".join(report.problems)
+    first.unlink()
 
 
 def test_a_length_bomb_needs_no_memory(tmp_path):

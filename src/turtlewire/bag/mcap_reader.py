@@ -63,13 +63,14 @@ class McapFile:
         self.schemas: dict[int, Schema] = {}
         self.metadata: dict[str, dict[str, str]] = {}
         self.statistics = Statistics(0, 0, 0, {})
+        self._has_statistics = False
         self.chunks: list[ChunkIndex] = []
         self.problems: list[str] = []
         self._map, self._bytes = _map_file(path)
         try:
             self.closed_properly = self._read_summary()
             self.indexed = self.closed_properly and bool(self.chunks)
-            if not self.closed_properly or (self.statistics.message_count and not self.chunks):
+            if not self.closed_properly or not self._summary_is_complete():
                 self._walk_file()
         except BaseException:
             self.close()
@@ -186,6 +187,15 @@ class McapFile:
             return False
         return True
 
+    def _summary_is_complete(self) -> bool:
+        """Whether it tells all that is needed: writers may leave out each kind of record."""
+        used = self.statistics.channel_counts.keys()
+        return (
+            self._has_statistics
+            and used <= self.channels.keys()
+            and (bool(self.chunks) or not self.statistics.message_count)
+        )
+
     def _read_summary_record(self, opcode: int, content: memoryview) -> None:
         if opcode in (Op.SCHEMA, Op.CHANNEL):
             self._read_definition(opcode, content)
@@ -196,6 +206,7 @@ class McapFile:
             self.chunks.append(chunk)
         elif opcode == Op.STATISTICS:
             self.statistics = RecordReader(content).statistics()
+            self._has_statistics = True
         elif opcode == Op.METADATA_INDEX:
             offset = RecordReader(content).u64()
             for found, record, _ in self._top_records(offset, len(self._bytes)):

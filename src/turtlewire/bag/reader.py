@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 __all__ = ["Bag", "open_bag", "reindex"]
 
 _FOREVER = (1 << 64) - 1
+#: What a decompressed copy leaves free on its disk.
+_LEAST_FREE_BYTES = 256 << 20
 
 
 class Bag:
@@ -231,7 +233,9 @@ class Bag:
         plain = os.path.join(self._scratch, os.path.basename(path).removesuffix(".zstd"))
         with open(plain, "wb") as out:
             try:
-                out.writelines(read_zstd_file(full))
+                for block in read_zstd_file(full):
+                    _check_room(self._scratch, full)
+                    out.write(block)
             except BagError as error:
                 self.problems.append(str(error))
         return plain
@@ -267,6 +271,13 @@ def reindex(path: str | os.PathLike[str]) -> BagMetadata:
     with Bag(path, trust_metadata=False) as bag:
         write_metadata(bag.path, bag.metadata)
         return bag.metadata
+
+
+def _check_room(folder: str, path: str) -> None:
+    if shutil.disk_usage(folder).free < _LEAST_FREE_BYTES:
+        raise BagError(
+            f"{path}: its decompressed copy in {folder} would fill the disk; what fitted is read"
+        ).with_hint("TMPDIR names a folder with more room.")
 
 
 def _names(names: str | Iterable[str] | None) -> set[str] | None:
