@@ -17,8 +17,12 @@ if TYPE_CHECKING:
 
     from architecture import House
 
-#: Names with an underscore that are public: of named tuples, and of messages in ROS 2.
-PUBLIC = {"_replace", "_asdict", "_fields", "_make", "_TYPE_SUPPORT", "_fields_and_field_types"}
+#: Names with an underscore that are public: of named tuples, of messages in ROS 2, and of Jupyter.
+PUBLIC = {
+    *("_replace", "_asdict", "_fields", "_make"),
+    *("_TYPE_SUPPORT", "_fields_and_field_types"),
+    *("_repr_svg_", "_repr_html_"),
+}
 
 
 def figures(root: Path, house: House) -> str:
@@ -76,10 +80,10 @@ def _comments(path: Path) -> int:
 
 
 def _privates(tree: ast.AST) -> Iterator[str]:
-    """Names with one underscore that are read from anything but ``self`` and ``cls``."""
+    """Names with one underscore that are read from anything but ``self``, ``cls`` and ``super()``."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and node.attr.startswith("_"):
-            own = isinstance(node.value, ast.Name) and node.value.id in {"self", "cls"}
+            own = ast.unparse(node.value) in {"self", "cls", "super()"}
             if not own and not node.attr.startswith("__") and node.attr not in PUBLIC:
                 yield node.attr
 

@@ -132,7 +132,7 @@ class Screen:
         self._server.close()
         self.transforms.close()
 
-    def _scene_since(self, version: int) -> tuple[int, str | None]:
+    def scene_since(self, version: int) -> tuple[int, str | None]:
         """The scene as JSON if it changed after ``version``."""
         with self._lock:
             if version == self._version:
@@ -141,7 +141,7 @@ class Screen:
                 {"type": "scene", "version": self._version, **self._scene._asdict()}
             )
 
-    def _frame_since(self, position: int) -> tuple[int, bytes]:
+    def frame_since(self, position: int) -> tuple[int, bytes]:
         """The newest poses and the strokes after ``position``."""
         with self._lock:
             restart, strokes, position = self._drawing.since(position)
@@ -174,13 +174,13 @@ class _Session:
             json.dumps({"type": "error", "text": text}) for text in self._errors
         ]
         self._errors.clear()
-        self._version, scene = self._screen._scene_since(self._version)
+        self._version, scene = self._screen.scene_since(self._version)
         if scene is not None:
             messages.append(scene)
         if self._watch is not None and time.monotonic() >= self._next_look:
             self._next_look = time.monotonic() + _FRAMES_PERIOD_S
             messages.append(self._look(self._watch))
-        self._position, frame = self._screen._frame_since(self._position)
+        self._position, frame = self._screen.frame_since(self._position)
         return [*messages, frame]
 
     def receive(self, message: str | bytes) -> None:

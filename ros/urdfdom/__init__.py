@@ -1,1 +1,10 @@
-"""urdfdom's programs: check_urdf reads a robot description, urdf_to_graphviz draws its tree."""
+"""urdfdom's programs: check_urdf reads a robot description, urdf_to_graphviz draws its tree.
+
+================================  ==========================================
+module                            what it holds
+================================  ==========================================
+`check_urdf`, `urdf_to_graphviz`  the executables
+`reading`                         reads the file of a command line
+`dot`, `drawing`                  the tree as Graphviz text and as a picture
+================================  ==========================================
+"""

@@ -46,8 +46,7 @@ def lazy_classes(home: str) -> Callable[[str], type]:
         raise AttributeError(f"module '{home}' has no attribute '{name}'")
 
     for interface in module.__all__:
-        private = _PrivateModule(module_name(f"{folder}/{interface}"))
-        private._find, private._interface = find, interface
+        private = _PrivateModule(module_name(f"{folder}/{interface}"), interface, find)
         sys.modules[private.__name__] = private
     return find
 
@@ -55,8 +54,10 @@ def lazy_classes(home: str) -> Callable[[str], type]:
 class _PrivateModule(ModuleType):
     """Holds one interface and its parts."""
 
-    _find: Callable[[str], type]
-    _interface: str
+    def __init__(self, name: str, interface: str, find: Callable[[str], type]) -> None:
+        super().__init__(name)
+        self._interface = interface
+        self._find = find
 
     def __getattr__(self, name: str) -> type:
         if name.partition("_")[0] == self._interface:
