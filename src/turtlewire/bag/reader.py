@@ -252,7 +252,8 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
 
     Args:
         path: A folder of rosbag2 (with or without ``metadata.yaml``), a ``.mcap`` or a ``.db3``
-            file; compressed or not, finished or left behind by a recorder that was killed.
+            file; compressed or not, finished or left behind by a recorder that was killed. A
+            ``.bag`` of ROS 1 with the extra ``ros1``.
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.

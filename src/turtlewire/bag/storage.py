@@ -10,6 +10,8 @@ from turtlewire.bag.mcap_records import MAGIC
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
+from turtlewire.bag.ros1_reader import MAGIC as ROS1_MAGIC
+from turtlewire.bag.ros1_reader import Ros1Storage
 from turtlewire.bag.sqlite_reader import SqliteFile
 from turtlewire.errors import BagError
 
@@ -68,7 +70,7 @@ def open_storage(path: str) -> StorageFile:
 
     Raises:
         FileNotFoundError: There is no such file.
-        BagError: It is neither.
+        BagError: It is none of them.
     """
     with open(path, "rb") as file:
         start = file.read(len(_SQLITE_MAGIC))
@@ -76,6 +78,8 @@ def open_storage(path: str) -> StorageFile:
         return McapStorage(path)
     if start == _SQLITE_MAGIC:
         return SqliteStorage(path)
+    if start.startswith(ROS1_MAGIC):
+        return Ros1Storage(path)
     raise BagError(f"{path} is neither an MCAP nor a sqlite3 file")
 
 
