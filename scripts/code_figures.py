@@ -80,7 +80,7 @@ def _comments(path: Path) -> int:
 
 
 def _privates(tree: ast.AST) -> Iterator[str]:
-    """Names with one underscore that are read from anything but ``self``, ``cls`` and ``super()``."""
+    """Names with one underscore that are read from other objects."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and node.attr.startswith("_"):
             own = ast.unparse(node.value) in {"self", "cls", "super()"}
