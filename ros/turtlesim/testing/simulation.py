@@ -7,7 +7,7 @@ import json
 import math
 import os
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from turtlesim.model import TICK_NS
 from turtlesim.turtlesim_node import TurtlesimNode
+from turtlewire.wire.local.context import LocalContext
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -61,7 +62,9 @@ class Simulation:
             raise
 
     def _begin(self) -> None:
-        self._replace_reader(rclpy.get_default_context().wire)
+        wire = rclpy.get_default_context().wire
+        assert isinstance(wire, LocalContext)
+        wire.replace_reader(self._reader)
         self.node = TurtlesimNode(headless=True)
         self.add(self.node)
         self._driver = Node("simulation", parameter_overrides=[])
@@ -198,10 +201,6 @@ class Simulation:
             f"the nodes ran {_MOST_CALLBACKS_IN_A_TICK} callbacks at t={self.now:.3f} s "
             "and did not come to rest"
         )
-
-    def _replace_reader(self, wire: Any) -> None:
-        wire.reader.close()
-        wire.reader = self._reader
 
 
 class _ReaderInStep:

@@ -12,7 +12,7 @@ from .bus import Bus, bus_of
 from .core import NodeCore
 from .endpoint import new_gid
 from .node import LocalNode
-from .reader import ReaderThread
+from .reader import Reader, ReaderThread
 from .waiting import LocalWaitSet
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ class LocalContext(Context):
         self.domain_id = domain_id
         self.gid = new_gid()
         self._nodes: list[LocalNode] = []
-        self._reader = ReaderThread()
+        self._reader: Reader = ReaderThread()
         self.bus = bus_of(domain_id)
         self._graph = _LocalGraph(self.bus)
         self._wait_sets: set[LocalWaitSet] = set()
@@ -65,6 +65,11 @@ class LocalContext(Context):
     def _graph_changed(self) -> None:
         """Have the reader thread tell the graph's listeners."""
         self._reader.submit(self._graph.notify_changed)
+
+    def replace_reader(self, reader: Reader) -> None:
+        """Have ``reader`` do what the reader thread does, for nodes that are made from now on."""
+        self._reader.close()
+        self._reader = reader
 
     def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> LocalNode:
         """See :meth:`Context.create_node`."""

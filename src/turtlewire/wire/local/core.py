@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
     from .bus import Bus
     from .endpoint import LocalEndpoint
-    from .reader import ReaderThread
+    from .reader import Reader
 
 __all__ = ["NodeCore"]
 
@@ -21,7 +21,7 @@ class NodeCore:
         endpoints: The node's open endpoints, guarded by the bus's lock.
     """
 
-    def __init__(self, info: NodeInfo, bus: Bus, reader: ReaderThread) -> None:
+    def __init__(self, info: NodeInfo, bus: Bus, reader: Reader) -> None:
         self.info = info
         self.bus = bus
         self.reader = reader

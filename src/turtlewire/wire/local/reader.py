@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ReaderThread"]
+__all__ = ["Reader", "ReaderThread"]
+
+
+class Reader(Protocol):
+    """Runs what is submitted, in order."""
+
+    def submit(self, work: Callable[[], None]) -> None:
+        """Run ``work`` soon."""
+
+    def close(self) -> None:
+        """Run nothing more."""
 
 
 class ReaderThread:
