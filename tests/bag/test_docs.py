@@ -1,18 +1,58 @@
-"""The how-to about bags does what it says."""
+"""The how-tos about bags and trajectories do what they say."""
 
 from __future__ import annotations
 
 import doctest
+import re
+import shlex
 from pathlib import Path
 
-from tests.bag.conftest import write_bag
+import numpy as np
+import pytest
+from tests.bag.conftest import SECOND, START, write_bag
 
-PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "bags.md"
+from turtlewire.cli.main import main
+from turtlewire.trajectory import Trajectory, write_tum
+
+HOW_TO = Path(__file__).parents[2] / "docs" / "how-to"
 
 
-def test_the_page(tmp_path, monkeypatch):
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """What the pages find: a bag, a circle and two estimates of it."""
     monkeypatch.chdir(tmp_path)
     write_bag(tmp_path / "my_bag")
-    found = doctest.testfile(str(PAGE), module_relative=False)
-    assert found.attempted > 15
+    angle = np.linspace(0, 2 * np.pi, 500)
+    half = angle / 2
+    poses = np.zeros((500, 7))
+    poses[:, 0], poses[:, 1] = 5 * np.cos(angle), 5 * np.sin(angle)
+    poses[:, 5], poses[:, 6] = np.sin(half), np.cos(half)
+    stamps = START + np.arange(500) * SECOND // 10
+    write_tum(Trajectory(stamps, poses), tmp_path / "truth.tum")
+    dice = np.random.default_rng(1)
+    for name, size in (("slam_a", 0.02), ("slam_b", 0.06)):
+        moved = poses.copy()
+        moved[:, :3] += dice.normal(size=(500, 3)) * size + (1, 2, 0)
+        write_tum(Trajectory(stamps, moved), tmp_path / f"{name}.tum")
+    return tmp_path
+
+
+@pytest.mark.parametrize(("page", "examples"), [("bags.md", 12), ("trajectories.md", 9)])
+def test_the_examples(folder, page, examples):
+    found = doctest.testfile(str(HOW_TO / page), module_relative=False)
+    assert found.attempted >= examples
     assert found.failed == 0
+
+
+@pytest.mark.parametrize(("page", "commands"), [("bags.md", 2), ("trajectories.md", 2)])
+def test_the_commands(folder, page, commands, capsys):
+    text = (HOW_TO / page).read_text()
+    found = []
+    for block in re.findall(r"```console\n(.*?)```", text, re.DOTALL):
+        for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+            command, _, expected = part.partition("\n")
+            assert main(shlex.split(command)[1:]) == 0
+            assert capsys.readouterr().out == expected
+            found.append(command)
+    assert len(found) == commands
+    assert all((folder / name).exists() for name in re.findall(r"\S+\.svg", " ".join(found)))
