@@ -36,13 +36,17 @@ module              what it holds
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
 from turtlewire.bag.reader import Bag, open_bag, reindex
-from turtlewire.bag.trajectories import load_trajectory, pose_topics
 from turtlewire.bag.transform_report import Jump, TransformReport
 from turtlewire.bag.transforms import load_transforms
 from turtlewire.bag.writer import BagWriter
+
+if TYPE_CHECKING:
+    from turtlewire.bag.trajectories import load_trajectory, pose_topics
 
 __all__ = [
     "Bag",
@@ -59,3 +63,13 @@ __all__ = [
     "pose_topics",
     "reindex",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Trajectories need NumPy, which `ros2 bag info` does not wait for.
+    if name not in {"load_trajectory", "pose_topics"}:
+        raise AttributeError(f"module 'turtlewire.bag' has no attribute {name!r}")
+    from turtlewire.bag import trajectories
+
+    value = globals()[name] = getattr(trajectories, name)
+    return value
