@@ -7,7 +7,7 @@ namespace turtlewire {
 bool Intake::receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes) {
   const std::scoped_lock lock(mutex_);
   if (taken_care_of_ || !kept_.empty() || !store(publisher, bytes)) {
-    if (most_kept_ != 0 && kept_.size() == most_kept_) kept_.pop_front();
+    if (most_kept_ != 0 && kept_.size() >= most_kept_) kept_.pop_front();
     kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
   }
   return (news_ || expected_came_ || !kept_.empty()) && !std::exchange(called_, true);
@@ -39,22 +39,36 @@ void Intake::feed(std::vector<SharedBuffer*> buffers) {
   buffers_.swap(buffers);
 }
 
-void Intake::introduce(std::uint64_t publisher, std::string_view gid) {
+bool Intake::needs_name(std::uint64_t publisher) {
+  const std::scoped_lock lock(mutex_);
+  return !buffers_.empty() && name_of(publisher) == nullptr;
+}
+
+void Intake::introduce(std::uint64_t publisher, std::string_view gid, std::string_view name) {
   const std::scoped_lock lock(mutex_);
   if (publishers_.size() >= kMostPublishers) publishers_.clear();
-  publishers_.try_emplace(publisher, Publisher{std::string(gid), {}});
+  Publisher& known = publishers_[publisher];
+  known = {std::string(gid), std::string(name)};
+  if (auto early = early_names_.extract(known.gid)) known.name = std::move(early.mapped());
 }
 
 void Intake::name(std::string_view gid, std::string_view name) {
   const std::scoped_lock lock(mutex_);
+  bool found = false;
   for (auto& [number, publisher] : publishers_) {
-    if (publisher.gid == gid) publisher.name = name;
+    if (publisher.gid != gid) continue;
+    publisher.name = name;
+    found = true;
   }
+  if (found) return;
+  if (early_names_.size() >= kMostPublishers) early_names_.clear();
+  early_names_.insert_or_assign(std::string(gid), std::string(name));
 }
 
-std::deque<Intake::Kept> Intake::take() {
+std::deque<Intake::Kept> Intake::take(std::deque<Kept> former) {
   const std::scoped_lock lock(mutex_);
   called_ = false;
+  for (; !former.empty(); former.pop_back()) kept_.push_front(std::move(former.back()));
   while (!kept_.empty() && store(kept_.front().publisher, kept_.front().bytes)) kept_.pop_front();
   std::deque<Kept> taken;
   while (!kept_.empty() &&

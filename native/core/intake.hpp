@@ -17,9 +17,9 @@
 
 namespace turtlewire {
 
-// Somebody else, the caretaker, takes what needs him: messages of publishers without a name, and
-// malformed ones. The order of all messages is kept: until he has come back for more in vain, the
-// next ones are kept back as well.
+// A reader thread handles what needs Python: messages of publishers without a name, and malformed
+// ones. The order of all messages is kept: until the reader thread has found nothing left to take,
+// further messages are kept back as well.
 class Intake final : public ForkAware {
  public:
   struct Kept {
@@ -31,20 +31,24 @@ class Intake final : public ForkAware {
   // At most `most_kept` messages are kept back, the newest ones; 0: any number.
   Intake(bool is_static, std::size_t most_kept) : is_static_(is_static), most_kept_(most_kept) {}
 
-  // Stores a message, or keeps it back. True if the caretaker is to be woken, which he was not
-  // before.
+  // Stores a message, or keeps it back. True if the reader thread is to be woken, which was not
+  // told to come before.
   bool receive(std::uint64_t publisher, Stamp sent, std::span<const unsigned char> bytes);
 
   // Which buffers to fill from now on, when this returns no other ones; without any, everything is
   // kept back.
   void feed(std::vector<SharedBuffer*> buffers);
-  // Which publisher the middleware means by a number, and how a publisher is called.
-  void introduce(std::uint64_t publisher, std::string_view gid);
+  // Whether a message of this publisher waits for its introduction.
+  bool needs_name(std::uint64_t publisher);
+  // Which publisher the middleware means by a number, and what it is called. A name that name() has
+  // told meanwhile is newer, and counts.
+  void introduce(std::uint64_t publisher, std::string_view gid, std::string_view name);
   void name(std::string_view gid, std::string_view name);
 
-  // For the caretaker, who repeats it until there is nothing: the next messages kept back that need
-  // him. Those before them that need him no more are stored.
-  std::deque<Kept> take();
+  // For the reader thread, which repeats it until there is nothing: the next messages kept back
+  // that need Python. Those before them that do not need it any more are stored. `former` is what
+  // the last call returned, if an introduction may have changed the need.
+  std::deque<Kept> take(std::deque<Kept> former = {});
   // Whether a buffer that somebody listens to has got data since the last time.
   bool take_news();
 
@@ -53,7 +57,7 @@ class Intake final : public ForkAware {
 
   // How many messages were stored so far.
   std::uint64_t stored();
-  // The next message that is stored wakes the caretaker.
+  // The next message that is stored wakes the reader thread.
   void expect();
   // Whether an expected message came since the last time.
   bool take_expected();
@@ -73,10 +77,11 @@ class Intake final : public ForkAware {
   std::mutex mutex_;  // guards all that follows
   std::vector<SharedBuffer*> buffers_;
   std::unordered_map<std::uint64_t, Publisher> publishers_;
+  std::unordered_map<std::string, std::string> early_names_;  // by gid, of publishers to come
   TfMessage message_;
   std::deque<Kept> kept_;
-  bool taken_care_of_ = false;  // the caretaker is busy with what he took
-  bool called_ = false;         // the caretaker was told to come
+  bool taken_care_of_ = false;  // the reader thread is busy with what it took
+  bool called_ = false;         // the reader thread was told to come
   bool news_ = false;
   std::uint64_t stored_ = 0;  // messages, without those that were kept back for good
   bool expecting_ = false;    // the next message is expected

@@ -387,7 +387,7 @@ std::vector<unsigned char> message_at(std::int32_t second) {
   return message.bytes;
 }
 
-// The stamps of what is kept back, as the caretaker takes it: until there is nothing.
+// The stamps of what is kept back, as the reader thread takes it: until there is nothing.
 std::vector<Stamp> take_rest(Intake& intake) {
   std::vector<Stamp> sent;
   for (auto kept = intake.take(); !kept.empty(); kept = intake.take()) {
@@ -406,28 +406,39 @@ void test_intake() {
   };
   intake.feed({&shared, &other});
   check(intake.receive(7, 1, message_at(1)),
-        "the caretaker is called for a publisher that is not known");
-  check(!intake.receive(7, 2, message_at(2)), "he is called once");
-  check(intake.take().size() == 2, "both messages were kept back");
-  intake.introduce(7, "gid");
-  intake.name("gid", "/talker");
-  check(intake.receive(7, 3, message_at(3)),
-        "he is called again while he has not come back in vain");
-  check(newest(shared) == 0, "what comes behind kept messages waits for them");
-  check(take_rest(intake).empty() && newest(shared) == 3, "and needs him no more when it is due");
-  check(!intake.receive(7, 4, message_at(4)) && newest(shared) == 4, "then it is stored at once");
-  check(newest(other) == 4, "in all buffers");
+        "the reader thread is called for a publisher that is not known");
+  check(!intake.receive(7, 2, message_at(2)), "it is called once");
+  auto taken = intake.take();
+  check(taken.size() == 2 && intake.needs_name(7), "both messages were kept back");
+  check(intake.receive(7, 3, message_at(3)), "it is called again while it is busy with them");
+  intake.introduce(7, "gid", "/talker");
+  check(!intake.receive(7, 4, message_at(4)) && newest(shared) == 0,
+        "what comes behind kept messages waits for them");
+  check(intake.take(std::move(taken)).empty() && newest(shared) == 4 && !intake.needs_name(7),
+        "those taken and those behind are stored when the publisher is known");
+  check(intake.receive(8, 4, message_at(4)) && intake.take().size() == 1,
+        "the reader thread takes a message");
+  check(intake.receive(7, 5, message_at(5)) && newest(shared) == 4,
+        "while it is busy with a message, nothing overtakes that");
+  check(take_rest(intake).empty() && newest(shared) == 5, "it stores what waited");
+  intake.name("another gid", "/new name");
+  intake.introduce(9, "another gid", "/old name");
+  check(!intake.receive(9, 6, message_at(6)) && newest(shared) == 6, "a second publisher");
+  check(SharedBuffer::Access(shared)->sender_name(2) == "/new name",
+        "a name told before the introduction counts");
+  check(!intake.receive(7, 7, message_at(7)) && newest(shared) == 7, "then it is stored at once");
+  check(newest(other) == 7, "in all buffers");
   check(SharedBuffer::Access(shared)->sender_name(1) == "/talker", "in the publisher's name");
-  check(intake.receive(7, 5, {}) && take_rest(intake) == std::vector<Stamp>{5},
+  check(intake.receive(7, 8, {}) && take_rest(intake) == std::vector<Stamp>{8},
         "what is malformed is kept back");
-  for (Stamp sent = 6; sent < 11; ++sent) intake.receive(8, sent, message_at(9));
-  check(take_rest(intake) == std::vector<Stamp>{8, 9, 10}, "only the newest ones are kept back");
+  for (Stamp sent = 9; sent < 14; ++sent) intake.receive(8, sent, message_at(9));
+  check(take_rest(intake) == std::vector<Stamp>{11, 12, 13}, "only the newest ones are kept back");
   check(!intake.take_news(), "no news while nobody listens");
   SharedBuffer::Access(shared).set_listeners(1);
-  check(intake.receive(7, 11, message_at(11)) && intake.take_news() && !intake.take_news(),
+  check(intake.receive(7, 14, message_at(14)) && intake.take_news() && !intake.take_news(),
         "news for a listener");
   intake.feed({});
-  check(intake.receive(7, 12, message_at(12)) && newest(shared) == 11,
+  check(intake.receive(7, 15, message_at(15)) && newest(shared) == 14,
         "without buffers all is kept back");
 }
 
@@ -472,16 +483,11 @@ void test_intake_threads() {
       is_called = false;
     }
     over = senders == 0;
-    for (auto kept = intake.take(); !kept.empty(); kept = intake.take()) {
-      for (const Intake::Kept& message : kept) {
-        TfMessage decoded;
-        check(decoded.decode(message.bytes.data(), message.bytes.size()).empty(),
-              "kept messages are whole");
-        first.add(decoded.transforms(), "late", false);
-        intake.introduce(message.publisher, std::to_string(message.publisher));
-        intake.name(std::to_string(message.publisher),
-                    "/talker" + std::to_string(message.publisher));
-      }
+    auto kept = intake.take();
+    while (!kept.empty()) {
+      const std::uint64_t publisher = kept.front().publisher;
+      intake.introduce(publisher, std::to_string(publisher), "/talker" + std::to_string(publisher));
+      kept = intake.take(std::move(kept));
     }
   }
   for (std::thread& thread : threads) thread.join();

@@ -6,8 +6,8 @@ From the wire's receiving thread into the compiled core, without Python.
 from __future__ import annotations
 
 import itertools
+import sys
 import threading
-from types import SimpleNamespace
 
 import pytest
 
@@ -45,13 +45,19 @@ class Flow:
         self.publisher = self.sender.create_node("talker").create_publisher("/tf", TYPE, KEEP_ALL)
         self.node = self.receiver.create_node("listener")
         self._stamps = itertools.count(1)
-        call = listener._Feed.__call__
+        self.identified = 0
+        call, identify = listener._Feed.__call__, listener._Feed._identify
 
         def counted(feed, cdr, info):
             self.by_python += 1
             call(feed, cdr, info)
 
+        def asked(feed, publisher, gid_of):
+            self.identified += 1
+            return identify(feed, publisher, gid_of)
+
         monkeypatch.setattr(listener._Feed, "__call__", counted)
+        monkeypatch.setattr(listener._Feed, "_identify", asked)
 
     def listen(self, store, **choices):
         return TransformListener(store, self.node, context=self.receiver, qos=KEEP_ALL, **choices)
@@ -68,11 +74,11 @@ class Flow:
         buffer.lookup_transform("world", "robot", stamp_s * 1_000_000_000, LONG_NS)
 
     def send_until_short(self, buffer):
-        """Send until a message comes without Python: the publisher has been introduced."""
+        """Send until a message comes without Python: the publisher is known."""
         for _ in range(1000):
-            before = self.by_python
+            before = self.by_python, self.identified
             self.send(buffer)
-            if before and self.by_python == before:
+            if any(before) and (self.by_python, self.identified) == before:
                 return
         raise AssertionError("all of 1000 messages went through Python")
 
@@ -88,29 +94,27 @@ def flow(monkeypatch):
     flow.close()
 
 
-def test_python_sees_the_first_messages_of_a_publisher_only(flow):
+def test_python_is_asked_once_for_each_publisher_and_sees_no_message(flow):
     buffer = Buffer()
     with flow.listen(buffer):
         flow.wait_for_match()
-        flow.send_until_short(buffer)
-        seen = flow.by_python
         for _ in range(50):
             flow.send(buffer)
-        assert flow.by_python == seen
+    assert (flow.identified, flow.by_python) == (1, 0)
 
 
-def test_what_comes_while_python_is_busy_with_the_first_message_does_not_need_it(flow, monkeypatch):
+def test_what_comes_while_python_is_busy_with_the_name_does_not_need_it(flow, monkeypatch):
     """So that a machine under load finds back to the short way."""
     buffer = Buffer(None)
     busy, go = threading.Event(), threading.Event()
-    call = listener._Feed.__call__
+    identify = listener._Feed._identify
 
-    def slow(feed, cdr, info):
+    def slow(feed, publisher, gid_of):
         busy.set()
         assert go.wait(30)
-        call(feed, cdr, info)
+        return identify(feed, publisher, gid_of)
 
-    monkeypatch.setattr(listener._Feed, "__call__", slow)
+    monkeypatch.setattr(listener._Feed, "_identify", slow)
     with flow.listen(buffer):
         flow.wait_for_match()
         for stamp_s in range(1, 51):
@@ -120,7 +124,32 @@ def test_what_comes_while_python_is_busy_with_the_first_message_does_not_need_it
         buffer.lookup_transform("world", "robot", 50_000_000_000, LONG_NS)
         [(_, stamps, _)] = buffer.samples("robot")
         assert len(stamps) == 50
+    assert (flow.identified, flow.by_python) == (1, 0)
+
+
+def test_listeners_hear_of_what_was_stored_with_the_name(flow):
+    buffer, heard = Buffer(), threading.Event()
+    buffer.add_change_listener(heard.set)
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.publisher.publish(tf_bytes(1))  # none follows that could wake them
+        assert heard.wait(60)
+        assert buffer.can_transform("world", "robot")
+
+
+def test_a_publisher_that_nobody_can_name_is_heard_through_python(flow, monkeypatch):
+    def failing(feed, publisher, gid_of):
+        raise RuntimeError("no graph")
+
+    faults = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda fault: faults.append(str(fault.exc_value)))
+    monkeypatch.setattr(listener._Feed, "_identify", failing)
+    buffer = Buffer()
+    with flow.listen(buffer):
+        flow.wait_for_match()
+        flow.send(buffer)
     assert flow.by_python == 1
+    assert faults == ["no graph"]
 
 
 def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
@@ -259,17 +288,3 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
     finally:
         stop.set()
         thread.join()
-
-
-def test_a_name_that_the_graph_learns_meanwhile_is_told_as_well():
-    """It may come on the graph's thread, between looking it up and telling the intake."""
-    gid, told = b"\x01" * 16, []
-    feed = SimpleNamespace(_publishers={gid: gid.hex()})
-
-    class Intake:
-        def name(self, known, name):
-            told.append(name)
-            feed._publishers[known] = "/talker"
-
-    listener._Feed._tell_name(feed, Intake(), gid)
-    assert told == [gid.hex(), "/talker"]

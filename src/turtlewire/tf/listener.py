@@ -4,8 +4,8 @@ The bytes of each ``TFMessage`` go into the buffer as they are, on a thread of t
 
 No message object is made and no executor takes part, so a lookup may wait for data wherever it is
 called. All buffers of one context that listen to a topic share one subscription, and each keeps its
-own store. With the compiled core Python is asked only for the first message of each publisher,
-whose name it finds out, and for malformed ones: the others go the short way, through an ``Intake``.
+own store. With the compiled core Python is asked once for the name of each publisher, and gets
+malformed messages: all others go the short way, through an ``Intake``.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ class _Feed:
         self._topic = topic
         self._static = static
         self._arrivals = arrivals
-        self.intake = Intake(static, _most_kept(qos), arrivals.tell) if CORE == "native" else None
+        self.intake = self._make_intake(qos) if CORE == "native" else None
         self.members = members
         self._publishers = PublisherNames(members[0].graph, self._rename)
 
@@ -151,17 +151,15 @@ class _Feed:
         publisher = self._publishers[info.publisher_gid]
         for member in self._members:
             self._store(member.store, cdr, publisher)
-        if self.intake is not None:
-            self._tell_name(self.intake, info.publisher_gid)
         self._arrivals.count()
 
-    def _tell_name(self, intake: Intake, gid: bytes) -> None:
-        told = None
-        while (
-            told != self._publishers[gid]
-        ):  # the graph may learn it at this moment, on another thread
-            told = self._publishers[gid]
-            intake.name(gid, told)
+    def _make_intake(self, qos: QoS) -> Intake:
+        return Intake(self._static, _most_kept(qos), self._identify, self._arrivals.tell)
+
+    def _identify(self, publisher: int, gid_of: Callable[[int], bytes]) -> tuple[bytes, str]:
+        """Gid and name of a publisher that the intake does not know; the gid may be empty."""
+        gid = gid_of(publisher)
+        return gid, self._publishers[gid] if gid else ""
 
     def _store(self, store: Store, cdr: bytes, publisher: str) -> None:
         try:

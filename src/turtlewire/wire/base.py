@@ -82,22 +82,20 @@ class Sink(Protocol):
     """Native code that takes the messages of a subscription on the middleware's own threads.
 
     It is a ``turtlewire::Sink`` (``native/core/sink.hpp``). When its ``receive`` returns true, the
-    middleware's reader thread calls :meth:`serve` and :meth:`take` until nothing is left.
+    middleware's reader thread calls :meth:`serve` until nothing is left.
     """
 
-    def serve(self) -> None:
-        """Do what needs Python after messages were received."""
-        ...
+    def serve(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
+        """Do what needs Python after messages were received.
 
-    def take(self) -> list[tuple[bytes, int, int]]:
-        """The next messages left: bytes, number of the publisher, time of sending in ns.
+        Args:
+            gid_of: Tells the gid of a publisher from the middleware's number of it; empty if it is
+                not known.
 
-        To be called until there are none: only then does the sink take new messages again.
+        Returns:
+            Messages for Python to deliver: bytes, number of the publisher, time of sending in ns.
+            The sink takes new messages itself only after a call that returned none.
         """
-        ...
-
-    def introduce(self, publisher: int, gid: bytes) -> None:
-        """Tell which publisher the middleware means by a number."""
         ...
 
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from . import library as dds
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire._native import Cyclone
     from turtlewire.wire.base import Sink
 
@@ -32,11 +34,10 @@ class Inlet:
         self.listener = dds.create_listener(argument)
         dds.lset_data_available(self.listener, callback)
 
-    def rest(self) -> list[tuple[bytes, int, int]]:
+    def rest(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
         """Serve the sink and return the messages that it left; call it until there are none."""
         dds.set_guard_condition(self.guard, False)
-        self.sink.serve()
-        return self.sink.take()
+        return self.sink.serve(gid_of)
 
     def close(self) -> None:
         """End; to be called when the reader has been deleted and no thread is in native code."""

@@ -115,18 +115,17 @@ class CycloneSubscription(Endpoint, Subscription):
             return messages
 
     def take_rest(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]] | None:
-        """What a sink left, readable or not.
-
-        None when that was nothing. Their publishers are introduced to the sink.
-        """
-        kept = inlet.rest()
+        """What a sink left, readable or not; None when that was nothing."""
+        kept = inlet.rest(self._known_gid)
         messages = self._messages_of(kept)
-        for _, publisher, _ in kept:
-            if publisher in self._gids:
-                inlet.sink.introduce(publisher, self._gids[publisher])
         if self._forget and not kept:
             self._forget_publishers(set())
         return messages if kept else None
+
+    def _known_gid(self, publisher: int) -> bytes:
+        """The gid of a publisher; empty if it has gone already."""
+        gid = self._gids.get(publisher) or self._gid_of(publisher)
+        return gid if publisher in self._gids else b""
 
     def _messages_of(self, taken: list[tuple[bytes, int, int]]) -> list[tuple[bytes, MessageInfo]]:
         """Those that are readable."""
