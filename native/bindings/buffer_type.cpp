@@ -9,6 +9,7 @@
 #include "bytes.hpp"
 #include "errors.hpp"
 #include "inspection.hpp"
+#include "lookup_arguments.hpp"
 #include "transform.hpp"
 
 namespace turtlewire::python {
@@ -21,118 +22,46 @@ using Values = std::array<PyObject*, N>;
 
 // ---------------------------------------------------------------- lookups
 
-PyObject* lookup_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                           PyObject* keywords) {
-  static const Signature<4> signature("lookup_transform", 2,
-                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
-  Values<4> v;
-  Stamp t = 0, timeout = 0;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
-      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
-    return nullptr;
-  }
+template <typename Arguments>
+PyObject* look_up(BufferObject& buffer, const Arguments& arguments) {
   Found found;
-  return buffer->lookup(v[0], v[1], t, timeout, found) ? make_transform(v[0], v[1], found)
-                                                       : nullptr;
+  return arguments.lookup(buffer, found) ? make_transform(arguments.target, arguments.source, found)
+                                         : nullptr;
 }
 
-struct FullArguments {
-  Values<6> v;
-  Stamp target_time = 0, source_time = 0, timeout = 0;
-
-  bool read(const Signature<6>& signature, PyObject* const* arguments, Py_ssize_t count,
-            PyObject* keywords) {
-    return signature.read(arguments, count, keywords, v) &&
-           nanoseconds_of(v[1], target_time, "target_stamp_ns") &&
-           nanoseconds_of(v[3], source_time, "source_stamp_ns") &&
-           nanoseconds_of(v[5], timeout, "timeout_ns");
-  }
-};
-
-constexpr std::array<const char*, 6> kFullNames{"target_frame", "target_stamp_ns",
-                                                "source_frame", "source_stamp_ns",
-                                                "fixed_frame",  "timeout_ns"};
-
-PyObject* lookup_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                                PyObject* keywords) {
-  static const Signature<6> signature("lookup_transform_full", 5, kFullNames);
-  FullArguments a;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
-  Found found;
-  if (!buffer->lookup(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4], a.timeout, found))
-    return nullptr;
-  return make_transform(a.v[0], a.v[2], found);
+template <typename Arguments>
+PyObject* yes_or_no(BufferObject& buffer, const Arguments& arguments) {
+  if (arguments.certainly_can_transform(buffer)) Py_RETURN_TRUE;
+  Failure failure;
+  if (!arguments.can_transform(buffer, failure)) return nullptr;
+  return PyBool_FromLong(failure.status == Status::ok);
 }
 
 PyObject* to_python(const std::string& text) {
   return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
 }
 
-// "" if it can, else tf2's reason; null with a Python error set.
-PyObject* reason(const BufferObject&, bool answered, const Failure& failure) {
-  return answered ? to_python(explain(failure, Question::can_transform)) : nullptr;
-}
-
-PyObject* yes_or_no(bool answered, const Failure& failure) {
-  return answered ? PyBool_FromLong(failure.status == Status::ok) : nullptr;
-}
-
-PyObject* can_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                        PyObject* keywords) {
-  static const Signature<4> signature("can_transform", 2,
-                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
-  Values<4> v;
-  Stamp t = 0, timeout = 0;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
-      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
-    return nullptr;
-  }
-  if (buffer->certainly_can_transform(v[0], v[1], t)) Py_RETURN_TRUE;
+// "" if it can, else tf2's reason.
+template <typename Arguments>
+PyObject* reason(BufferObject& buffer, const Arguments& arguments) {
   Failure failure;
-  return yes_or_no(buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
+  if (!arguments.can_transform(buffer, failure)) return nullptr;
+  return to_python(explain(failure, Question::can_transform));
 }
 
-PyObject* can_transform_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                               PyObject* keywords) {
-  static const Signature<4> signature("can_transform_reason", 2,
-                                      {"target_frame", "source_frame", "stamp_ns", "timeout_ns"});
-  Values<4> v;
-  Stamp t = 0, timeout = 0;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
-      !nanoseconds_of(v[2], t, "stamp_ns") || !nanoseconds_of(v[3], timeout, "timeout_ns")) {
-    return nullptr;
-  }
-  Failure failure;
-  return reason(*buffer, buffer->can_transform(v[0], v[1], t, timeout, failure), failure);
-}
+constexpr char kLookup[] = "lookup_transform";
+constexpr char kLookupFull[] = "lookup_transform_full";
+constexpr char kCan[] = "can_transform";
+constexpr char kCanFull[] = "can_transform_full";
+constexpr char kReason[] = "can_transform_reason";
+constexpr char kReasonFull[] = "can_transform_full_reason";
 
-PyObject* can_transform_full(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                             PyObject* keywords) {
-  static const Signature<6> signature("can_transform_full", 5, kFullNames);
-  FullArguments a;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
-  Failure failure;
-  return yes_or_no(buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4],
-                                         a.timeout, failure),
-                   failure);
-}
+using One = AtOneTime<Nanoseconds>;
+using Two = AtTwoTimes<Nanoseconds>;
 
-PyObject* can_transform_full_reason(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
-                                    PyObject* keywords) {
-  static const Signature<6> signature("can_transform_full_reason", 5, kFullNames);
-  FullArguments a;
-  BufferObject* buffer = buffer_of(self);
-  if (buffer == nullptr || !a.read(signature, arguments, count, keywords)) return nullptr;
-  Failure failure;
-  return reason(*buffer,
-                buffer->can_transform(a.v[0], a.target_time, a.v[2], a.source_time, a.v[4],
-                                      a.timeout, failure),
-                failure);
+template <const char* Method, typename Arguments, auto Answer>
+PyMethodDef question(const char* doc) {
+  return fast_method<with_arguments<Method, Arguments, buffer_of, Answer>>(Method, doc);
 }
 
 // ---------------------------------------------------------------- data in
@@ -291,8 +220,7 @@ int clear_references(PyObject* self) {
 }
 
 PyMethodDef hot_methods[] = {
-    fast_method<lookup_transform>(
-        "lookup_transform",
+    question<kLookup, One, look_up<One>>(
         "lookup_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
         "The pose of source_frame in target_frame at one time: `target_from_source`.\n\n"
         "Args:\n"
@@ -307,29 +235,25 @@ PyMethodDef hot_methods[] = {
         "    LookupException: A frame does not exist.\n"
         "    ConnectivityException: The frames are not in one tree.\n"
         "    ExtrapolationException: The data does not reach the time."),
-    fast_method<lookup_transform_full>(
-        "lookup_transform_full",
+    question<kLookupFull, Two, look_up<Two>>(
         "lookup_transform_full($self, target_frame, target_stamp_ns, source_frame, "
         "source_stamp_ns, fixed_frame, "
         "timeout_ns=0)\n--\n\n"
         "The pose of source_frame at one time in target_frame at another, by way of a frame that "
         "did not move.\n\n"
         "Returns and raises as lookup_transform; the stamp is that of the target."),
-    fast_method<can_transform>(
-        "can_transform",
+    question<kCan, One, yes_or_no<One>>(
         "can_transform($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
         "Whether lookup_transform with the same arguments gives an answer."),
-    fast_method<can_transform_full>("can_transform_full",
-                                    "can_transform_full($self, target_frame, target_stamp_ns, "
-                                    "source_frame, source_stamp_ns, fixed_frame, "
-                                    "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the "
-                                    "same arguments gives an answer."),
-    fast_method<can_transform_reason>(
-        "can_transform_reason",
+    question<kCanFull, Two, yes_or_no<Two>>(
+        "can_transform_full($self, target_frame, target_stamp_ns, "
+        "source_frame, source_stamp_ns, fixed_frame, "
+        "timeout_ns=0)\n--\n\nWhether lookup_transform_full with the "
+        "same arguments gives an answer."),
+    question<kReason, One, reason<One>>(
         "can_transform_reason($self, target_frame, source_frame, stamp_ns=0, timeout_ns=0)\n--\n\n"
         "An empty string if can_transform is true, else tf2's text of why it is not."),
-    fast_method<can_transform_full_reason>(
-        "can_transform_full_reason",
+    question<kReasonFull, Two, reason<Two>>(
         "can_transform_full_reason($self, target_frame, target_stamp_ns, source_frame, "
         "source_stamp_ns, "
         "fixed_frame, timeout_ns=0)\n--\n\n"

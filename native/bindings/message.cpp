@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "buffer.hpp"
+#include "lookup_arguments.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -26,7 +27,7 @@ PyObject* optional_attribute(PyObject* object, PyObject* name) {
 
 bool take_integer(PyObject* value, Stamp& integer) {
   if (value == nullptr) return false;
-  integer = taking_gil([value] { return PyLong_AsLongLong(value); });
+  integer = to_int64(value);
   Py_DECREF(value);
   return integer != -1 || PyErr_Occurred() == nullptr;
 }
@@ -182,47 +183,40 @@ MessageLookup* self_of(PyObject* self) {
   return nb::inst_ptr<MessageLookup>(self);
 }
 
-PyObject* lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count,
-                 PyObject* keywords) {
-  static const Signature<4> signature("lookup", 3,
-                                      {"target_frame", "source_frame", "time", "timeout"});
-  std::array<PyObject*, 4> v;
-  Stamp t = 0, timeout = 0;
-  MessageLookup* self = self_of(object);
-  if (self == nullptr || !signature.read(arguments, count, keywords, v) ||
-      !time_of(v[2], t, "time") || (v[3] != nullptr && !time_of(v[3], timeout, "duration"))) {
-    return nullptr;
+// How the methods call their arguments: ROS times, and a Duration.
+struct RosTimes {
+  static constexpr std::size_t kRequired = 3;
+  static constexpr std::array<const char*, 4> kNames{"target_frame", "source_frame", "time",
+                                                     "timeout"};
+  static constexpr std::array<const char*, 6> kFullNames{
+      "target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"};
+  static bool time(PyObject* object, Stamp& t, const char*) { return time_of(object, t, "time"); }
+  static bool timeout(PyObject* object, Stamp& span, const char*) {
+    return object == nullptr || time_of(object, span, "duration");
   }
+};
+
+template <typename Arguments>
+PyObject* look_up(const MessageLookup& self, const Arguments& arguments) {
   Found found;
-  return self->buffer->lookup(v[0], v[1], t, timeout, found) ? self->maker.make(v[0], v[1], found)
-                                                             : nullptr;
+  return arguments.lookup(*self.buffer, found)
+             ? self.maker.make(arguments.target, arguments.source, found)
+             : nullptr;
 }
 
-PyObject* lookup_full(PyObject* object, PyObject* const* arguments, Py_ssize_t count,
-                      PyObject* keywords) {
-  static const Signature<6> signature(
-      "lookup_full", 5,
-      {"target_frame", "target_time", "source_frame", "source_time", "fixed_frame", "timeout"});
-  std::array<PyObject*, 6> v;
-  Stamp target_time = 0, source_time = 0, timeout = 0;
-  MessageLookup* self = self_of(object);
-  if (self == nullptr || !signature.read(arguments, count, keywords, v) ||
-      !time_of(v[1], target_time, "time") || !time_of(v[3], source_time, "time") ||
-      (v[5] != nullptr && !time_of(v[5], timeout, "duration"))) {
-    return nullptr;
-  }
-  Found found;
-  if (!self->buffer->lookup(v[0], target_time, v[2], source_time, v[4], timeout, found))
-    return nullptr;
-  return self->maker.make(v[0], v[2], found);
+constexpr char kLookup[] = "lookup";
+constexpr char kLookupFull[] = "lookup_full";
+
+template <const char* Method, typename Arguments>
+PyMethodDef lookup(const char* doc) {
+  return fast_method<with_arguments<Method, Arguments, self_of, look_up<Arguments>>>(Method, doc);
 }
 
 PyMethodDef methods[] = {
-    fast_method<lookup>("lookup",
-                        "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
-                        "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
-    fast_method<lookup_full>(
-        "lookup_full",
+    lookup<kLookup, AtOneTime<RosTimes>>(
+        "lookup($self, target_frame, source_frame, time, timeout=None)\n--\n\n"
+        "Buffer.lookup_transform with ROS times, returning a TransformStamped."),
+    lookup<kLookupFull, AtTwoTimes<RosTimes>>(
         "lookup_full($self, target_frame, target_time, source_frame, source_time, fixed_frame, "
         "timeout=None)\n"
         "--\n\nBuffer.lookup_transform_full with ROS times, returning a TransformStamped."),
