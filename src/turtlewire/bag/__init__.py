@@ -36,17 +36,18 @@ module              what it holds
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.message import BagMessage
 from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
 from turtlewire.bag.reader import Bag, open_bag, reindex
-from turtlewire.bag.transform_report import Jump, TransformReport
-from turtlewire.bag.transforms import load_transforms
 from turtlewire.bag.writer import BagWriter
 
 if TYPE_CHECKING:
     from turtlewire.bag.trajectories import load_trajectory, pose_topics
+    from turtlewire.bag.transform_report import Jump, TransformReport
+    from turtlewire.bag.transforms import load_transforms
 
 __all__ = [
     "Bag",
@@ -65,11 +66,19 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    # Trajectories need NumPy, which `ros2 bag info` does not wait for.
-    if name not in {"load_trajectory", "pose_topics"}:
-        raise AttributeError(f"module 'turtlewire.bag' has no attribute {name!r}")
-    from turtlewire.bag import trajectories
+#: What needs NumPy, which `ros2 bag info` does not wait for, and the module that has it.
+_LOADED_WHEN_USED = {
+    "Jump": "transform_report",
+    "TransformReport": "transform_report",
+    "load_trajectory": "trajectories",
+    "load_transforms": "transforms",
+    "pose_topics": "trajectories",
+}
 
-    value = globals()[name] = getattr(trajectories, name)
+
+def __getattr__(name: str) -> object:
+    if name not in _LOADED_WHEN_USED:
+        raise AttributeError(f"module 'turtlewire.bag' has no attribute {name!r}")
+    module = import_module(f"turtlewire.bag.{_LOADED_WHEN_USED[name]}")
+    value = globals()[name] = getattr(module, name)
     return value
