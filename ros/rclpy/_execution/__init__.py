@@ -1,1 +1,14 @@
-"""How executors wait, decide what runs next, and run it; none of it is ROS 2's public surface."""
+"""How executors wait, decide what runs next, and run it; none of it is ROS 2's public surface.
+
+========================  =============================================================
+module                    what it holds
+========================  =============================================================
+`scheduler`, `pool`       finds and runs what is ready; the same with a pool of threads
+`wait`, `timer_queue`     the one wait for wire and timers; timers by their due times
+`entity`                  `Entity` and `Host`: all that an entity knows of its executor
+`running_callbacks`       threads that run callbacks, and which
+`blocking`, `self_waits`  waiting for a response; warnings of deadlocks
+`background_events`       TF messages, stored by other threads, as events
+`exceptions`              reasons for which a wait ends without work
+========================  =============================================================
+"""
