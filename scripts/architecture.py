@@ -187,7 +187,6 @@ def main() -> int:
         print(figures(arguments.root, house))
         return 0
     from architecture_map import draw
-
     from module_index import with_index
 
     page = arguments.root / "ARCHITECTURE.md"

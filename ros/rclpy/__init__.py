@@ -10,6 +10,51 @@
 
 The modules load when they are first used: ``rclpy.time``, ``rclpy.qos`` and all others are
 attributes of the package after ``import rclpy``.
+
+==========================================  ========================================================
+module                                      what it holds
+==========================================  ========================================================
+`node`                                      `Node`; its parts are in `_node`
+`executors`                                 `Executor`; its parts are in `_execution`
+`_node`, `_execution`                       what a node and an executor consist of
+`context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
+`arguments`                                 ROS arguments of the command line
+`publisher`, `subscription`                 endpoints of topics
+`client`, `service`                         endpoints of services
+`timer`, `guard_condition`                  timers; wake-ups by hand
+`waitable`, `handle`                        entities of programs; handles of all entities
+`action`, `lifecycle`                       action clients and servers; lifecycle nodes
+`callback_groups`, `task`                   which callbacks may run together; futures and coroutines
+`clock`, `clock_type`, `time`, `duration`   clocks, times and durations
+`time_source`                               ``use_sim_time``: ROS time from ``/clock``
+`parameter`                                 values and files of parameters
+`parameter_client`                          parameters of another node
+`parameter_service`                         the services of a node's parameters
+`parameter_event_handler`                   callbacks for changed parameters
+`qos`, `qos_policies`                       `QoSProfile`, its policies and presets
+`qos_compatibility`                         whether two profiles match
+`qos_overriding_options`                    QoS set by parameters
+`event_handler`                             events of endpoints: deadlines, matches, lost messages
+`topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
+`logging`, `impl`                           loggers; their outputs, formats and filters
+`logging_service`                           the services of a node's log levels
+`service_introspection`                     events of requests and responses
+`type_description_service`                  the service ``~/get_type_description``
+`signals`, `excepthooks`                    Ctrl-C and SIGTERM; tracebacks at the end of a process
+`exceptions`, `hints`                       rclpy's errors; advice for common mistakes
+`serialization`, `type_support`             messages as bytes; checks of types
+`wait_for_message`                          `wait_for_message`
+`subscription_content_filter_options`       filters by content
+`expand_topic_name`                         full names of topics
+`topic_or_service_is_hidden`                names with a leading underscore
+`validate_topic_name`                       checks of topic names
+`validate_full_topic_name`                  checks of full topic names
+`validate_namespace`, `validate_node_name`  checks of names of nodes
+`validate_parameter_name`                   checks of names of parameters
+`constants`, `experimental`                 names and modules that ROS 2 has, too
+`_typing`                                   type variables of `Publisher`, `Client` and others
+`_rclpy_pybind11`                           the few names of ROS 2's extension that programs use
+==========================================  ========================================================
 """
 
 from __future__ import annotations

@@ -21,6 +21,8 @@ module              what it holds
 `joint_model`       transforms of joints at given positions, as arrays
 `mimic`             joints that follow other joints
 `kinematics`        forward kinematics for many joint states at once
+`frames_writer`     TFMessages in CDR, with other stamps and poses
+`joint_messages`    bytes of a JointState to bytes of a TFMessage
 ==================  ==============================================================
 """
 
