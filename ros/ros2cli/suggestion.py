@@ -45,10 +45,17 @@ def package_meant(name: str) -> str:
 
 
 def interface_meant(name: str, kind: str = "") -> str:
-    """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action."""
+    """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action.
+
+    A name without a package, as ``Twist``, means the interfaces that are called so.
+    """
     from ros2cli.interface_names import interface_names
 
-    return did_you_mean(name, interface_names(kind))
+    known = interface_names(kind)
+    short = {full: full.rpartition("/")[2] for full in known}
+    if "/" not in name and name in short.values():
+        return f"\nDid you mean: {', '.join(full for full in known if short[full] == name)}"
+    return did_you_mean(name, known)
 
 
 def say_what_was_meant(name: str, known: Iterable[str]) -> None:

@@ -38,10 +38,11 @@ def main(args: argparse.Namespace) -> str | None:
             name, comments=not args.no_comments, nested_comments=args.all_comments, depth=0
         ):
             print(line)
-    except (LookupError, OSError) as error:
+    except (LookupError, OSError, ValueError) as error:
         from ros2cli.suggestion import interface_meant
 
-        return f"{error.args[-1]}{interface_meant(name)}"
+        kind = "ValueError: " if isinstance(error, ValueError) else ""
+        return f"{kind}{error.args[-1]}{interface_meant(name)}"
     return None
 
 
