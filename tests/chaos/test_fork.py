@@ -11,8 +11,10 @@ import pytest
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork()")
 
 PROGRAM = """
-import os, threading, warnings
+import os, sys, threading, warnings
 import turtlewire
+
+sys.setswitchinterval(0.0001)  # more changes of threads; the one that forks has its turn sooner
 
 warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12 warns of fork() beside threads
 buffer = turtlewire.Buffer()
