@@ -13,6 +13,7 @@
 
 #include "../core/batch.hpp"
 #include "../core/intake.hpp"
+#include "../core/record_walk.hpp"
 #include "../core/shared_buffer.hpp"
 #include "../core/tf_message.hpp"
 
@@ -379,6 +380,53 @@ void test_malformed_messages(std::size_t rounds) {
   check(counted == rejected, "each malformed message is counted");
 }
 
+// ---------------------------------------------------------------- the chunks of a bag
+
+void append_record(std::vector<unsigned char>& chunk, unsigned char opcode,
+                   const std::vector<unsigned char>& content) {
+  chunk.push_back(opcode);
+  for (int i = 0; i < 8; ++i)
+    chunk.push_back(static_cast<unsigned char>(std::uint64_t{content.size()} >> (8 * i)));
+  chunk.insert(chunk.end(), content.begin(), content.end());
+}
+
+// Channel 1, sequence 0, log time `second`, publish time 0.
+void append_message(std::vector<unsigned char>& chunk, std::int32_t second) {
+  std::vector<unsigned char> content(22, 0);
+  content[0] = 1;
+  content[6] = static_cast<unsigned char>(second);
+  Message message(1);
+  message.add(second, "map", "base", Pose{});
+  content.insert(content.end(), message.bytes.begin(), message.bytes.end());
+  append_record(chunk, 5, content);
+}
+
+void test_record_walk(std::size_t rounds) {
+  const std::vector<TfChannel> channels{{1, "/tf", false}};
+  std::vector<unsigned char> chunk;
+  append_record(chunk, 3, {1, 2, 3});
+  for (std::int32_t second : {10, 11, 12, 5, 6}) append_message(chunk, second);
+  SharedBuffer whole(kForever);
+  RecordWalk walk(6, 12);
+  check(walk.walk(whole, chunk, channels) == RecordWalk::kNoDamage, "a whole chunk");
+  check(walk.messages() == 4, "the message outside of the window is passed over");
+  check(walk.jumps().size() == 1 && walk.jumps()[0].by == 6'000'000'000, "the jump is told");
+  const std::size_t end = chunk.size();
+  chunk.resize(end - 1);
+  check(RecordWalk(0, UINT64_MAX).walk(whole, chunk, channels) < end, "the cut is found");
+
+  Random random(12);
+  std::size_t damaged = 0;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    const std::vector<unsigned char> exact = mutated(chunk, random);  // of exactly their size
+    SharedBuffer shared(kForever);
+    RecordWalk other(0, UINT64_MAX);
+    damaged += other.walk(shared, exact, channels) != RecordWalk::kNoDamage;
+    check(other.messages() <= 5, "no message is made up");
+  }
+  check(damaged > rounds / 10, "damage is found");
+}
+
 // ---------------------------------------------------------------- the intake
 
 std::vector<unsigned char> message_at(std::int32_t second) {
@@ -514,5 +562,6 @@ int main(int count, char** arguments) {
   test_intake();
   test_intake_threads();
   test_malformed_messages(messages);
+  test_record_walk(messages / 10);
   std::puts("all passed");
 }

@@ -98,3 +98,67 @@ def test_chunks_without_transforms_are_not_decompressed(tmp_path, monkeypatch):
     )
     load_transforms(tmp_path / "made")
     assert len(read) == 1
+
+
+def test_a_window_of_datetimes(tmp_path):
+    import numpy as np
+
+    from turtlewire.bag import open_bag
+
+    path = write_bag(tmp_path / "made")
+    start = np.datetime64(START + SECOND // 2, "ns")
+    _, report = load_transforms(path, start_ns=start, end_ns=start + np.timedelta64(250, "ms"))
+    assert report.messages == 1 + 25
+    with open_bag(path) as bag:
+        assert len(list(bag.messages("/tf", start_ns=start))) == 50
+
+
+def test_images_in_a_bag_take_no_memory(tmp_path):
+    """Plain chunks are walked in the file; of compressed ones two are held at a time."""
+    import tracemalloc
+
+    for compression in ("", "zstd"):
+        path = tmp_path / f"made {compression}"
+        with BagWriter(path, compression=compression) as writer:
+            writer.add_topic("/image", "std_msgs/msg/String")
+            writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+            for i in range(60):
+                writer.write("/image", bytes(1_000_000), i)
+                writer.write("/tf", transform(i), i)
+        tracemalloc.start()
+        _, report = load_transforms(path)
+        _, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert report.messages == 60
+        assert peak < (1_000_000 if not compression else 10_000_000)
+
+
+def test_progress_is_drawn_on_a_terminal_after_a_second(monkeypatch):
+    import io
+    import sys
+    import time
+
+    from turtlewire.bag.progress import progress_line
+
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    now = 100.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    tell = progress_line("reading my_bag")
+    tell(0.3)
+    assert sys.stderr.getvalue() == ""
+    now = 102.0
+    tell(0.5)
+    assert sys.stderr.getvalue() == (
+        "\rreading my_bag [###############---------------]  50%, 2 s left\033[K"
+    )
+    tell(1.0)
+    assert sys.stderr.getvalue().endswith("\r\033[K")
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    quiet = progress_line("reading my_bag")
+    now = 104.0
+    quiet(0.5)
+    assert sys.stderr.getvalue() == ""

@@ -194,3 +194,18 @@ def test_wrong_words(pair):
         compare(*pair, "SE3")
     with pytest.raises(ValueError, match="300 and 10 poses; associate them first"):
         ape(pair[0], pair[1][:10])
+
+
+def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
+    from tests.trajectory.conftest import random_walk
+
+    from turtlewire.trajectory import read_kitti, read_trajectory, write_kitti
+
+    walk = random_walk(1, 50)
+    write_kitti(walk, tmp_path / "a.txt")
+    write_kitti(walk[:40], tmp_path / "b.txt")
+    untimed = read_kitti(tmp_path / "a.txt")
+    assert compare(untimed, untimed).ape().statistics.max == 0
+    for other in (read_trajectory(tmp_path / "b.txt"), walk):
+        with pytest.raises(ValueError, match="has no times"):
+            compare(untimed, other)

@@ -20,6 +20,7 @@ from turtlewire.bag.metadata import (
 )
 from turtlewire.bag.storage import StorageFile, open_storage
 from turtlewire.errors import BagError
+from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -175,6 +176,8 @@ class Bag:
             BagError: A topic does not exist; or, after all messages that can be read, a part of the
                 bag is damaged.
         """
+        start_ns = as_nanoseconds(start_ns, "start_ns")
+        end_ns = as_nanoseconds(end_ns, "end_ns")
         wanted = self._wanted(_names(topics), _names(types))
         damage: list[BagError] = []
         for group in _overlapping(self.metadata):

@@ -18,6 +18,7 @@ from turtlewire.bag.storage import McapStorage
 from turtlewire.bag.transform_report import TransformReport, describe, group_jumps
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer, RecordWalk
+from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -52,7 +53,7 @@ def load_transforms(
         path: The bag; see `turtlewire.bag.open_bag`.
         topics: Where transforms were published, ``"/tf"`` or other names.
         static_topics: Where static transforms were published. They are taken whatever the window.
-        start_ns: Log time of the first message to take.
+        start_ns: Log time of the first message to take, in nanoseconds or as ``datetime64``.
         end_ns: Log time of the last message to take.
         cache_time_ns: How much history the buffer keeps; None keeps all.
         progress: Called with the share that was read, from 0 to 1; by default a line is drawn on a
@@ -89,6 +90,8 @@ def fill_buffer(
     progress: Callable[[float], None] | None = None,
 ) -> TransformReport:
     """Read the transforms of a bag into a buffer; see `load_transforms`."""
+    start_ns = as_nanoseconds(start_ns, "start_ns")
+    end_ns = as_nanoseconds(end_ns, "end_ns")
     moving, fixed = _names(topics), _names(static_topics)
     name = os.path.basename(os.path.abspath(path))
     report = TransformReport(name)

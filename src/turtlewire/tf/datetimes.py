@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["nanoseconds", "nanoseconds_array"]
+__all__ = ["as_nanoseconds", "nanoseconds", "nanoseconds_array"]
 
 
 def nanoseconds(time: Any, argument: str) -> int:
@@ -27,6 +27,11 @@ def nanoseconds(time: Any, argument: str) -> int:
     if numpy is None or not isinstance(moment, numpy.datetime64):
         raise TypeError(f"{argument} must be an int of nanoseconds, not {type(time).__name__}")
     return int(nanoseconds_array(numpy.asarray([moment]))[0])
+
+
+def as_nanoseconds(time: Any, argument: str) -> int:
+    """An integer as it is; anything else as `nanoseconds` takes it."""
+    return time if isinstance(time, int) else nanoseconds(time, argument)
 
 
 def nanoseconds_array(times: NDArray[np.datetime64]) -> NDArray[np.int64]:

@@ -101,8 +101,16 @@ def compare(
         The pairs, for APE, RPE and plots.
 
     Raises:
-        ValueError: No stamps match, or the alignment is not possible.
+        ValueError: No stamps match, only one has times, or the alignment is not possible.
     """
+    if reference.timed != estimate.timed or (
+        not reference.timed and len(reference) != len(estimate)
+    ):
+        raise ValueError(
+            "a trajectory without times is compared with one of as many poses that has no times "
+            f"either; these have {len(reference)} and {len(estimate)} poses (KITTI's times are "
+            "read from <name>_times.txt)"
+        )
     rows = associate(reference, estimate, max_diff_ns, offset_ns)
     # The stamps of a pair may repeat (one pose may be the nearest of two): the shorter one's do
     # not.

@@ -110,7 +110,7 @@ def read_kitti(
     matrices = rows.reshape(-1, 3, 4)
     poses = np.hstack((matrices[:, :, 3], quaternions.from_matrices(matrices[:, :, :3])))
     if times is None:
-        return Trajectory(np.arange(len(poses), dtype=np.int64) * _SECOND, poses)
+        return Trajectory(np.arange(len(poses), dtype=np.int64) * _SECOND, poses, timed=False)
     stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")
     if len(stamps) != len(poses):
         raise ValueError(f"{path} has {len(poses)} poses, {times} has {len(stamps)} times")

@@ -34,6 +34,7 @@ class Trajectory:
         frame_id: The frame in which the poses are given; empty if it is not known.
         child_frame_id: The frame that moves; empty if it is not known.
         gaps: Times without data; there are no poses within them.
+        timed: False if the stamps only count the poses, as those of a KITTI file without times.
 
     Raises:
         ValueError: The arrays do not fit together, or hold no unit quaternions.
@@ -44,6 +45,7 @@ class Trajectory:
     frame_id: str = ""
     child_frame_id: str = ""
     gaps: tuple[Gap, ...] = field(default=())
+    timed: bool = True
 
     def __post_init__(self) -> None:
         stamps = as_stamps(self.stamps_ns)
