@@ -20,6 +20,10 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 _GROUP = "turtlewire.executables."
 _RULES_URL = "file:///turtlewire/rosdep.yaml"
 
+#: Packages that pip installs under their ROS names: the prefix makes them known, and `ros2 run` and
+#: `$(find …)` find them.
+_FROM_PYPI = {"xacro": "xacro, from PyPI: macros for XML files, such as URDF."}
+
 _PACKAGE_XML = """<?xml version="1.0"?>
 <package format="3">
   <name>{name}</name>
@@ -51,6 +55,8 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         root = Path(self.root)
         for init in sorted([*root.glob("*/__init__.py"), *root.glob("interfaces/*/__init__.py")]):
             self._add_package(init.parent.name, init.parent)
+        for name, description in _FROM_PYPI.items():
+            self._add_marker(name, description)
         for group, entries in self.metadata.core.entry_points.items():
             if group.startswith(_GROUP):
                 for name, target in entries.items():
@@ -76,7 +82,17 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             ast.get_docstring(ast.parse((source / "__init__.py").read_text(encoding="utf-8")))
             or name
         )
-        description = escape(docstring.splitlines()[0])
+        self._add_marker(name, docstring.splitlines()[0])
+        share = source / "share"
+        for path in share.rglob("*") if share.is_dir() else ():
+            if path.is_file():
+                self._write(
+                    f"share/{name}/{path.relative_to(share).as_posix()}",
+                    path.read_text(encoding="utf-8"),
+                )
+
+    def _add_marker(self, name: str, description: str) -> None:
+        description = escape(description)
         self._write(f"share/ament_index/resource_index/packages/{name}", "")
         self._write(
             f"share/{name}/package.xml",
@@ -85,13 +101,6 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         self._write(
             f"share/{name}/COLCON_IGNORE", ""
         )  # else colcon takes a venv in a workspace for sources
-        share = source / "share"
-        for path in share.rglob("*") if share.is_dir() else ():
-            if path.is_file():
-                self._write(
-                    f"share/{name}/{path.relative_to(share).as_posix()}",
-                    path.read_text(encoding="utf-8"),
-                )
 
     def _add_executable(self, package: str, name: str, target: str) -> None:
         module, function = target.split(":")

@@ -87,7 +87,7 @@ def show(seconds: float | None) -> int:
     launch = Launch()
     try:
         launch.start()
-        from turtlesim.screen import desktop_is_there
+        from turtlewire.web.desktop import desktop_is_there
 
         if desktop_is_there():
             launch.ended.wait(None if seconds is None else seconds)

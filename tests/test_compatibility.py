@@ -259,6 +259,23 @@ Ctrl-C of a verb may end in error lines
   test_compatibility.py test_only_python_packages_are_created
 `ros2 doctor` counts checks
   cli/test_doctor.py test_the_command_says_problems_first_and_fails
+`dependent_joints` have no effect once there is a description
+  joint_state_publisher/test_golden.py test_dependent_joints_outlive_the_description
+a mimic joint of an unknown joint ends joint_state_publisher with `KeyError`
+  joint_state_publisher/test_golden.py test_a_mimic_of_an_unknown_joint_does_not_end_the_node
+a circle of mimic joints ends joint_state_publisher
+  joint_state_publisher/test_golden.py test_a_circle_of_mimics_is_refused
+joint_state_publisher reads COLLADA robots, too
+  joint_state_publisher/test_description.py test_errors
+joint_state_publisher_gui opens a Qt window
+  joint_state_publisher_gui/test_page.py test_a_slider_moves_its_joint_and_those_that_follow
+`rviz2` shows a robot
+  robots/test_urdf_tutorial.py test_every_model_is_displayed
+`ament_cmake` packages need CMake
+  robots/test_urdf_tutorial.py test_the_workspace_is_known
+  turtlewire_ros/test_cmake_data.py test_what_is_installed
+`xacro` in `Command` must be in PATH
+  robots/test_examples.py test_the_walker_walks
 """
 
 

@@ -12,9 +12,7 @@ back: :mod:`turtlesim.page_commands`.
 from __future__ import annotations
 
 import json
-import os
 import struct
-import sys
 import threading
 import time
 from pathlib import Path
@@ -23,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlesim.drawing import RECORD_SIZE, Drawing
 from turtlesim.page_commands import CommandError, Unwatch, Watch, parse_command
 from turtlewire.web import Server
+from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,13 +31,10 @@ if TYPE_CHECKING:
     from turtlesim.page_commands import Command
     from turtlesim.transform_view import TransformView
 
-__all__ = ["DEFAULT_PORT", "Scene", "Screen", "desktop_is_there", "open_browser", "wanted_port"]
+__all__ = ["Scene", "Screen"]
 
 _HEADER = struct.Struct("<5I")
 _PAGE = Path(__file__).parent / "page"
-#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
-#: use.
-DEFAULT_PORT = 7070
 #: With a crowd, a page gets every second tick and interpolates: drawing takes its time.
 _CROWD_TICKS = 2
 #: Time between two looks at the frames [s].
@@ -215,32 +211,3 @@ class _Session:
         return json.dumps(
             {"type": "tf", "frames": transforms.frames(), **watch._asdict(), "relation": relation}
         )
-
-
-def desktop_is_there() -> bool:
-    """Whether the user has a desktop, on which a browser can open."""
-    if sys.platform in ("darwin", "win32"):
-        return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
-
-
-def open_browser(url: str) -> None:
-    """Open the page in the user's browser if there is a desktop and TURTLEWIRE_BROWSER is not 0."""
-    if os.environ.get("TURTLEWIRE_BROWSER") != "0" and desktop_is_there():
-        import webbrowser
-
-        webbrowser.open(url)
-
-
-def wanted_port() -> int:
-    """The port to try first.
-
-    Raises:
-        ValueError: TURTLEWIRE_PORT is no port number.
-    """
-    text = os.environ.get("TURTLEWIRE_PORT", "")
-    if text and not (text.isdecimal() and int(text) < 65536):
-        raise ValueError(
-            f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}"
-        )
-    return int(text or DEFAULT_PORT)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import signal
 import sys
 import threading
@@ -16,7 +15,7 @@ from rclpy.executors import ExternalShutdownException
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
-from turtlewire.keyboard import Keyboard
+from turtlewire.keyboard import Keyboard, foreground_terminal
 
 if TYPE_CHECKING:
     from rclpy.task import Future
@@ -109,7 +108,7 @@ def main(args: list[str] | None = None) -> int:
         )
         return 1
     try:
-        keyboard = Keyboard(_terminal())
+        keyboard = Keyboard(foreground_terminal())
     except OSError:
         _complain(NO_TERMINAL, NO_TERMINAL_HINT)
         return 1
@@ -134,18 +133,6 @@ def main(args: list[str] | None = None) -> int:
             spinner.join()
             node.destroy_node()
     return 0
-
-
-def _terminal() -> int:
-    """Standard input; of a launched process, which has a pipe there, the terminal of the launch."""
-    stdin = 0
-    if os.isatty(stdin):
-        return stdin
-    terminal = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
-    if os.tcgetpgrp(terminal) != os.getpgrp():
-        os.close(terminal)
-        raise OSError("in the background: a read would stop this process")
-    return terminal
 
 
 def _spin(node: CppNode) -> None:

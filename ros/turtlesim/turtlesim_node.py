@@ -266,8 +266,9 @@ class TurtlesimNode(CppNode):
     # The page
 
     def _open_screen(self) -> None:
-        from turtlesim.screen import Screen, open_browser
+        from turtlesim.screen import Screen
         from turtlesim.transform_view import TransformView
+        from turtlewire.web.desktop import open_browser
 
         transforms = TransformView(
             self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds
@@ -331,7 +332,7 @@ def _parse_options(args: list[str]) -> argparse.Namespace:
 
 def _check_port() -> None:
     """End the program if TURTLEWIRE_PORT is wrong, before the node is announced."""
-    from turtlesim.screen import wanted_port
+    from turtlewire.web.desktop import wanted_port
 
     try:
         wanted_port()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["Keyboard"]
+__all__ = ["Keyboard", "foreground_terminal"]
 
 
 class Keyboard:
@@ -97,3 +97,19 @@ class Keyboard:
     def stop(self) -> None:
         """End the present and all later reads. Safe from any thread."""
         os.write(self._wake_write, b"\0")
+
+
+def foreground_terminal() -> int:
+    """Standard input; of a launched process, which has a pipe there, the terminal of the launch.
+
+    Raises:
+        OSError: There is no terminal, or this process is in its background.
+    """
+    stdin = 0
+    if os.isatty(stdin):
+        return stdin
+    terminal = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
+    if os.tcgetpgrp(terminal) != os.getpgrp():
+        os.close(terminal)
+        raise OSError("in the background: a read would stop this process")
+    return terminal

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import queue
-import shutil
 import threading
 import time
 
@@ -16,17 +15,6 @@ from turtlesim.screen import Scene, Screen
 from turtlesim.transform_view import TransformView
 from turtlewire.wire import open_context
 
-CHROMIUM = shutil.which("chromium")
-BROWSER_FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 BLUE = (69, 86, 255)
 
 
@@ -111,18 +99,6 @@ def make_simulator(monkeypatch):
 @pytest.fixture
 def simulator(make_simulator):
     return make_simulator()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    if CHROMIUM is None:
-        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=BROWSER_FLAGS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -72,7 +72,7 @@ class Command(Substitution):
         if on_stderr not in ("fail", "ignore", "warn", "capture"):
             raise SubstitutionFailure("expected one of: 'fail', 'ignore', 'warn' or 'capture'")
         stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
-        command: str | list[str] = line if os.name == "nt" else shlex.split(line)
+        command = line if os.name == "nt" else _found(shlex.split(line))
         try:
             result = subprocess.run(  # noqa: S603
                 command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False
@@ -94,3 +94,18 @@ class Command(Substitution):
             if on_stderr == "warn":
                 logging.get_logger("launch.substitutions.command").warning("%s", message)
         return result.stdout
+
+
+def _found(command: list[str]) -> list[str]:
+    """The command with the path of its program, if that lies beside this interpreter only.
+
+    pip installs programs such as xacro there, and without an activated environment the folder is
+    not in PATH.
+    """
+    import shutil
+    import sysconfig
+
+    if command and shutil.which(command[0]) is None:
+        beside = shutil.which(command[0], path=sysconfig.get_path("scripts"))
+        return [beside or command[0], *command[1:]]
+    return command

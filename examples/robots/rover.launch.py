@@ -1,0 +1,30 @@
+"""The rover, waiting for velocities on ``cmd_vel``: ``ros2 launch rover.launch.py``."""
+
+from __future__ import annotations
+
+import sys
+
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+from launch.substitutions import Command, PathJoinSubstitution, ThisLaunchFileDir
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+
+def generate_launch_description() -> LaunchDescription:
+    """The robot's program, and the robot_state_publisher with the robot's description."""
+    here = ThisLaunchFileDir()
+    xacro = Command(["xacro ", PathJoinSubstitution([here, "rover.urdf.xacro"])])
+    return LaunchDescription(
+        [
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                parameters=[{"robot_description": ParameterValue(xacro, value_type=str)}],
+            ),
+            ExecuteProcess(
+                cmd=[sys.executable, PathJoinSubstitution([here, "rover.py"])],
+                output="screen",
+            ),
+        ]
+    )

@@ -1,0 +1,1 @@
+"""Talkers and listeners on ``chatter``."""

@@ -1,0 +1,10 @@
+"""ROS 2's minimal examples: A service's client in three styles.
+
+==============================  =================================================
+module                          what it holds
+==============================  =================================================
+`client`                        spins until the answer is there
+`client_async`                  looks for the answer between calls of `spin_once`
+`client_async_member_function`  asks in a method of the node
+==============================  =================================================
+"""

@@ -1,0 +1,10 @@
+"""Publishes the joint states of a robot that has no drivers: values by parameter or by topic.
+
+=======================  =====================================
+module                   what it holds
+=======================  =====================================
+`description`            the joints of a URDF or SDF text
+`joint_state_publisher`  `JointStatePublisher`, the node
+`joints`                 joints with their values, without ROS
+=======================  =====================================
+"""

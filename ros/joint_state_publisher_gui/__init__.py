@@ -1,0 +1,11 @@
+"""The joint state publisher with a page in the browser: a slider or a dial for each joint.
+
+===========================  ==================================
+module                       what it holds
+===========================  ==================================
+`joint_state_publisher_gui`  `JointStatePublisherGui`, the node
+`page_commands`              what the page may send
+`screen`                     serves the page
+`sliders`                    positions, shared by node and page
+===========================  ==================================
+"""

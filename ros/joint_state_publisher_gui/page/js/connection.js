@@ -1,0 +1,38 @@
+// The WebSocket to the node, opened again whenever it is lost.
+
+const FIRST_RETRY_MS = 250;
+const LAST_RETRY_MS = 2000;
+
+export class Connection {
+  #socket = null;
+  #retryMs = FIRST_RETRY_MS;
+  #handlers;
+
+  /** `handlers`: onState("live" or "lost"), onMessage(object). */
+  constructor(handlers) {
+    this.#handlers = handlers;
+    this.#open();
+  }
+
+  /** Send a command; says whether it went out. */
+  send(command) {
+    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    this.#socket.send(JSON.stringify(command));
+    return true;
+  }
+
+  #open() {
+    const socket = new WebSocket(`ws://${location.host}/live`);
+    socket.onopen = () => {
+      this.#retryMs = FIRST_RETRY_MS;
+      this.#handlers.onState("live");
+    };
+    socket.onmessage = ({ data }) => this.#handlers.onMessage(JSON.parse(data));
+    socket.onclose = () => {
+      this.#handlers.onState("lost");
+      setTimeout(() => this.#open(), this.#retryMs);
+      this.#retryMs = Math.min(2 * this.#retryMs, LAST_RETRY_MS);
+    };
+    this.#socket = socket;
+  }
+}

@@ -1,0 +1,41 @@
+"""Where a page is shown: the user's browser, and the port to serve it at."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+__all__ = ["DEFAULT_PORT", "desktop_is_there", "open_browser", "wanted_port"]
+
+#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
+#: use.
+DEFAULT_PORT = 7070
+
+
+def desktop_is_there() -> bool:
+    """Whether the user has a desktop, on which a browser can open."""
+    if sys.platform in ("darwin", "win32"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def open_browser(url: str) -> None:
+    """Open the page in the user's browser if there is a desktop and TURTLEWIRE_BROWSER is not 0."""
+    if os.environ.get("TURTLEWIRE_BROWSER") != "0" and desktop_is_there():
+        import webbrowser
+
+        webbrowser.open(url)
+
+
+def wanted_port() -> int:
+    """The port to try first.
+
+    Raises:
+        ValueError: TURTLEWIRE_PORT is no port number.
+    """
+    text = os.environ.get("TURTLEWIRE_PORT", "")
+    if text and not (text.isdecimal() and int(text) < 65536):
+        raise ValueError(
+            f"TURTLEWIRE_PORT is a port number between 0 (any) and 65535, got {text!r}"
+        )
+    return int(text or DEFAULT_PORT)

@@ -1,0 +1,52 @@
+"""A workspace with data packages, built as typed."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BIN = Path(sys.executable).parent
+SOURCES = Path(__file__).parent / "urdf_ws" / "src"
+
+
+@pytest.fixture(scope="session")
+def workspace(tmp_path_factory):
+    """The workspace `urdf_ws`, built by colcon; its `install` folder is `workspace.install`."""
+    if importlib.util.find_spec("colcon_ros") is None:
+        pytest.skip("needs colcon: pip install 'turtlewire-ros[workspace]'")
+    folder = tmp_path_factory.mktemp("urdf_ws")
+    shutil.copytree(SOURCES, folder / "src")
+    done = subprocess.run(
+        [
+            BIN / "colcon",
+            "--log-base",
+            folder / "log",
+            "build",
+            "--event-handlers",
+            "console_direct+",
+        ],
+        cwd=folder,
+        env=os.environ | {"PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+@pytest.fixture
+def sourced(workspace):
+    """Runs a line in a shell that has sourced the workspace."""
+
+    def line(command: str) -> list[str]:
+        setup = f". {workspace}/install/local_setup.bash"
+        return ["bash", "-c", f"export PATH={BIN}:$PATH; {setup} && exec {command}"]
+
+    return line
