@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+
+from turtlewire.tf.buffer import CORE
 
 NATIVE = Path(__file__).parents[2] / "native"
 SANITIZERS = {
@@ -70,3 +73,47 @@ def test_a_build_leaves_nothing_beside_the_sources() -> None:
     ).stdout
     build_files = [line for line in unknown.splitlines() if not line.endswith((".cpp", ".hpp"))]
     assert build_files == []
+
+
+STUB = NATIVE.parent / "src" / "turtlewire" / "_native.pyi"
+
+
+def compared(stub: Path) -> tuple[int, list[str]]:
+    done = subprocess.run(
+        [sys.executable, str(NATIVE.parent / "scripts" / "native_stub.py"), str(stub)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert not done.stderr
+    return done.returncode, done.stdout.splitlines()
+
+
+def test_the_stub_agrees_with_the_module() -> None:
+    code, lines = compared(STUB)
+    assert code == 0, lines
+
+
+@pytest.mark.skipif(CORE != "native", reason="the compiled core is not built here")
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("def wake(self)", "def awake(self)", "Buffer.awake: declared (), built not at all"),
+        (
+            "child_frame: str) -> bool",
+            "child: str) -> bool",
+            "declared (child), built (child_frame)",
+        ),
+        ("stamp_ns: int = 0", "stamp_ns: int = 1", "stamp_ns=1"),
+        ("    @property\n    def messages", "    def messages", "built an attribute"),
+        ("def print_on_abort(pipe: int) -> None: ...", "", "declared not at all, built (pipe)"),
+    ],
+)
+def test_a_stub_that_differs_is_refused(tmp_path: Path, old: str, new: str, fault: str) -> None:
+    text = STUB.read_text(encoding="utf-8")
+    assert old in text
+    changed = tmp_path / "_native.pyi"
+    changed.write_text(text.replace(old, new), encoding="utf-8")
+    code, lines = compared(changed)
+    assert code == 1
+    assert any(fault in line for line in lines), lines

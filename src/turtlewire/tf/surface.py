@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
     from typing import TypeVar
 
+    from numpy.typing import ArrayLike
+
     from turtlewire._native import Buffer, Transform
     from turtlewire.tf.plain.pose import Pose
 
@@ -89,23 +91,33 @@ def bag_report(self: Buffer) -> Any:
 
 
 def trajectory(  # noqa: D417 - self is the buffer
-    self: Buffer, target_frame: str, source_frame: str, **options: Any
+    self: Buffer,
+    target_frame: str,
+    source_frame: str,
+    *,
+    stamps: ArrayLike | None = None,
+    rate_hz: float | None = None,
+    max_gap_ns: int | None = None,
 ) -> Any:
     """The poses of a frame in another over time: a `turtlewire.trajectory.Trajectory`.
 
     Args:
         target_frame: The frame in which the poses are given.
         source_frame: The frame that moves.
-        **options: ``stamps`` (int64 nanoseconds or ``datetime64``), ``rate_hz`` or neither: then
-            each time at which a link on the way has a sample. ``max_gap_ns``: longer pauses are
-            gaps, in which no pose lies. See `turtlewire.trajectory.sample_trajectory`.
+        stamps: The times, int64 nanoseconds or ``datetime64``. Without it and ``rate_hz``: each
+            time at which a link on the way has a sample.
+        rate_hz: Times at this rate instead.
+        max_gap_ns: Longer pauses are gaps, in which no pose lies. See
+            `turtlewire.trajectory.sample_trajectory`.
 
     Raises:
         TransformException: The frames are unknown or not connected.
         ValueError: Nothing moves on the way and no stamps were given.
     """
     sample = import_module("turtlewire.trajectory.sampling").sample_trajectory
-    return sample(self, target_frame, source_frame, **options)
+    return sample(
+        self, target_frame, source_frame, stamps=stamps, rate_hz=rate_hz, max_gap_ns=max_gap_ns
+    )
 
 
 def _length(self: Buffer) -> int:
