@@ -138,6 +138,9 @@ def look():
 looking = threading.Thread(target=look)
 looking.start()
 print("up")
+while not all(node.count_publishers(topic) for topic in ("/clock", "/end")):
+    executor.spin_once(timeout_sec=0.1)
+print("connected")
 while not done.is_set():
     executor.spin_once(timeout_sec=1.0)
 print("now", node.get_clock().now().nanoseconds)
@@ -166,6 +169,7 @@ def test_nodes_live_on_when_simulated_time_jumps(python, ends_well):
                 assert node.context.ok()
                 assert program.process.poll() is None, program.text
                 rclpy.spin_once(node, timeout_sec=0.1)
+        program.wait_for("^connected")  # it may know the publishers later than they know it
         for _ in range(150):
             message = Clock()
             message.clock.sec = drawn.choice([0, -1, -(2**31), 2**31 - 1, drawn.randrange(1000)])

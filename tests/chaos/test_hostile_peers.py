@@ -22,14 +22,17 @@ DATAGRAMS = 20_000
 #: ones.
 KINDS = [0x01, 0x06, 0x07, 0x08, 0x09, 0x0C, 0x0D, 0x0E, 0x0F, 0x12, 0x13, 0x15, 0x16, 0x80, 0xFF]
 
-#: Prints what it hears on /words, until told to end.
+#: Prints what it hears on /words, until told to end. The topic is latched: who speaks ends at once,
+#: and may know the listener before the listener knows who speaks.
 LISTENER = """
 import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 rclpy.init()
 node = rclpy.create_node("listener")
-node.create_subscription(String, "words", lambda message: print("heard", message.data), 10)
+latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+node.create_subscription(String, "words", lambda message: print("heard", message.data), latched)
 print("up")
 try:
     rclpy.spin(node)
@@ -39,12 +42,13 @@ except KeyboardInterrupt:
 #: Publishes large reliable messages to a reader that has stopped, then ends.
 TALKER = """
 import rclpy
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 rclpy.init()
 node = rclpy.create_node("talker")
-publisher = node.create_publisher(String, "words", QoSProfile(depth=5))
+latched = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+publisher = node.create_publisher(String, "words", latched)
 while publisher.get_subscription_count() < 1:
     rclpy.spin_once(node, timeout_sec=0.1)
 print("matched")
@@ -87,11 +91,13 @@ def say(python, word):
         import sys
         import rclpy
         from rclpy.duration import Duration
+        from rclpy.qos import DurabilityPolicy, QoSProfile
         from std_msgs.msg import String
 
         rclpy.init()
         node = rclpy.create_node("speaker")
-        publisher = node.create_publisher(String, "words", 10)
+        latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        publisher = node.create_publisher(String, "words", latched)
         while publisher.get_subscription_count() < 1:
             rclpy.spin_once(node, timeout_sec=0.1)
         publisher.publish(String(data=sys.argv[1]))
