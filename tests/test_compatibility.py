@@ -40,6 +40,8 @@ a static peer that is no known host ends the process
   wire/test_environment.py test_a_static_peer_that_cyclone_would_abort_for_is_left_out_with_one_warning
 `publish()` on a reliable keep-all topic blocks as long as a subscription stands still
   wire/test_scale.py test_a_publisher_gives_up_on_a_subscription_that_stands_still
+datagrams of up to 14.7 kB (Cyclone's default)
+  wire/test_environment.py test_datagrams_are_large_on_loopback_only
 some 30 processes on a host in range `LOCALHOST`
   wire/test_scale.py test_fifty_processes_that_start_at_once_see_each_other
   wire/test_environment.py test_configuration_of_each_range

@@ -4,8 +4,8 @@
 #include <nanobind/stl/pair.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <span>
 #include <stdexcept>
 
 #include "../cyclone/abort.hpp"
@@ -51,10 +51,57 @@ nb::list take(const Library& library, Entity reader, std::int64_t most) {
   return list;
 }
 
-std::int32_t write(Writer& self, const nb::bytes& cdr) {
-  const std::span bytes(reinterpret_cast<const unsigned char*>(cdr.c_str()), cdr.size());
+// The memory of the parts of a message, as long as this lives; made and destroyed with the GIL.
+class Buffers {
+ public:
+  explicit Buffers(PyObject* cdr) {
+    if (!PyTuple_Check(cdr)) {
+      add(cdr);
+      return;
+    }
+    const auto count = static_cast<std::size_t>(PyTuple_GET_SIZE(cdr));
+    if (count > Writer::kMostParts) {
+      joined_ = nb::bytes("", 0).attr("join")(nb::handle(cdr));
+      add(joined_.ptr());
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      add(PyTuple_GET_ITEM(cdr, static_cast<Py_ssize_t>(i)));
+  }
+  Buffers(const Buffers&) = delete;
+  Buffers& operator=(const Buffers&) = delete;
+  ~Buffers() { release(); }
+
+  std::size_t size() const { return count_; }
+  Writer::Parts parts() const {
+    Writer::Parts parts;
+    for (std::size_t i = 0; i < count_; ++i)
+      parts[i] = cyclone::block(views_[i].buf, static_cast<std::size_t>(views_[i].len));
+    return parts;
+  }
+
+ private:
+  void add(PyObject* part) {
+    if (PyObject_GetBuffer(part, &views_[count_], PyBUF_SIMPLE) != 0) {
+      release();  // the destructor of what was not made is not called
+      throw nb::python_error();
+    }
+    ++count_;
+  }
+  void release() {
+    while (count_ > 0) PyBuffer_Release(&views_[--count_]);
+  }
+
+  nb::object joined_;
+  std::array<Py_buffer, Writer::kMostParts> views_;
+  std::size_t count_ = 0;
+};
+
+std::int32_t write(Writer& self, nb::handle cdr) {
+  const Buffers buffers(cdr.ptr());
+  Writer::Parts parts = buffers.parts();
   const Unlocked unlocked;
-  return self.write(bytes);
+  return self.write(parts, buffers.size());
 }
 
 }  // namespace
@@ -82,9 +129,9 @@ void add_cyclone_types(nb::module_& module) {
                      "    sertype: Address of its ddsi_sertype.")
       .def(nb::init<const Library&, Entity, std::uintptr_t>(), "library"_a, "writer"_a, "sertype"_a)
       .def("write", &write, "cdr"_a,
-           "Send a message without the GIL; a negative code if that failed: one of Cyclone's, "
-           "-1001 for\nbytes that are no message, -1002 after close(), -1003 if Cyclone makes no "
-           "sample of them.")
+           "Send a message, which is one buffer or a tuple of the buffers that make it up, without\n"
+           "the GIL. A negative code if that failed: one of Cyclone's, -1001 for bytes that are no\n"
+           "message, -1002 after close(), -1003 if Cyclone makes no sample of them.")
       .def("close", &Writer::close, "To be called before the writer is deleted.");
   nb::class_<Inlet>(
       module, "CycloneInlet",

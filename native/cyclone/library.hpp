@@ -29,6 +29,13 @@ using BlockCount = int;
 #endif
 #endif
 
+inline Block block(const void* start, std::size_t size) {
+  Block made = {};
+  made.start = start;
+  made.size = static_cast<decltype(Block::size)>(size);
+  return made;
+}
+
 // The addresses of the functions of Library, in their order.
 using Addresses = std::array<std::uintptr_t, 7>;
 

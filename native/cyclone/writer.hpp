@@ -1,9 +1,9 @@
 // Bytes to a DDS writer.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <mutex>
-#include <span>
 
 #include "library.hpp"
 
@@ -19,10 +19,19 @@ class Writer {
   Writer(const Library& library, Entity writer, std::uintptr_t type)
       : library_(library), writer_(writer), type_(reinterpret_cast<const void*>(type)) {}
 
-  // Sends a message with its encapsulation; a negative code if that failed. May block.
-  std::int32_t write(std::span<const unsigned char> cdr) {
-    if (cdr.size() <= kHeader || cdr[0] != 0 || cdr[1] != 1) return kNoMessage;
-    void* const sample = sample_of(cdr);
+  // Room for the parts of a message and for the padding behind them.
+  static constexpr std::size_t kMostParts = 15;
+  using Parts = std::array<Block, kMostParts + 1>;
+
+  // Sends a message, whose first part begins with its encapsulation, and copies it once, into
+  // Cyclone's sample; a negative code if that failed. May block.
+  std::int32_t write(Parts& parts, std::size_t count) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) size += parts[i].size;
+    if (size <= kHeader || parts[0].size < kHeader) return kNoMessage;
+    const auto* const start = static_cast<const unsigned char*>(parts[0].start);
+    if (start[0] != 0 || start[1] != 1) return kNoMessage;
+    void* const sample = sample_of(parts, count, size);
     if (sample == nullptr) return closed_ ? kClosed : kRefused;
     return library_.write(writer_, sample);
   }
@@ -37,17 +46,14 @@ class Writer {
   static constexpr std::size_t kHeader = 4;
   static constexpr int kData = 2;  // SDK_DATA
 
-  void* sample_of(std::span<const unsigned char> cdr) {
+  void* sample_of(Parts& parts, std::size_t count, std::size_t size) {
     static constexpr unsigned char kZeros[4] = {};
-    const std::size_t padding = -cdr.size() & 3;  // Cyclone sends multiples of four bytes
-    Block blocks[2] = {};
-    blocks[0].start = cdr.data();
-    blocks[0].size = static_cast<decltype(Block::size)>(cdr.size());
-    blocks[1].start = kZeros;
-    blocks[1].size = static_cast<decltype(Block::size)>(padding);
+    const std::size_t padding = -size & 3;  // Cyclone sends multiples of four bytes
+    if (padding != 0) parts[count++] = block(kZeros, padding);
     const std::scoped_lock lock(mutex_);
     if (closed_) return nullptr;
-    return library_.make(type_, kData, padding == 0 ? 1 : 2, blocks, cdr.size() + padding);
+    return library_.make(type_, kData, static_cast<BlockCount>(count), parts.data(),
+                         size + padding);
   }
 
   const Library library_;

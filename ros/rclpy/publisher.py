@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire.errors import WireError
-from turtlewire.msg import serialize
+from turtlewire.msg import encode
 from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
@@ -76,7 +76,7 @@ class Publisher(Generic[MsgT]):
             if not (self._sends_always or self._wire.is_heard()):
                 self._check_context()
                 return
-            cdr = serialize(msg)
+            cdr = encode(msg)
         elif isinstance(msg, bytes):
             cdr = msg
         else:

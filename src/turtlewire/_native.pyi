@@ -6,6 +6,7 @@ from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
+from typing_extensions import Buffer as AnyBuffer
 from typing_extensions import Self
 
 from turtlewire.bag.transform_report import TransformReport
@@ -268,7 +269,7 @@ class Cyclone:
 
 class CycloneWriter:
     def __init__(self, library: Cyclone, writer: int, sertype: int) -> None: ...
-    def write(self, cdr: bytes) -> int: ...
+    def write(self, cdr: AnyBuffer | tuple[AnyBuffer, ...]) -> int: ...
     def close(self) -> None: ...
 
 class CycloneInlet:

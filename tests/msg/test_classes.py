@@ -133,6 +133,19 @@ def test_numbers_in_bulk_are_converted_at_assignment():
     assert pose.covariance[35] == 35.0
 
 
+@pytest.mark.parametrize("received", [False, True])
+def test_a_fixed_array_is_the_same_numpy_array_at_every_look_and_may_be_changed(received):
+    pose = PoseWithCovariance()
+    if received:
+        pose = msg.deserialize(PoseWithCovariance, msg.serialize(pose))
+    assert type(pose.covariance) is np.ndarray
+    assert pose.covariance.dtype == np.float64
+    assert pose.covariance is pose.covariance
+    pose.covariance[7] = 2.5
+    assert msg.deserialize(PoseWithCovariance, msg.serialize(pose)).covariance[7] == 2.5
+    assert PoseWithCovariance().covariance[7] == 0.0
+
+
 def test_a_byte_is_bytes_of_length_one():
     assert Byte().data == b"\x00"
     assert msg.deserialize(Byte, msg.serialize(Byte(data=b"\xff"))).data == b"\xff"

@@ -33,6 +33,10 @@ HEAVY = {
             "msg.deserialize(cls, msg.serialize(cls()))"
         ),
         "from geometry_msgs.msg import TransformStamped; TransformStamped()",
+        (
+            "from turtlewire import msg; cls = msg.get_message('sensor_msgs/msg/Imu'); "
+            "msg.serialize(msg.deserialize(cls, msg.serialize(cls())))"
+        ),
         "from turtlewire import msg; msg.type_hash('rcl_interfaces/srv/SetParameters_Request')",
         "import rosidl_runtime_py.utilities",
     ],

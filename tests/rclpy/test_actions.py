@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from action_msgs.msg import GoalInfo, GoalStatus
+from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
 from builtin_interfaces.msg import Time as TimeMsg
 from example_interfaces.action import Fibonacci
@@ -24,6 +24,7 @@ from rclpy.action.client import ClientGoalHandle
 from rclpy.action.server import ServerGoalHandle
 from rclpy.context import Context
 from rclpy.executors import MultiThreadedExecutor
+from rclpy.qos import qos_profile_action_status_default
 from rclpy.task import Future
 from std_msgs.msg import Int32
 from unique_identifier_msgs.msg import UUID
@@ -300,8 +301,8 @@ def test_results_are_forgotten_after_their_time(serve, client, finish, executor)
     server = serve(count, result_timeout=0.05)
     handle = send(client, finish)
     finish(handle.get_result_async())
-    assert len(server._goal_handles) == 1
-    while server._goal_handles:
+    assert len(server._goals) == 1
+    while server._goals:
         executor.spin_once(timeout_sec=10)
     assert finish(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
 
@@ -310,13 +311,14 @@ def test_states_are_published_also_for_late_joiners(serve, client, finish, node,
     serve(count)
     handle = send(client, finish)
     finish(handle.get_result_async())
-    late = ActionClient(node, Fibonacci, "fibonacci")
     seen = []
-    late._status.callback = seen.append
+    node.create_subscription(
+        GoalStatusArray, "fibonacci/_action/status", seen.append, qos_profile_action_status_default
+    )
     spin_until(lambda: seen)
     assert [state.status for state in seen[-1].status_list] == [GoalStatus.STATUS_SUCCEEDED]
     assert seen[-1].status_list[0].goal_info.goal_id == handle.goal_id
-    late.destroy()
+    assert seen[-1].status_list[0].goal_info.stamp == handle.stamp
 
 
 def test_blocking_calls(node, serve, client):

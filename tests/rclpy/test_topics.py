@@ -183,7 +183,7 @@ def test_depth_keeps_the_newest(context, node, executor):
 def test_what_is_not_encoded_while_nobody_listens(context, node, monkeypatch):
     encoded = []
     monkeypatch.setattr(
-        "rclpy.publisher.serialize",
+        "rclpy.publisher.encode",
         lambda message: encoded.append(message) or b"\x00\x01\x00\x00\x01\x00\x00\x00",
     )
     volatile = node.create_publisher(Int32, "volatile", 10)

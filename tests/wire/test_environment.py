@@ -135,6 +135,14 @@ def test_localhost_uses_nothing_but_the_loopback_interface():
     assert interfaces(configuration(Discovery(Range.SUBNET, ()))) == []
 
 
+def test_datagrams_are_large_on_loopback_only():
+    def largest(*discovery) -> str | None:
+        return configuration(Discovery(*discovery)).findtext("General/MaxMessageSize")
+
+    assert largest(Range.LOCALHOST, ()) == largest(Range.OFF, ()) == "65500B"
+    assert largest(Range.LOCALHOST, ("10.0.0.1",)) is largest(Range.SUBNET, ()) is None
+
+
 def test_configuration_of_each_range():
     local = configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))
     assert local.findtext("General/AllowMulticast") == "false"

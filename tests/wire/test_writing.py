@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from array import array
 
 import pytest
 
@@ -50,6 +51,32 @@ def test_bytes_arrive_padded_to_four(pair, size):
     assert writer.write(message) == 0
     [(data, _)] = subscription.take()
     assert data == message + bytes(-len(message) % 4)
+
+
+@pytest.mark.parametrize("count", [1, 2, 14, 15, 16, 40])
+def test_the_parts_of_a_message_arrive_as_one(pair, count):
+    writer, subscription = pair
+    parts = [array("H", range(index)) for index in range(count)]
+    assert writer.write((bytearray(b"\0\1\0\0text"), *parts)) == 0
+    [(data, _)] = subscription.take()
+    message = b"\0\1\0\0text" + b"".join(parts)
+    assert data == message + bytes(-len(message) % 4)
+
+
+def test_the_parts_of_a_message_may_change_after_it_was_sent(pair):
+    writer, subscription = pair
+    numbers = array("I", [1, 2, 3])
+    assert writer.write((b"\0\1\0\0", numbers)) == 0
+    numbers.append(4)  # BufferError while anything holds its memory
+    [(data, _)] = subscription.take()
+    assert data == b"\0\1\0\0" + numbers[:3].tobytes()
+
+
+@pytest.mark.parametrize("cdr", [None, 3, "text", (b"\0\1\0\0", 3)])
+def test_what_has_no_memory_is_refused(pair, cdr):
+    writer, _ = pair
+    with pytest.raises(TypeError):
+        writer.write(cdr)
 
 
 @pytest.mark.parametrize("data", [b"", b"\0\1\0\0", b"\0\0\0\0abcd", b"\1\1\0\0abcd"])

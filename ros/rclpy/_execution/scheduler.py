@@ -74,6 +74,7 @@ class Scheduler:
         self._running = RunningCallbacks()
         self._self_waits = SelfWaits()
         self._spinning_thread: int | None = None
+        self._collecting = False
         self._response_awaited: Future[Any] | None = None
         context.on_shutdown(self.wake)
         context.note_scheduler(self)
@@ -121,7 +122,10 @@ class Scheduler:
     def _schedule(self, task: Task[Any]) -> None:
         with self.lock:
             self._tasks.append(task)
-        self.wake()
+        # A callback of the spinning thread needs no wake-up: that thread looks at the tasks before
+        # it waits. A signal handler or finalizer may run after it has looked.
+        if self._collecting or not self.is_spun_by_this_thread():
+            self.wake()
 
     # Finding the next thing to run
 
@@ -203,6 +207,7 @@ class Scheduler:
 
     def _collect(self, timeout_ns: int | None) -> None:
         """Wait until something is ready, and line it up in ROS 2's order."""
+        self._collecting = True
         tasks: list[Task[Any]] = []
         if self._response_awaited is None:
             with self.lock:
@@ -210,6 +215,7 @@ class Scheduler:
             if not self.serves_endlessly or self._running.of_this_thread():
                 self.wait.expect_background()
         entities = self.wait.wait(0 if tasks else self._self_waits.bounded(timeout_ns))
+        self._collecting = False
         self._self_waits.warn()
         self._ready.extend(reversed(tasks))
         self._ready.extend(entities)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 import weakref
 from collections import deque
@@ -14,7 +13,10 @@ from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile
 from rclpy.task import Future
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
+from turtlewire.errors import CdrError
 
+from ._goal_ids import goal_key, random_goal_id
+from ._goal_statuses import read_statuses
 from .goal_state import ACTIVE_STATES
 
 if TYPE_CHECKING:
@@ -49,11 +51,11 @@ class ClientGoalHandle:
         return isinstance(other, ClientGoalHandle) and self._goal_id == other.goal_id
 
     def __hash__(self) -> int:
-        return hash(bytes(self._goal_id.uuid))
+        return hash(goal_key(self._goal_id))
 
     def __repr__(self) -> str:
         return (
-            f"ClientGoalHandle <id={bytes(self._goal_id.uuid).hex()}, accepted={self.accepted}, "
+            f"ClientGoalHandle <id={goal_key(self._goal_id).hex()}, accepted={self.accepted}, "
             f"status={self.status}>"
         )
 
@@ -159,7 +161,12 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             group,
         )
         self._status = subscribe(
-            impl.GoalStatusMessage, f"{name}/status", self._on_status, status_sub_qos_profile, group
+            impl.GoalStatusMessage,
+            f"{name}/status",
+            self._on_status,
+            status_sub_qos_profile,
+            group,
+            raw=True,
         )
         self._parts = [
             self._goal_client,
@@ -225,9 +232,9 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             )
             raise with_hint(TypeError(), hint)
         request = self._action_type.Impl.SendGoalService.Request(
-            goal=goal, goal_id=goal_uuid or _random_uuid()
+            goal=goal, goal_id=goal_uuid or random_goal_id()
         )
-        goal_id = bytes(request.goal_id.uuid)
+        goal_id = goal_key(request.goal_id)
         if feedback_callback is not None:
             self._feedback_callbacks[goal_id] = feedback_callback
         future = Future()
@@ -245,7 +252,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             future.cancel()
             return
         handle = ClientGoalHandle(self, goal_id, response.result())
-        key = bytes(goal_id.uuid)
+        key = goal_key(goal_id)
         if handle.accepted:
             with self._lock:
                 if key in self._goal_handles:
@@ -303,30 +310,29 @@ class ActionClient(Waitable, Generic[ActionT_co]):
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:
         if response.done() and not response.cancelled() and response._exception is None:
             goal_handle._status = response.result().status
-            self._finished.append(bytes(goal_handle.goal_id.uuid))
+            self._finished.append(goal_key(goal_handle.goal_id))
             if len(self._finished) > _FINISHED_GOALS:
                 self._feedback_callbacks.pop(self._finished.popleft(), None)
 
     def _on_feedback(self, message: Any) -> Any:
-        callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))
+        callback = self._feedback_callbacks.get(goal_key(message.goal_id))
         return None if callback is None else callback(message)
 
-    def _on_status(self, message: Any) -> None:
-        for state in message.status_list:
-            key = bytes(state.goal_info.goal_id.uuid)
+    def _on_status(self, cdr: bytes) -> None:
+        with self._lock:
+            goals = list(self._goal_handles)
+        try:
+            states = read_statuses(cdr, goals)
+        except CdrError as error:
+            self._node.get_logger().error(
+                f"Ignoring a malformed message on topic '{self._status.topic}': {error}",
+                throttle_duration_sec=5.0,
+            )
+            return
+        for key, status in states:
             handle = self._goal_handles.get(key)
             if handle is not None:
-                handle._status = state.status
-            if state.status not in ACTIVE_STATES:
+                handle._status = status
+            if status not in ACTIVE_STATES:
                 with self._lock:
                     self._goal_handles.pop(key, None)
-
-
-def _random_uuid() -> Any:
-    """A random UUID, version 4."""
-    from turtlewire.msg import get_message
-
-    value = bytearray(os.urandom(16))
-    value[6] = value[6] & 0x0F | 0x40
-    value[8] = value[8] & 0x3F | 0x80
-    return get_message("unique_identifier_msgs/msg/UUID")(uuid=value)

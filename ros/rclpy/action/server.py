@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,10 @@ from rclpy.service import Service
 from rclpy.timer import Timer
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
+from turtlewire.msg import get_message
 
+from ._goal_ids import goal_key
+from ._goals import Goal, Goals
 from .goal_state import GoalEvent
 from .server_goal_handle import ServerGoalHandle
 
@@ -125,8 +127,8 @@ class ActionServer(Waitable):
         self._action_type = action_type
         self._action_name = action_name
         self._logger = node.get_logger().get_child("action_server")
-        self._lock = threading.Lock()
-        self._goal_handles: dict[bytes, ServerGoalHandle] = {}
+        self._goals = Goals(self._publish_statuses, self._publish_feedback, self._now_ns)
+        self._expires_ns: int | None = None
         self._result_timeout_ns = int(result_timeout * 1_000_000_000)
         self.register_goal_callback(goal_callback)
         self.register_handle_accepted_callback(handle_accepted_callback)
@@ -223,22 +225,22 @@ class ActionServer(Waitable):
     # Goals
 
     async def _on_goal(self, header: RequestId, request: Any) -> None:
-        impl = self._action_type.Impl
-        goal_id = bytes(request.goal_id.uuid)
-        accepted = goal_id not in self._goal_handles and await self._is_accepted(request.goal)
-        response = impl.SendGoalService.Response(accepted=accepted)
-        if accepted:
-            response.stamp = self._node.get_clock().now().to_msg()
-            goal_info = _message("action_msgs/msg/GoalInfo")(
-                goal_id=request.goal_id, stamp=response.stamp
-            )
-            goal_handle = ServerGoalHandle(self, goal_info, request.goal)
-            with self._lock:
-                self._goal_handles[goal_id] = goal_handle
+        is_new = self._goals.find(goal_key(request.goal_id)) is None
+        accepted = is_new and await self._is_accepted(request.goal)
+        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted)
+        if not accepted:
+            self._goal_service.send_response(response, header)
+            return
+        response.stamp = self._node.get_clock().now().to_msg()
+        info = get_message("action_msgs/msg/GoalInfo")(
+            goal_id=request.goal_id, stamp=response.stamp
+        )
+        goal = Goal(info, request.goal)
+        goal_handle = ServerGoalHandle(self, goal, self._goals)
+        self._goals.add(goal, goal_handle)
         self._goal_service.send_response(response, header)
-        if accepted:
-            self._publish_status()
-            await await_or_execute(self._handle_accepted_callback, goal_handle)
+        self._goals.publish_statuses()
+        await await_or_execute(self._handle_accepted_callback, goal_handle)
 
     async def _is_accepted(self, goal: Any) -> bool:
         decision = await await_or_execute(self._goal_callback, goal)
@@ -259,14 +261,17 @@ class ActionServer(Waitable):
             raise RuntimeError(
                 f"The node {self._node.get_name()} is in no executor that could execute the goal"
             )
+        goal = self._goals.find(goal_key(goal_handle.goal_id))
         executor.create_task(
-            self._execute_goal, execute_callback or self._execute_callback, goal_handle
+            self._execute_goal, execute_callback or self._execute_callback, goal_handle, goal
         )
 
     async def _execute_goal(
-        self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle
+        self,
+        execute_callback: Callable[[ServerGoalHandle], Any],
+        goal_handle: ServerGoalHandle,
+        goal: Goal | None,
     ) -> None:
-        goal_id = goal_handle.goal_id.uuid
         try:
             result = await await_or_execute(execute_callback, goal_handle)
         except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
@@ -276,12 +281,15 @@ class ActionServer(Waitable):
 
             traceback.print_exc()
         if goal_handle.is_active:
+            goal_id = goal_handle.goal_id.uuid
             self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_id}")
             goal_handle.abort()
+        if goal is None:  # destroyed before it was executed: no client can ask for its result
+            return
         response = self._action_type.Impl.GetResultService.Response(
             status=goal_handle.status, result=result
         )
-        goal_handle._result.set_result(response)
+        goal.result.set_result(response)
 
     def notify_goal_done(self) -> None:
         """A goal has finished: see to it that its result is dropped in time."""
@@ -290,13 +298,13 @@ class ActionServer(Waitable):
     # Results
 
     def _on_result(self, header: RequestId, request: Any) -> None:
-        goal_handle = self._goal_handles.get(bytes(request.goal_id.uuid))
-        if goal_handle is None:
+        goal = self._goals.find(goal_key(request.goal_id))
+        if goal is None:
             self._result_service.send_response(
                 self._action_type.Impl.GetResultService.Response(), header
             )
         else:
-            goal_handle._result.add_done_callback(partial(self._send_result, header))
+            goal.result.add_done_callback(partial(self._send_result, header))
 
     def _send_result(self, header: RequestId, result: Future) -> None:
         if not self._destroyed:
@@ -305,81 +313,65 @@ class ActionServer(Waitable):
     def _schedule_expiry(self) -> None:
         if self._result_timeout_ns < 0 or self._destroyed:
             return
-        with self._lock:
-            finished = [
-                handle._finished_ns
-                for handle in self._goal_handles.values()
-                if handle._finished_ns is not None
-            ]
-        if finished:
-            self._expiry.timer_period_ns = max(
-                0, min(finished) + self._result_timeout_ns - self._now_ns()
-            )
-            self._expiry.reset()
-        else:
+        first_end_ns = self._goals.first_end_ns()
+        if first_end_ns is None:
+            self._expires_ns = None
             self._expiry.cancel()
+            return
+        expires_ns = first_end_ns + self._result_timeout_ns
+        if expires_ns != self._expires_ns:  # it is set already for most goals that end
+            self._expires_ns = expires_ns
+            self._expiry.timer_period_ns = max(0, expires_ns - self._now_ns())
+            self._expiry.reset()
 
     def _expire_goals(self) -> None:
-        limit_ns = self._now_ns() - self._result_timeout_ns
-        with self._lock:
-            for goal_id, handle in list(self._goal_handles.items()):
-                if handle._finished_ns is not None and handle._finished_ns <= limit_ns:
-                    del self._goal_handles[goal_id]
+        self._goals.forget_those_finished_by(self._now_ns() - self._result_timeout_ns)
+        self._expires_ns = None
         self._schedule_expiry()
-
-    def _forget(self, goal_handle: ServerGoalHandle) -> None:
-        with self._lock:
-            self._goal_handles.pop(bytes(goal_handle.goal_id.uuid), None)
 
     # Cancelling
 
     async def _on_cancel(self, header: RequestId, request: Any) -> None:
         response = self._action_type.Impl.CancelGoalService.Response()
         wanted, response.return_code = self._goals_to_cancel(request.goal_info)
-        for goal_handle in wanted:
-            if (
-                await await_or_execute(self._cancel_callback, goal_handle)
-                is not CancelResponse.ACCEPT
-                or not goal_handle.is_active
-            ):
+        for goal, goal_handle in wanted:
+            decision = await await_or_execute(self._cancel_callback, goal_handle)
+            if decision is not CancelResponse.ACCEPT or not goal.is_active:
                 continue
             if not goal_handle.is_cancel_requested:
-                goal_handle._update_state(GoalEvent.CANCEL_GOAL)
-            response.goals_canceling.append(goal_handle._goal_info)
+                self._goals.advance(goal, GoalEvent.CANCEL_GOAL)
+            response.goals_canceling.append(goal.info)
         if wanted and not response.goals_canceling:
             response.return_code = response.ERROR_REJECTED
         self._cancel_service.send_response(response, header)
 
-    def _goals_to_cancel(self, wanted: Any) -> tuple[list[ServerGoalHandle], int]:
+    def _goals_to_cancel(self, wanted: Any) -> tuple[list[tuple[Goal, ServerGoalHandle]], int]:
         """Active goals that a cancel request means, and the code of its response.
 
         No id and no stamp mean all goals, a stamp all that were accepted until then, an id that
         goal; both are joined.
         """
         response = self._action_type.Impl.CancelGoalService.Response
-        goal_id = bytes(wanted.goal_id.uuid)
+        key = goal_key(wanted.goal_id)
         stamp = (wanted.stamp.sec, wanted.stamp.nanosec)
-        with self._lock:
-            goals = dict(self._goal_handles)
-        if any(goal_id) and stamp == (0, 0):
-            goal = goals.get(goal_id)
-            if goal is None:
+        goals = self._goals.all()
+        if any(key) and stamp == (0, 0):
+            named = [pair for pair in goals if pair[0].key == key]
+            if not named:
                 return [], response.ERROR_UNKNOWN_GOAL_ID
-            return (
-                ([goal], response.ERROR_NONE)
-                if goal.is_active
-                else ([], response.ERROR_GOAL_TERMINATED)
-            )
+            if not named[0][0].is_active:
+                return [], response.ERROR_GOAL_TERMINATED
+            return named, response.ERROR_NONE
         found = []
-        for key, goal in goals.items():
-            accepted = (goal._goal_info.stamp.sec, goal._goal_info.stamp.nanosec)
-            if goal.is_active and (stamp == (0, 0) or accepted <= stamp or key == goal_id):
-                found.append(goal)
+        for goal, handle in goals:
+            accepted = (goal.info.stamp.sec, goal.info.stamp.nanosec)
+            if goal.is_active and (stamp == (0, 0) or accepted <= stamp or goal.key == key):
+                found.append((goal, handle))
         return found, response.ERROR_NONE
 
     # Publishing
 
-    def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
+    def _publish_feedback(self, goal: Goal, feedback: Any) -> None:
         if not isinstance(feedback, self._action_type.Feedback):
             hint = (
                 f"Feedback of action '{self._action_name}' is a "
@@ -388,17 +380,12 @@ class ActionServer(Waitable):
             raise with_hint(TypeError(), hint)
         if not self._destroyed:
             self._feedback_publisher.publish(
-                self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback)
+                self._action_type.Impl.FeedbackMessage(goal_id=goal.info.goal_id, feedback=feedback)
             )
 
-    def _publish_status(self) -> None:
-        if self._destroyed:
-            return
-        goal_status = _message("action_msgs/msg/GoalStatus")
-        with self._lock:
-            goals = list(self._goal_handles.values())
-        states = [goal_status(goal_info=goal._goal_info, status=goal.status) for goal in goals]
-        self._status_publisher.publish(self._action_type.Impl.GoalStatusMessage(status_list=states))
+    def _publish_statuses(self, cdr: bytes) -> None:
+        if not self._destroyed:
+            self._status_publisher.publish(cdr)
 
     def _now_ns(self) -> int:
         return self._node.get_clock().now().nanoseconds
@@ -407,9 +394,3 @@ class ActionServer(Waitable):
         super()._close()
         self._feedback_publisher.destroy()
         self._status_publisher.destroy()
-
-
-def _message(name: str) -> Any:
-    from turtlewire.msg import get_message
-
-    return get_message(name)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import threading
 from typing import TYPE_CHECKING, Any
 
-from rclpy.task import Future
-
-from .goal_state import ACTIVE_STATES, GoalEvent, next_state
+from .goal_state import GoalEvent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ._goals import Goal, Goals
     from .server import ActionServer
 
 __all__ = ["ServerGoalHandle"]
@@ -20,50 +18,46 @@ __all__ = ["ServerGoalHandle"]
 class ServerGoalHandle:
     """A goal that the server has accepted. Thread-safe."""
 
-    def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:
+    def __init__(self, action_server: ActionServer, goal: Goal, goals: Goals) -> None:
         self._action_server = action_server
-        self._goal_info = goal_info
-        self._goal_request = goal_request
-        self._status = 1
-        self._lock = threading.Lock()
-        self._finished_ns: int | None = None
-        self._result = Future()
+        self._goal = goal
+        self._goals = goals
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
 
     def __hash__(self) -> int:
-        return hash(bytes(self.goal_id.uuid))
+        return hash(self._goal.key)
 
     @property
     def request(self) -> Any:
         """The goal, as the client sent it."""
-        return self._goal_request
+        return self._goal.request
 
     @property
     def goal_id(self) -> Any:
         """Identifies the goal (``unique_identifier_msgs/msg/UUID``)."""
-        return self._goal_info.goal_id
+        return self._goal.info.goal_id
 
     @property
     def is_active(self) -> bool:
         """Whether it is not finished."""
-        return self._status in ACTIVE_STATES
+        return self._goal.is_active
 
     @property
     def is_cancel_requested(self) -> bool:
         """Whether a client wants it cancelled, and the cancel callback agreed."""
-        return self._status == 3
+        return self._goal.status == 3
 
     @property
     def status(self) -> int:
         """A number of ``action_msgs/msg/GoalStatus``."""
-        return self._status
+        return self._goal.status
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
         """Have the goal executed by ``execute_callback``, or by that of the server."""
         if not self.is_cancel_requested:
-            self._update_state(GoalEvent.EXECUTE)
+            self._goals.advance(self._goal, GoalEvent.EXECUTE)
         self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
@@ -72,29 +66,24 @@ class ServerGoalHandle:
         Raises:
             TypeError: ``feedback`` is not a ``Feedback`` of the action.
         """
-        self._action_server._publish_feedback(self.goal_id, feedback)
+        self._goals.publish_feedback(self._goal, feedback)
 
     def succeed(self) -> None:
         """The goal is reached; RCLError when it is finished already."""
-        self._update_state(GoalEvent.SUCCEED)
+        self._finish(GoalEvent.SUCCEED)
 
     def abort(self) -> None:
         """The goal is given up; RCLError when it is finished already."""
-        self._update_state(GoalEvent.ABORT)
+        self._finish(GoalEvent.ABORT)
 
     def canceled(self) -> None:
         """The goal is cancelled as a client wanted; RCLError when none did."""
-        self._update_state(GoalEvent.CANCELED)
+        self._finish(GoalEvent.CANCELED)
 
     def destroy(self) -> None:
         """Forget the goal."""
-        self._action_server._forget(self)
+        self._goals.forget(self._goal.key)
 
-    def _update_state(self, event: GoalEvent) -> None:
-        with self._lock:
-            self._status = next_state(self._status, event)
-            if self._status not in ACTIVE_STATES:
-                self._finished_ns = self._action_server._now_ns()
-        self._action_server._publish_status()
-        if not self.is_active:
-            self._action_server.notify_goal_done()
+    def _finish(self, event: GoalEvent) -> None:
+        self._goals.advance(self._goal, event)
+        self._action_server.notify_goal_done()

@@ -36,7 +36,7 @@ module                what it holds
 
 from __future__ import annotations
 
-from turtlewire.msg.cdr import deserialize, serialize
+from turtlewire.msg.cdr import deserialize, encode, serialize
 from turtlewire.msg.classes import (
     Action,
     Service,
@@ -56,6 +56,7 @@ __all__ = [
     "Message",
     "Service",
     "deserialize",
+    "encode",
     "get_action",
     "get_interface_class",
     "get_message",

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire.errors import CdrError
 from turtlewire.msg.classes import type_name
 from turtlewire.msg.message import Message
 
-__all__ = ["deserialize", "serialize"]
+if TYPE_CHECKING:
+    from turtlewire.msg.values import Cdr
+
+__all__ = ["deserialize", "encode", "serialize"]
 
 _MessageT = TypeVar("_MessageT", bound=Message)
 
@@ -28,6 +31,15 @@ def serialize(message: Message) -> bytes:
     Raises:
         CdrError: A value does not fit its field; the text names the field, what was expected and
             what was found.
+    """
+    cdr = encode(message)
+    return b"".join(cdr) if type(cdr) is tuple else bytes(cdr)  # type: ignore[arg-type] # no tuple
+
+
+def encode(message: Message) -> Cdr:
+    """What :func:`serialize` returns, without copying long sequences of numbers.
+
+    For a caller that hands the result on at once: the parts are the message's own.
     """
     try:
         return message._to_cdr()

@@ -16,10 +16,19 @@ from turtlewire.msg.definition import split_name
 from turtlewire.msg.message import Message
 from turtlewire.msg.registry import load_action, load_message, load_service
 from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
-from turtlewire.msg.values import converter, element_code, scalar_default
+from turtlewire.msg.values import (
+    array_of_bytes,
+    array_values,
+    converter,
+    element_code,
+    numpy_name,
+    raw_name,
+    scalar_default,
+)
 
 if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition
+    from turtlewire.msg.values import Cdr
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
@@ -208,8 +217,14 @@ def _make_message(definition: MessageDefinition) -> type[Message]:
     cls = type(name, (Message,), namespace)
     for field in definition.fields:
         convert = converter(field.type)
-        if convert is not None:
-            setattr(cls, field.name, _converting_property(getattr(cls, field.name), convert))
+        if convert is None:
+            continue
+        slot = getattr(cls, field.name)
+        if isinstance(field.type, Array):
+            setattr(cls, raw_name(field.name), slot)
+            setattr(cls, field.name, _array_property(slot, field.type, convert))
+        else:
+            setattr(cls, field.name, _converting_property(slot, convert))
     return cls
 
 
@@ -222,6 +237,24 @@ def _converting_property(slot: Any, convert: Any) -> property:
     return property(slot.__get__, assign, slot.__delete__)
 
 
+def _array_property(slot: Any, type_: Array, convert: Any) -> property:
+    load, store = slot.__get__, slot.__set__
+    dtype = numpy_name(str(type_.value_type))
+    size = type_.size if dtype == "uint8" else None  # the size of bytes that need no conversion
+
+    def read(message: Message) -> Any:
+        value = load(message)
+        if type(value) is bytes:
+            value = array_of_bytes(dtype, value)
+            store(message, value)
+        return value
+
+    def assign(message: Message, value: Any) -> None:
+        store(message, value if type(value) is bytes and len(value) == size else convert(value))
+
+    return property(read, assign, slot.__delete__)
+
+
 def _make_constructor(definition: MessageDefinition) -> Any:
     """Compile ``__init__``: one assignment for each field, defaults as in ROS 2."""
     environment: dict[str, Any] = {"_finish": _finish}
@@ -231,7 +264,11 @@ def _make_constructor(definition: MessageDefinition) -> Any:
         fresh = _fresh_default(field, index, environment)
         if index == 0:
             parameters.append("*")
-        if fresh:
+        if isinstance(field.type, Array) and element_code(field.type):
+            parameters.append(f"{field.name}=None")
+            body.append(f" if {field.name} is None: _self.{raw_name(field.name)} = {fresh}")
+            body.append(f" else: _self.{field.name} = {field.name}")
+        elif fresh:
             parameters.append(f"{field.name}=None")
             body.append(f" _self.{field.name} = {fresh} if {field.name} is None else {field.name}")
         else:
@@ -267,9 +304,12 @@ def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str
 def _fresh_values(
     default: Any, type_: AbstractNestedType, index: int, environment: dict[str, Any]
 ) -> str:
-    if element_code(type_):
-        environment[f"_default{index}"] = default or (0,) * getattr(type_, "size", 0)
-        # The assignment makes the array.array or NumPy array of it.
+    code = element_code(type_)
+    if code:
+        if isinstance(type_, Array):
+            environment[f"_default{index}"] = array_values(code, default or (0,) * type_.size)
+        else:
+            environment[f"_default{index}"] = default or ()  # the assignment makes the array.array
         return f"_default{index}"
     if default is not None:
         environment[f"_default{index}"] = default
@@ -334,7 +374,7 @@ def _make_action(full_name: str) -> type[Action]:
     return cast("type[Action]", _PartsOnDemand(name, (Action,), namespace))
 
 
-def _first_to_cdr(message: Message) -> bytes:
+def _first_to_cdr(message: Message) -> Cdr:
     """Encode. The first call for a class generates the code, which replaces this method."""
     from turtlewire.msg.encoder import make_encoder
 

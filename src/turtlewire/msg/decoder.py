@@ -23,7 +23,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.values import element_code, numpy_name
+from turtlewire.msg.values import element_code, numpy_name, raw_name
 from turtlewire.msg.wide_text import UNIT_SIZE, text_of_units
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ class _Decoder:
         if code:
             self.align(SIZES[code])
             self.flush()
-            self.numpy_array(type_, code, target)
+            self.number_array(type_, code, target)
         elif type_.value_type in (BasicType("octet"), BasicType("boolean")):
             self.flush()
             self.small_values(type_.value_type, str(type_.size), target)
@@ -180,7 +180,18 @@ class _Decoder:
             self.flush()
             self.loop(type_.value_type, str(type_.size), target)
 
-    def numpy_array(self, type_: Array, code: str, target: str) -> None:
+    def number_array(self, type_: Array, code: str, target: str) -> None:
+        size = SIZES[code] * type_.size
+        if self.order == "<":
+            owner, _, name = target.rpartition(".")
+            self.bounded_end(str(size))
+            self.line(f"{owner}.{raw_name(name)} = data[{self.position()}:end]")
+        else:
+            self.numpy_array(type_, target)
+        self.offset += size
+        self.remainder = (self.remainder + size) % self.modulus
+
+    def numpy_array(self, type_: Array, target: str) -> None:
         import numpy as np
 
         dtype = np.dtype(numpy_name(str(type_.value_type)))
@@ -195,9 +206,6 @@ class _Decoder:
         self.line(
             f"{target} = frombuffer(data, {wire}, {type_.size}, {self.position()}).astype({native})"
         )
-        size = SIZES[code] * type_.size
-        self.offset += size
-        self.remainder = (self.remainder + size) % self.modulus
 
     def loop(self, value_type: AbstractType, count: str, target: str) -> None:
         """Read the elements one by one.

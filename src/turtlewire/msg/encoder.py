@@ -25,7 +25,7 @@ from turtlewire.msg.types import (
     BasicType,
     NamespacedType,
 )
-from turtlewire.msg.values import element_code
+from turtlewire.msg.values import element_code, raw_name
 from turtlewire.msg.wide_text import UNIT_SIZE, units_of_text
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
+    from turtlewire.msg.values import Cdr
 
 __all__ = [
     "CODES",
@@ -47,7 +48,7 @@ __all__ = [
 ]
 
 LARGE = 1024
-"""Longer sequences of numbers are copied once, into the result; ``done`` collects its parts."""
+"""Longer sequences of numbers are not copied; ``done`` collects the parts of the result."""
 
 HEADER = b"\x00\x01\x00\x00"
 """Encapsulation: plain CDR, little endian, no options."""
@@ -78,8 +79,8 @@ _PADS = {n: tuple(bytes((4 - length) % n) for length in range(n)) for n in (2, 4
 _NUL_PADS = {n: tuple(bytes(1 + (3 - length) % n) for length in range(n)) for n in (2, 4, 8)}
 
 
-def make_encoder(cls: type) -> Callable[[Any], bytes]:
-    """Generate ``encode(message) -> bytes`` for a message class."""
+def make_encoder(cls: type) -> Callable[[Any], Cdr]:
+    """Generate ``encode(message) -> Cdr`` for a message class."""
     definition: MessageDefinition = cls._DEFINITION  # type: ignore[attr-defined]
     return _Encoder().compile(definition)
 
@@ -106,6 +107,8 @@ def byte_string(values: Any) -> bytes:
 
 def array_bytes(value: Any, dtype: str, size: int) -> bytes:
     """The content of a fixed array of numbers."""
+    if type(value) is bytes:  # nobody has looked at it
+        return value
     import numpy as np
 
     array = np.asarray(value, dtype=dtype)
@@ -157,7 +160,7 @@ class _Encoder:
         self.format = ""
         self.arguments: list[str] = []
 
-    def compile(self, definition: MessageDefinition) -> Callable[[Any], bytes]:
+    def compile(self, definition: MessageDefinition) -> Callable[[Any], Cdr]:
         """Generate and compile the function."""
         self.has_numbers = _has_numbers(definition)
         if self.has_numbers:
@@ -168,14 +171,10 @@ class _Encoder:
         else:
             self.flush()
             self.finish_string()
-            self.line(
-                "return b''.join((*done, out)) if done else bytes(out)"
-                if self.has_numbers
-                else "return bytes(out)"
-            )
+            self.line("return (*done, out) if done else out" if self.has_numbers else "return out")
         source = "def encode(m):\n" + "\n".join(self.lines)
         exec(compile(source, f"<encoder of {definition.full_name}>", "exec"), self.environment)  # noqa: S102 - our own source
-        encode: Callable[[Any], bytes] = self.environment["encode"]
+        encode: Callable[[Any], Cdr] = self.environment["encode"]
         return encode
 
     # -- fields
@@ -262,7 +261,8 @@ class _Encoder:
             self.align(size)
             self.flush()
             dtype = f"<{'f' if code in 'fd' else 'u' if code.isupper() else 'i'}{size}"
-            self.append(f"array_bytes({value}, {dtype!r}, {type_.size})")
+            owner, _, name = value.rpartition(".")
+            self.append(f"array_bytes({owner}.{raw_name(name)}, {dtype!r}, {type_.size})")
             self.advance(size * type_.size)
             return
         values = self.local(value)

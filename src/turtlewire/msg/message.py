@@ -11,6 +11,7 @@ from turtlewire.msg.values import element_code
 if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
+    from turtlewire.msg.values import Cdr
 
 __all__ = ["Message"]
 
@@ -39,7 +40,7 @@ class Message:
 
         def __init__(self, **fields: Any) -> None: ...
 
-        def _to_cdr(self) -> bytes: ...
+        def _to_cdr(self) -> Cdr: ...
 
         @classmethod
         def _from_cdr(cls, data: bytes) -> Message: ...

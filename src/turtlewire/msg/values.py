@@ -3,14 +3,16 @@
 Defaults, conversion at assignment, and the letter or dtype of its storage.
 
 As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers are NumPy arrays,
-everything else repeated is a list. NumPy is imported when the first message with a fixed array of
-numbers is made, not before.
+everything else repeated is a list. A fixed array that was received, or that the constructor filled,
+stays in its slot as the bytes of the wire (little endian) until a program looks at it: importing
+NumPy takes longer than a node needs to start, and few programs look at covariances and UUIDs.
 """
 
 from __future__ import annotations
 
+import sys
 from array import array
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 from turtlewire.msg.types import (
     FLOATING_POINT_TYPES,
@@ -25,9 +27,28 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from typing_extensions import Buffer
+
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["converter", "element_code", "numpy_name", "scalar_default", "to_array", "to_numpy"]
+__all__ = [
+    "Cdr",
+    "array_content",
+    "array_of_bytes",
+    "array_values",
+    "converter",
+    "element_code",
+    "numpy_name",
+    "raw_name",
+    "scalar_default",
+    "to_array",
+    "to_numpy",
+]
+
+Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
+"""An encoded message: its bytes, or the buffers that make it up one after the other.
+
+The buffers may be those of the message's own sequences, so they must be used at once."""
 
 _LETTERS = (
     "bhilq",
@@ -48,6 +69,11 @@ def element_code(type_: AbstractType) -> str:
 def numpy_name(typename: str) -> str:
     """NumPy's name of a numeric type: ``float64`` for ``double``."""
     return _NUMPY_NAMES.get(typename, typename)
+
+
+def raw_name(name: str) -> str:
+    """Attribute that holds what is in the slot of a fixed array: ``bytes`` or a NumPy array."""
+    return f"_raw_{name}"
 
 
 def scalar_default(type_: AbstractType) -> Any:
@@ -100,6 +126,30 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
     else:
         result.extend(value.ravel().tolist() if hasattr(value, "ravel") else view.tolist())
     return result
+
+
+def array_values(code: str, values: Iterable[Any]) -> bytes:
+    """The bytes of a fixed array from its values."""
+    content = array(code, values)
+    if sys.byteorder == "big":
+        content.byteswap()
+    return content.tobytes()
+
+
+def array_of_bytes(dtype: str, content: bytes) -> Any:
+    """The NumPy array of a fixed array from its bytes; it shares no memory with them."""
+    import numpy as np
+
+    return np.frombuffer(content, np.dtype(dtype).newbyteorder("<")).astype(dtype)
+
+
+def array_content(message: object, name: str) -> bytes:
+    """The bytes of a fixed array of numbers, little endian, without NumPy where it can be."""
+    value = getattr(message, raw_name(name))
+    if type(value) is bytes:
+        return value
+    content: bytes = value.astype(value.dtype.newbyteorder("<"), copy=False).tobytes()
+    return content
 
 
 def to_numpy(dtype: str, value: Any) -> Any:

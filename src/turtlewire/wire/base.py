@@ -29,6 +29,7 @@ from .records import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from .encapsulation import Cdr
     from .qos import QoS
 
 __all__ = [
@@ -106,8 +107,8 @@ class Publisher(Entity):
     gid: bytes
 
     @abstractmethod
-    def publish(self, cdr: bytes) -> None:
-        """Send one message.
+    def publish(self, cdr: Cdr) -> None:
+        """Send one message. Its buffers may change as soon as this returns.
 
         Raises:
             WireError: The middleware refused it (closed, or blocked for longer than its limit).

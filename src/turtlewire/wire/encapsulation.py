@@ -2,15 +2,36 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Union
+
 from turtlewire.errors import WireError
 
-__all__ = ["HEADER_SIZE", "LITTLE_ENDIAN", "is_message", "no_message", "require_message"]
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
+
+__all__ = [
+    "HEADER_SIZE",
+    "LITTLE_ENDIAN",
+    "Cdr",
+    "is_message",
+    "joined",
+    "no_message",
+    "require_message",
+]
+
+Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
+"""A serialized message: its bytes, or the buffers that make it up one after the other."""
 
 HEADER_SIZE = 4
 
 #: The first two bytes of little endian plain CDR, the only encoding that ROS 2 sends on common
 #: machines.
 LITTLE_ENDIAN = b"\x00\x01"
+
+
+def joined(cdr: Cdr) -> bytes:
+    """The bytes of a serialized message."""
+    return b"".join(cdr if isinstance(cdr, tuple) else (cdr,))
 
 
 def is_message(cdr: bytes) -> bool:

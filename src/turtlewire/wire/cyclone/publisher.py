@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, Publisher
-from turtlewire.wire.encapsulation import no_message
+from turtlewire.wire.encapsulation import joined, no_message
 
 from . import library as dds
 from .endpoint import (
@@ -22,6 +22,8 @@ from .writing import CLOSED, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from turtlewire.wire.encapsulation import Cdr
 
     from .participant import Participant
 
@@ -58,11 +60,11 @@ class CyclonePublisher(Endpoint, Publisher):
         self.on_matched.append(self._subscriptions_changed)
         self.on_closing.append(self._writer.close)
 
-    def publish(self, cdr: bytes) -> None:
+    def publish(self, cdr: Cdr) -> None:
         """See :meth:`Publisher.publish`."""
         code = self._write(cdr)
         if code < 0:
-            self._refused(code, cdr)
+            self._refused(code, joined(cdr))
 
     def _refused(self, code: int, cdr: bytes) -> None:
         if code == NO_MESSAGE:

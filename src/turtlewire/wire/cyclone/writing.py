@@ -6,7 +6,7 @@ import ctypes
 import threading
 from typing import TYPE_CHECKING
 
-from turtlewire.wire.encapsulation import is_message
+from turtlewire.wire.encapsulation import is_message, joined
 
 from . import library as dds
 from .native import NATIVE
@@ -14,10 +14,12 @@ from .native import NATIVE
 if TYPE_CHECKING:
     from typing import Protocol
 
+    from turtlewire.wire.encapsulation import Cdr
+
     class Writer(Protocol):
         """Sends messages with one DDS writer. Thread-safe."""
 
-        def write(self, cdr: bytes) -> int:
+        def write(self, cdr: Cdr) -> int:
             """Send a message.
 
             A negative code if that failed: one of Cyclone's or of this module.
@@ -44,8 +46,9 @@ class CtypesWriter:
         self._lock = threading.Lock()
         self._closed = False
 
-    def write(self, cdr: bytes) -> int:
+    def write(self, cdr: Cdr) -> int:
         """See ``Writer.write``."""
+        cdr = joined(cdr)
         if not is_message(cdr):
             return NO_MESSAGE
         if len(cdr) & 3:  # Cyclone sends multiples of four bytes

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import MessageInfo, Publisher
-from turtlewire.wire.encapsulation import require_message
+from turtlewire.wire.encapsulation import joined, require_message
 from turtlewire.wire.qos import Durability
 
 from .endpoint import LocalEndpoint
 
 if TYPE_CHECKING:
+    from turtlewire.wire.encapsulation import Cdr
+
     from .core import NodeCore
     from .endpoint import EndpointSpec, Message
 
@@ -30,8 +32,9 @@ class LocalPublisher(LocalEndpoint, Publisher):
             node.endpoints.add(self)
         node.bus.changed()
 
-    def publish(self, cdr: bytes) -> None:
+    def publish(self, cdr: Cdr) -> None:
         """See :meth:`Publisher.publish`."""
+        cdr = joined(cdr)
         require_message(cdr, self.topic)
         now = time.time_ns()
         message = (cdr, MessageInfo(now, now, self.gid))

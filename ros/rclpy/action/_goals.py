@@ -1,0 +1,132 @@
+"""The goals that an action server has accepted, until their results expire."""
+
+from __future__ import annotations
+
+import threading
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING, Any
+
+from rclpy.task import Future
+
+from ._goal_ids import goal_key
+from ._goal_statuses import GoalStatuses
+from .goal_state import ACTIVE_STATES, GoalEvent, next_state
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+__all__ = ["Goal", "Goals"]
+
+_ACCEPTED = 1
+
+
+class Goal:
+    """A goal, its state and, one day, its result.
+
+    Attributes:
+        info: Its id and the time of its acceptance (``action_msgs/msg/GoalInfo``).
+        request: The goal, as the client sent it.
+        key: The bytes of its id.
+        status: A number of ``action_msgs/msg/GoalStatus``; only :class:`Goals` changes it.
+        result: Of the response with its result.
+    """
+
+    def __init__(self, info: Any, request: Any) -> None:
+        self.info = info
+        self.request = request
+        self.key = goal_key(info.goal_id)
+        self.status = _ACCEPTED
+        self.result: Future[Any] = Future()
+
+    @property
+    def is_active(self) -> bool:
+        """Whether it is not finished."""
+        return self.status in ACTIVE_STATES
+
+
+class Goals:
+    """The goals of one server. Thread-safe.
+
+    Args:
+        publish_statuses: Is given the states of all goals, serialized, in the order of the changes.
+        publish_feedback: Is given a goal and its feedback.
+        now_ns: The time of the server's node.
+    """
+
+    def __init__(
+        self,
+        publish_statuses: Callable[[bytes], None],
+        publish_feedback: Callable[[Goal, Any], None],
+        now_ns: Callable[[], int],
+    ) -> None:
+        self.publish_feedback = publish_feedback
+        self._publish = publish_statuses
+        self._now_ns = now_ns
+        self._lock = threading.Lock()
+        self._goals: dict[bytes, Goal] = {}
+        self._handles: dict[bytes, Any] = {}
+        self._statuses = GoalStatuses()
+        self._finished: list[tuple[int, bytes]] = []
+
+    def __len__(self) -> int:
+        return len(self._goals)
+
+    def add(self, goal: Goal, handle: Any) -> None:
+        """Keep a goal, and what the callbacks of the server are given for it."""
+        stamp = goal.info.stamp
+        with self._lock:
+            self._goals[goal.key] = goal
+            self._handles[goal.key] = handle
+            self._statuses.add(goal.key, stamp.sec, stamp.nanosec, goal.status)
+
+    def find(self, key: bytes) -> Goal | None:
+        """The goal with this id, unless it is unknown or has expired."""
+        return self._goals.get(key)
+
+    def all(self) -> list[tuple[Goal, Any]]:
+        """All goals with their handles."""
+        with self._lock:
+            return [(goal, self._handles[key]) for key, goal in self._goals.items()]
+
+    def publish_statuses(self) -> None:
+        """Publish the states of all goals."""
+        with self._lock:  # what is published last is what came last
+            self._publish(self._statuses.cdr())
+
+    def advance(self, goal: Goal, event: GoalEvent) -> None:
+        """Change the state of a goal, and publish it.
+
+        Raises:
+            RCLError: The event is not possible in its state.
+        """
+        with self._lock:
+            goal.status = next_state(goal.status, event)
+            self._statuses.change(goal.key, goal.status)
+            if not goal.is_active and goal.key in self._goals:
+                heappush(self._finished, (self._now_ns(), goal.key))
+            self._publish(self._statuses.cdr())
+
+    def first_end_ns(self) -> int | None:
+        """When the first of the finished goals ended; None if none has."""
+        with self._lock:
+            return self._finished[0][0] if self._finished else None
+
+    def forget_those_finished_by(self, limit_ns: int) -> None:
+        """Forget the goals that ended then or before."""
+        with self._lock:
+            expired = []
+            while self._finished and self._finished[0][0] <= limit_ns:
+                expired.append(heappop(self._finished)[1])
+            self._forget(expired)
+
+    def forget(self, key: bytes) -> None:
+        """Forget a goal, finished or not."""
+        with self._lock:
+            self._finished = [end for end in self._finished if end[1] != key]
+            self._forget([key])
+
+    def _forget(self, keys: Iterable[bytes]) -> None:
+        for key in keys:
+            self._goals.pop(key, None)
+            self._handles.pop(key, None)
+        self._statuses.remove(keys)
