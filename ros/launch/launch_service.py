@@ -131,6 +131,7 @@ class LaunchService:
             for event in events:
                 self._process_event(event)
             if events:
+                # The tasks that the events started get their turn before the next test of idleness.
                 await asyncio.sleep(0)
             elif self._run.is_busy or not (self._run.is_shutdown or shutdown_when_idle):
                 await self._run.wait()
@@ -141,10 +142,12 @@ class LaunchService:
 
     def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
+        # A copy: handlers register and unregister others.
         for handler in self._run.handlers():
             if not handler.matches(event):
                 continue
             self._logger.debug("processing event: '%s' ✓ '%s'", event, handler)
+            # What a handler sets for its event (`context.locals`) must not outlive it.
             self._context.local_scopes.push()
             try:
                 for entity in _entities(handler.handle(event, self._context)):
@@ -207,6 +210,7 @@ class LaunchService:
             del numbers[signal.SIGHUP]  # nohup
 
         def hand_to_loop(number: int, _frame: object) -> None:
+            # A loop that a callback blocks never sees the signal; the third Ctrl-C breaks it.
             if number == signal.SIGINT:
                 self._unseen_interrupts += 1
                 if self._unseen_interrupts == _PATIENCE:

@@ -92,6 +92,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
             if rest <= 0:
                 return
             if changed.wait(rest):
+                # Cleared before the graph is looked at again, so that no change is missed.
                 changed.clear()
                 last_change = time.monotonic()
     finally:

@@ -36,6 +36,7 @@ class ProcessFamily:
     def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
         """The environment for a child: ``environment`` and the mark of this family."""
         outer = os.environ.get(process_guardian.FAMILIES)
+        # A launch inside a launch belongs to both families.
         names = self._name if outer is None else f"{outer}:{self._name}"
         return {**environment, process_guardian.FAMILIES: names}
 
@@ -54,5 +55,5 @@ class ProcessFamily:
     def stop(self) -> None:
         """Send what is left of the family SIGTERM, and SIGKILL five seconds later; wait for it."""
         if self._guardian is not None:
-            self._guardian.communicate()
+            self._guardian.communicate()  # closes its stdin, which is the signal to begin
             self._guardian = None

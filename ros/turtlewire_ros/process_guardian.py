@@ -61,6 +61,7 @@ def _signal_and_wait(processes: list[int], number: signal.Signals) -> None:
     waiting = set()
     for process in processes:
         try:
+            # A handle, because another process may get the number when this one has ended.
             handle = os.pidfd_open(process)
         except ProcessLookupError:
             continue

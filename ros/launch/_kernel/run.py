@@ -59,6 +59,7 @@ class Run(Generic[C]):
         """Wait until there is an event, or a future is done."""
         assert self._wake is not None
         while not self._events and not any(future.done() for future in self._futures):
+            # No event is missed: `set` runs on this loop, thus not before the next line waits.
             self._wake.clear()
             await self._wake.wait()
 
@@ -78,6 +79,7 @@ class Run(Generic[C]):
 
     def take_events(self) -> list[Event]:
         """Remove the queued events; those that their handlers emit come after them."""
+        # One `popleft` each, because other threads may append meanwhile.
         return [self._events.popleft() for _ in range(len(self._events))]
 
     def register(self, handler: EventHandling[C], *, last: bool) -> None:
@@ -131,5 +133,6 @@ class Run(Generic[C]):
     async def stop_processes(self) -> None:
         """Stop the remaining descendants of child processes; returns when they have ended."""
         if self._processes is not None:
+            # In a thread: it blocks for up to five seconds, and output must still be read.
             await asyncio.to_thread(self._processes.stop)
             self._processes = None

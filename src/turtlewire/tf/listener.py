@@ -90,6 +90,7 @@ class _Arrivals:
 
     def expect(self, call: Callable[[], None], intake: Intake | None) -> None:
         """Have ``call()`` called once after the next message."""
+        # In this order: a message that comes between both steps finds the call.
         with self._lock:
             self._calls[call] = None
         if intake is not None:
@@ -105,6 +106,7 @@ class _Arrivals:
         """Call all that wait."""
         with self._lock:
             calls, self._calls = self._calls, {}
+        # Without the lock: a call may expect the next message at once.
         for call in calls:
             call()
 
@@ -144,6 +146,7 @@ class _Feed:
     def members(self, members: tuple[_Member, ...]) -> None:
         self._members = members
         if self.intake is not None:
+            # With any other store among them Python feeds all, so that a message has one way only.
             buffers = tuple(member.store for member in members if type(member.store) is Buffer)
             self.intake.feed(buffers if len(buffers) == len(members) else ())
 
@@ -180,6 +183,7 @@ class _Feed:
         """Let go of the graph and of the members."""
         self._publishers.close()
         self.members = ()
+        # The intake's own count ends with it; the total must not fall.
         self._arrivals.count(0 if self.intake is None else self.intake.stored())
 
 
@@ -234,9 +238,9 @@ class _Channel:
                 self._feed.close()
                 self._subscription = self._feed = None
             elif member is former[0]:
-                with suppress(
-                    WireError
-                ):  # the whole context is closed, and nothing more will come for the others either
+                # The subscription belongs to the first member's node, which is about to close. An
+                # error means that the whole context is closed, so nothing more comes for others.
+                with suppress(WireError):
                     self._subscribe(self._feed.members)
 
     def _subscribe(self, members: tuple[_Member, ...]) -> None:
@@ -327,6 +331,7 @@ class TransformListener:
         self._joined: list[_Channel] = []
         self._seen: dict[_Channel, int] = {}
         for channel in self._wanted(context, topic, static_topic, qos, static_qos):
+            # Before joining, which may bring latched messages at once.
             self._seen[channel] = channel.total()
             channel.join(self._member)
             self._joined.append(channel)
@@ -339,6 +344,7 @@ class TransformListener:
         """
         for channel in self._seen:
             channel.expect(call)
+        # After that: a message that came before is seen here, a later one calls.
         return any(channel.total() != seen for channel, seen in self._seen.items())
 
     def take_arrivals(self) -> bool:

@@ -99,7 +99,7 @@ class Server:
 
     def notify(self) -> None:
         """Tell every session that there is something new. Returns at once; for any thread."""
-        if not self._wake_ups:
+        if not self._wake_ups:  # the simulator calls this at each tick, mostly without a browser
             return
         with self._lock:
             if self._loop is not None:
@@ -107,7 +107,7 @@ class Server:
 
     def close(self) -> None:
         """Close all WebSockets and stop serving, within a second. Not for the server's thread."""
-        self._started.wait()
+        self._started.wait()  # before that there is no loop that could be stopped
         with self._lock:
             if self._loop is not None and self._stopping is not None:
                 self._loop.call_soon_threadsafe(self._stopping.set)
@@ -134,7 +134,7 @@ class Server:
             sock=self._socket,
             create_connection=_tracking_connections(self._transports),
             process_request=self._answer,
-            compression=None,
+            compression=None,  # costs more than it saves on this machine's own loopback
             close_timeout=_CLOSE_TIMEOUT,
             max_size=_MAX_MESSAGE,
             logger=_logger(),
@@ -143,11 +143,13 @@ class Server:
             self._loop = asyncio.get_running_loop()
         self._started.set()
         await self._stopping.wait()
+        # From here on `notify` does nothing: the loop may be closed at any moment.
         with self._lock:
             self._loop = None
         server.close()
         closed = asyncio.ensure_future(server.wait_closed())
         await asyncio.wait([closed], timeout=2 * _CLOSE_TIMEOUT)
+        # A browser that is suspended or unreachable never answers the closing handshake.
         for transport in self._transports:
             transport.abort()
         await closed
@@ -164,9 +166,8 @@ class Server:
         reason = refusal(hosts, request.headers.get_all("Origin"))
         if reason is not None:
             return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}\n")
-        if (
-            getattr(request, "method", "GET") != "GET"
-        ):  # older releases of the library refuse other methods themselves
+        # Older releases of the library have no such attribute and refuse other methods themselves.
+        if getattr(request, "method", "GET") != "GET":
             return connection.respond(HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered here.\n")
         path = request.path.partition("?")[0]
         if path == LIVE_PATH:
@@ -202,7 +203,7 @@ class Server:
 
         session = self._connect()
         wake_up = asyncio.Event()
-        wake_up.set()
+        wake_up.set()  # a new browser needs the whole picture, though nothing has changed
         self._wake_ups.add(wake_up)
         tasks = [
             asyncio.create_task(_send(connection, session, wake_up)),

@@ -32,9 +32,8 @@ class Link:
 
     def __init__(self, *, static: bool) -> None:
         self.static = static
-        self.senders: dict[
-            tuple[str, str], list[int]
-        ] = {}  # (name, parent) -> samples, newest stamp; the last sender is last
+        #: (name, parent) -> number of samples, newest stamp; the last sender is last.
+        self.senders: dict[tuple[str, str], list[int]] = {}
         self.fixed: Sample | None = None
         self.stamps: list[int] = []
         self.samples: list[Sample] = []
@@ -84,6 +83,7 @@ class Link:
 
     def count_sender(self, name: str, parent: str, stamp: int) -> None:
         """Count an accepted sample for its sender."""
+        # Removed and inserted again, because dictionaries keep the order of insertion.
         samples, _ = self.senders.pop((name, parent), [0, 0])
         self.senders[name, parent] = [samples + 1, stamp]
         if len(self.senders) > MOST_SENDERS:
@@ -125,8 +125,9 @@ class Link:
                 return False
         first, end = bisect_left(self.stamps, stamp), bisect_right(self.stamps, stamp)
         if sample in self.samples[first:end]:
-            return True
+            return True  # tf2 accepts a repetition and stores it once
         if end - first >= MOST_PER_STAMP:
+            # A broadcaster whose clock stands still would fill the memory; the newest value counts.
             self.samples[end - 1] = sample
             self.dropped[stamp] = self.dropped.get(stamp, 0) + 1
         else:
@@ -146,6 +147,7 @@ class Link:
             return self.fixed
         if not self.samples or (len(self.samples) == 1 and stamp not in {0, self.newest}):
             return LookupStatus.NO_DATA
+        # As in tf2, a stamp on the edge of the data needs no neighbour to interpolate with.
         if stamp in {0, self.newest, self.oldest}:
             return self.samples[0 if stamp == self.oldest != self.newest else -1]
         if not self.oldest < stamp < self.newest:
@@ -154,6 +156,7 @@ class Link:
 
     def _between(self, stamp: int) -> Sample:
         i = bisect_right(self.stamps, stamp)
+        # Poses in different parents cannot be mixed; tf2 takes the older one.
         if self.samples[i - 1].parent != self.samples[i].parent:
             return self.samples[i - 1]
         return self._mix(i - 1, stamp)
@@ -182,7 +185,7 @@ class Link:
     def read_newest(self, now: int, max_age: int) -> Sample | LookupStatus:
         """The newest pose, unless it is older than ``max_age`` (0: any age)."""
         if max_age and not self.static and now - self.newest > max_age:
-            return LookupStatus.FUTURE
+            return LookupStatus.FUTURE  # the data would have to reach further into the future
         return self.read(0)
 
 

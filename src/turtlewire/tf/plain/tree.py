@@ -159,6 +159,7 @@ class Tree:
                 break
             reading = read(link)
             if isinstance(reading, LookupStatus):
+                # Not raised yet: the target's own way up may meet the source's below this link.
                 stopped = time_failure(reading, top, link, stamp, target, source, self.keep)
                 break
             if top == target:
@@ -208,9 +209,8 @@ class Tree:
         if target == source:
             link = self.links.get(source)
             return link.newest if link else 0
-        line: dict[
-            str, int
-        ] = {}  # parent on the source's line -> how many of its stamps lie on the way to it
+        #: Each ancestor of the source, with the number of stamps on the way to it.
+        line: dict[str, int] = {}
         stamps: list[int] = []
         frame = source
         while (link := self.links.get(frame)) and link.has_data:

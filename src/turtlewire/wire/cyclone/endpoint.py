@@ -139,6 +139,7 @@ class Endpoint(Entity):
             if self._closed:
                 return
             self._closed = True
+        # Before the deletion: the callbacks still use the handle.
         for call in self.on_closing:
             call()
         for event in list(self._events.values()):

@@ -70,6 +70,7 @@ class _BuiltinReader:
         pointers, infos = (ctypes.c_void_p * _BATCH)(), (dds.SampleInfo * _BATCH)()
         count = _BATCH
         while count == _BATCH:
+            # A null pointer makes Cyclone lend its samples instead of copying them.
             pointers[0] = None
             count = dds.take_samples(self._reader, pointers, infos, _BATCH, _BATCH)
             if count <= 0:
@@ -121,6 +122,7 @@ class CycloneGraph(GraphView):
     def _subscribe_to_infos(self) -> CycloneSubscription:
         qos = QoS(history=History.KEEP_ALL, durability=Durability.TRANSIENT_LOCAL)
         spec = EndpointSpec(DISCOVERY_TOPIC, DISCOVERY_TOPIC, DISCOVERY_TYPE, qos)
+        # Our own nodes are known without the wire.
         return CycloneSubscription(self._participant, spec, ignore_local=True)
 
     def _renew_infos(self) -> None:
@@ -248,6 +250,7 @@ class CycloneGraph(GraphView):
 
         Each ROS participant has announced its nodes, and each endpoint of theirs is known.
         """
+        # A process that has bound a port of the domain but is not discovered yet is still to come.
         on_host = processes_on_host(self._domain_id)
         with self._lock:
             if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:

@@ -74,10 +74,8 @@ class _Domains:
             handle = dds.create_domain(
                 domain_id, domain_configuration(domain_id, discovery()).encode()
             )
-        if (
-            handle == dds.RETCODE_PRECONDITION_NOT_MET
-        ):  # other code of this process made it and ends it
-            return
+        if handle == dds.RETCODE_PRECONDITION_NOT_MET:
+            return  # other code of this process made the domain, and ends it
         if handle < 0:
             raise _failure(handle, domain_id, self._log.unread())
         self._handles[domain_id] = handle
@@ -99,6 +97,7 @@ def _require_files(domain_id: int) -> None:
     Raises:
         WireError: It may not.
     """
+    # Opening files is the test, because the limit counts all descriptors of the process.
     opened: list[int] = []
     try:
         while len(opened) < _FILES:
@@ -165,6 +164,7 @@ class Participant:
 
         Peers do not see this: Cyclone does not announce topics, only their readers and writers.
         """
+        # A build with another layout of its structures would not fail, but send wrong bytes.
         topic = self.topic("turtlewire/check", "turtlewire/msg/Check")
         sertype = ctypes.c_void_p()
         dds.check(dds.get_sertype(topic, sertype), "check the opaque type")

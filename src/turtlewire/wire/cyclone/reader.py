@@ -47,6 +47,7 @@ class ReaderThread:
     def call_at(self, when_ns: int, call: Callable[[], None]) -> None:
         """Call ``call`` once when ``time.monotonic_ns()`` has reached ``when_ns``."""
         with self._lock:
+            # The number orders calls of one time; functions cannot be compared.
             heapq.heappush(self._timers, (when_ns, next(self._numbers), call))
         self._conditions.wake()
 
@@ -59,6 +60,7 @@ class ReaderThread:
         while not self._closed:
             self._call_each(self._conditions.wait(self._time_to_next()))
             self._call_each(self._due())
+            # Only the calls that are there now: one of them may add itself again.
             self._call_each([self._soon.popleft() for _ in range(len(self._soon))])
 
     def _call_each(self, calls: list[Callable[[], None]]) -> None:
@@ -85,4 +87,5 @@ class ReaderThread:
         self._conditions.wake()
         if self._thread is not threading.current_thread():
             self._thread.join()
+        # Last, because the thread waits in them.
         self._conditions.close()
