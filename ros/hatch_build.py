@@ -98,9 +98,8 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             f"share/{name}/package.xml",
             _PACKAGE_XML.format(name=name, version=self.metadata.version, description=description),
         )
-        self._write(
-            f"share/{name}/COLCON_IGNORE", ""
-        )  # else colcon takes a venv in a workspace for sources
+        # Without it colcon takes a venv in a workspace for sources.
+        self._write(f"share/{name}/COLCON_IGNORE", "")
 
     def _add_executable(self, package: str, name: str, target: str) -> None:
         module, function = target.split(":")

@@ -52,6 +52,7 @@ class Deadlines:
             while self._calls:
                 when, number = self._due[0]
                 remaining = when - time.monotonic()
+                # A cancelled call stays in the heap until it is at the front.
                 if number not in self._calls:
                     heapq.heappop(self._due)
                 elif remaining > 0:
@@ -59,6 +60,7 @@ class Deadlines:
                 else:
                     heapq.heappop(self._due)
                     return self._calls.pop(number)
+            # Under the lock, so that `call_after` either sees the thread wait or starts a new one.
             self._due.clear()
             self._running = False
             return None

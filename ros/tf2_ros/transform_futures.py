@@ -73,6 +73,7 @@ class TransformFutures:
             self._waiting.append(waiting)
             if self._stop_listening is None:
                 self._stop_listening = self._buffer.add_change_listener(self._look_again)
+        # After listening has begun: data that comes meanwhile is not missed.
         try:
             result = question.answer()
         except TransformException as error:
@@ -84,6 +85,7 @@ class TransformFutures:
             waiting.cancel_deadline = _deadlines.call_after(
                 timeout_ns / 1e9, lambda: self._give_up(waiting)
             )
+        # A future that the user cancels leaves the list, too.
         waiting.future.add_done_callback(lambda _future: self._claim(waiting))
         return waiting.future
 
@@ -102,6 +104,7 @@ class TransformFutures:
                 self._finish(waiting, error)
 
     def _give_up(self, waiting: _Waiting) -> None:
+        # Asked once more, for the error that is true now.
         try:
             self._finish(waiting, waiting.question.answer())
         except TransformException as error:

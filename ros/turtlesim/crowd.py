@@ -75,6 +75,7 @@ class Crowd:
         old_x, old_y, theta, forward, lateral, turning = _state(turtles)
         theta = turn(theta, turning, np.floor)
         headings = theta.tolist()
+        # Of the C library, because NumPy's sine and cosine differ in the last bit.
         cos = np.array([*map(math.cos, headings)])
         sin = np.array([*map(math.sin, headings)])
         x, y = move(old_x, old_y, cos, sin, forward, lateral)
@@ -99,6 +100,7 @@ class Crowd:
         )
 
     def _rows_of(self, pens: list[Pen]) -> NDArray[np.uint8]:
+        # Pens change rarely: the array of the last tick mostly serves again.
         if pens != self._pens:
             self._pens, self._pen_rows = pens, np.array(pens, dtype=np.uint8).reshape(-1, 4)
         return self._pen_rows

@@ -132,8 +132,7 @@ def find_missing(
         is_turtle_topic = endpoint.type_name == _TURTLE_TOPICS.get(topic)
         if is_turtle_topic:
             (served if endpoint.kind == "publisher" else wanted).add(name)
-        elif topic == "cmd_vel" and re.fullmatch(
-            r"turtle\d+", name
-        ):  # cmd_vel alone may be any robot's
+        # A topic `cmd_vel` alone may be any robot's.
+        elif topic == "cmd_vel" and re.fullmatch(r"turtle\d+", name):
             (wanted if endpoint.kind == "publisher" else served).add(name)
     return tuple(sorted(wanted - served))

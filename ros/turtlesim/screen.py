@@ -141,6 +141,7 @@ class Screen:
         """The newest poses and the strokes after ``position``."""
         with self._lock:
             restart, strokes, position = self._drawing.since(position)
+            # After a spawn or a kill, poses of the last tick do not belong to the new scene yet.
             current = self._shown == self._scene.turtles
             poses = self._poses if current else b""
             header = _HEADER.pack(
@@ -159,7 +160,7 @@ class _Session:
     def __init__(self, screen: Screen, on_command: Callable[[Command], None]) -> None:
         self._screen = screen
         self._on_command = on_command
-        self._version = -1
+        self._version = -1  # older than any scene and stroke, so that the first answer is whole
         self._position = -1
         self._errors: list[str] = []
         self._watch: Watch | None = None

@@ -42,9 +42,8 @@ class TurtleEndpoints:
         self._node = node
         self._turtle = turtle
         name = turtle.name
-        node.resolve_topic_name(
-            f"{name}/cmd_vel"
-        )  # a wrong name fails here, before anything is made
+        # A wrong name fails here, before any endpoint is made.
+        node.resolve_topic_name(f"{name}/cmd_vel")
         self._cmd_vel = node.create_subscription(
             Twist, f"{name}/cmd_vel", self._on_cmd_vel, QUEUE_DEPTH
         )

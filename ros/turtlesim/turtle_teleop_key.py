@@ -114,10 +114,8 @@ def main(args: list[str] | None = None) -> int:
         return 1
     rclpy.init(args=args)
     rclpy.get_default_context().on_shutdown(keyboard.stop)
-    for signum in (
-        signal.SIGHUP,
-        signal.SIGQUIT,
-    ):  # rclpy knows the others; these would leave the terminal as it is
+    # rclpy handles the other signals; these would leave the terminal without echo.
+    for signum in (signal.SIGHUP, signal.SIGQUIT):
         signal.signal(signum, lambda *_: keyboard.stop())
     node = TeleopTurtle()
     spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")

@@ -302,9 +302,8 @@ def main(args: list[str] | None = None) -> None:
         _check_port()
     rclpy.init(args=args)
     node = None
-    with contextlib.suppress(
-        KeyboardInterrupt, ExternalShutdownException
-    ):  # Ctrl-C may also come while it shuts down
+    # Around the shutdown as well, because Ctrl-C may also come then.
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         try:
             node = TurtlesimNode(headless=options.headless, speed=options.speed)
             rclpy.spin(node)

@@ -42,7 +42,7 @@ def is_python_script(path: str) -> bool:
     """Whether the first line of the file is a shebang that names a Python."""
     try:
         with open(path, "rb") as file:
-            first_line = file.readline(512)
+            first_line = file.readline(512)  # a binary may have no line feed for megabytes
     except OSError:
         return False
     return first_line.startswith(b"#!") and b"python" in first_line
@@ -53,6 +53,7 @@ def _libexec_files(folder: str) -> list[str]:
         return []
     found = []
     for base, folders, files in os.walk(folder):
+        # Assigned to the slice, because `os.walk` descends into what is left in this list.
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         found += [path for name in files if _is_executable(path := os.path.join(base, name))]
     return sorted(found)

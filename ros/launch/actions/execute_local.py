@@ -231,9 +231,8 @@ class ExecuteLocal(ProcessAction):
             self._logger.error(text, error)  # noqa: TRY400  a traceback would show our code only
             return False
         await context.emit_event(ProcessStarted(action=self, **self._event_details()))
-        if (
-            self._shutting_down.is_set()
-        ):  # the launch ended while the process was starting, too early for a signal
+        # The launch may have ended while the process was starting, too early for a signal.
+        if self._shutting_down.is_set():
             self._stop(context, send_sigint=True)
         self._return_code = await process.wait()
         await process.close()

@@ -160,9 +160,8 @@ def _terminal_restored() -> Iterator[None]:
         yield
     finally:
         with contextlib.suppress(OSError, termios.error):  # the terminal is gone
-            if (
-                os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
-            ):  # in the background it is the shell's, and setting it would stop this
+            # In the background the terminal is the shell's, and setting it would stop this process.
+            if os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp():
                 termios.tcsetattr(sys.stdin, termios.TCSADRAIN, mode)
 
 

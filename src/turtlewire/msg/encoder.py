@@ -201,6 +201,7 @@ class _Encoder:
     def basic(self, type_: BasicType, value: str) -> None:
         code = CODES[type_.typename]
         if code == "?":
+            # `struct` takes the truth of any object; ROS 2 refuses what is neither 0 nor 1.
             flag = self.local(value)
             value = f"{flag} if {flag} is True or {flag} is False else as_bool({flag})"
         self.number(code, value)
@@ -211,6 +212,7 @@ class _Encoder:
         if type_.has_maximum_size():
             limit = type_.maximum_size * (UNIT_SIZE if wide else 1)  # type: ignore[union-attr]
             self.line(f"if len({text}) > {limit}: raise ValueError")
+        # The length of a string counts its NUL; that of a wstring counts units, without one.
         self.number("I", f"len({text}) // {UNIT_SIZE}" if wide else f"len({text}) + 1")
         self.flush()
         self.append(text)

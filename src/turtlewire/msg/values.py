@@ -50,12 +50,8 @@ Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
 
 The buffers may be those of the message's own sequences, so they must be used at once."""
 
-_LETTERS = (
-    "bhilq",
-    "BHILQ",
-    "f",
-    "d",
-)  # NumPy's 64-bit integers have the letters l and L where array.array has q and Q
+#: Letters of one kind: NumPy's 64-bit integers have l and L where array.array has q and Q.
+_LETTERS = ("bhilq", "BHILQ", "f", "d")
 _NUMPY_NAMES = {"float": "float32", "double": "float64"}
 
 
@@ -112,7 +108,7 @@ def to_array(code: str, value: Iterable[Any]) -> array[Any]:
     One of the right letter is kept, buffers (any shape, row by row) are copied whole.
     """
     if type(value) is array and value.typecode == code:
-        return value
+        return value  # not copied, as in ROS 2
     if isinstance(value, (list, tuple)):
         return array(code, value)
     try:

@@ -31,9 +31,8 @@ def tidy_positions(
         For each node the middle of it across, from 0 on, and its row, the roots' being 0.
     """
     order = _parents_first(roots, children)
-    outlines: dict[
-        str, list[tuple[float, float]]
-    ] = {}  # of each subtree: the edges of each row, seen from its top node
+    #: Of each subtree the edges of each row, seen from its top node.
+    outlines: dict[str, list[tuple[float, float]]] = {}
     shifts = dict.fromkeys(roots, 0.0)  # of each node from its parent
     for node in reversed(order):
         outline, places = _side_by_side([outlines.pop(child) for child in children[node]], gap)

@@ -87,9 +87,8 @@ def _run(direct: DirectNode, client: Any, goal: Any, args: argparse.Namespace) -
     from rosidl_runtime_py import message_to_yaml
 
     accepted = False
-    early: list[
-        Any
-    ] = []  # feedback has a topic of its own, on which it may overtake the answer to the goal
+    # Feedback has a topic of its own, on which it may overtake the answer to the goal.
+    early: list[Any] = []
 
     def show(message: Any) -> None:
         if accepted:

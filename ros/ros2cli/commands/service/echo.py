@@ -50,9 +50,8 @@ def main(args: argparse.Namespace) -> str | None:
     from ros2cli.direct_node import DirectNode
 
     if args.service_type is not None:
-        _service_class(
-            args.service_type, f"The service type '{args.service_type}' is invalid"
-        )  # refused before anything is started
+        # A wrong type is refused before anything is started.
+        _service_class(args.service_type, f"The service type '{args.service_type}' is invalid")
     with DirectNode(args) as direct:
         service = direct.node.resolve_service_name(args.service_name)
         kind = args.service_type or _type_of_service(direct.graph, service)

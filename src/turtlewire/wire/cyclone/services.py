@@ -99,10 +99,8 @@ class CycloneService(TopicService):
         self._lock = threading.Lock()
         self._clients: dict[int, str] = {}
         self._matches = 0  # how often the matching subscriptions changed
-        self._reachable: tuple[int, set[str | None]] = (
-            -1,
-            set(),
-        )  # the clients that could be reached after so many changes
+        #: The clients that could be reached after so many changes.
+        self._reachable: tuple[int, set[str | None]] = (-1, set())
         self._waiting: list[_Waiting] = []
 
     def take(self, limit: int = 32) -> list[tuple[RequestId, bytes]]:

@@ -205,9 +205,8 @@ class CycloneSubscription(Endpoint, Subscription):
         super().close()
 
     def _delete(self) -> None:
-        self.ends_with_participant = (
-            self.ends_with_participant and self.inlet is None
-        )  # which must end after the reader
+        # An inlet must end after the reader that calls it, so the reader is deleted now.
+        self.ends_with_participant = self.ends_with_participant and self.inlet is None
         super()._delete()
         if self.inlet is not None:
             self.inlet.close()

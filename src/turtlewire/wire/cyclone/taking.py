@@ -27,9 +27,8 @@ def take_with_ctypes(reader: int, limit: int) -> list[tuple[bytes, int, int]]:
         count = dds.take_serdata(reader, serdata, wanted, infos, dds.ANY_STATE)
         for index in range(count):
             if infos[index].valid_data:
-                data = bytes(
-                    dds.serdata_size(serdata[index])
-                )  # new and not shared yet, so it may be filled in place
+                # These bytes are new and not shared yet, so they may be filled in place.
+                data = bytes(dds.serdata_size(serdata[index]))
                 dds.serdata_to_bytes(serdata[index], 0, len(data), data)
                 taken.append((data, infos[index].publication_handle, infos[index].source_timestamp))
             dds.serdata_unref(serdata[index])
