@@ -129,8 +129,10 @@ void add_cyclone_types(nb::module_& module) {
                      "    sertype: Address of its ddsi_sertype.")
       .def(nb::init<const Library&, Entity, std::uintptr_t>(), "library"_a, "writer"_a, "sertype"_a)
       .def("write", &write, "cdr"_a,
-           "Send a message, which is one buffer or a tuple of the buffers that make it up, without\n"
-           "the GIL. A negative code if that failed: one of Cyclone's, -1001 for bytes that are no\n"
+           "Send a message, which is one buffer or a tuple of the buffers that make it up, "
+           "without\n"
+           "the GIL. A negative code if that failed: one of Cyclone's, -1001 for bytes that are "
+           "no\n"
            "message, -1002 after close(), -1003 if Cyclone makes no sample of them.")
       .def("close", &Writer::close, "To be called before the writer is deleted.");
   nb::class_<Inlet>(
