@@ -219,6 +219,18 @@ colcon builds a package whose `package.xml` cannot be read, as one that ROS does
   turtlewire_ros/test_colcon_interfaces.py test_a_broken_manifest_is_named_with_its_line
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
   ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
+a playback that begins at an offset, paused or after a seek loses the latched messages from before
+  rosbag2_transport/test_player.py test_what_arrives_is_what_the_real_one_sends test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
+one that joins a playback late gets the last ten messages of `/tf_static`
+  rosbag2_transport/test_player.py test_one_that_joins_late_gets_all_static_transforms
+a recorder loses latched messages that come during a pause
+  rosbag2_transport/test_recorder.py test_latched_messages_that_come_during_a_pause_are_kept
+a topic whose type is not installed is not recorded
+  rosbag2_transport/test_recorder.py test_a_topic_of_a_type_that_is_not_known_here_is_recorded
+a recorder whose disk is full goes on
+  rosbag2_transport/test_recorder.py test_a_full_disk_ends_the_recording_with_one_line
+`ros2 bag info -v` fails for bags compressed by file, and counts no requests in those compressed by message
+  ros2cli/test_bag.py test_info
 `ros2 control`, `security`
   ros2cli/test_suggestions.py test_commands_that_are_not_here
 an unknown option shows the usage of `ros2`

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.completion import files
+from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
 __all__ = [
+    "BAG_PATH",
     "LOG_LEVEL",
     "QOS_OVERRIDES",
+    "READ_AHEAD",
+    "REMAP",
+    "STORAGE",
     "STORAGES",
+    "STORAGE_CONFIG",
+    "bag_path",
+    "bag_topics",
     "custom_data",
+    "event_topics",
     "existing_file",
     "qos_overrides",
+    "remap_words",
 ]
 
 STORAGES = ("mcap", "sqlite3")
@@ -48,6 +58,81 @@ QOS_OVERRIDES = argument(
     help="YAML with QoS profiles by topic",
     completer=files,
 )
+
+
+def bag_path(text: str) -> str:
+    """An existing path.
+
+    Raises:
+        argparse.ArgumentTypeError: There is nothing.
+    """
+    if not os.path.exists(text):
+        raise argparse.ArgumentTypeError(f"Bag path '{text}' does not exist!")
+    return text
+
+
+BAG_PATH = argument(
+    "bag_path", type=bag_path, help="Folder of the bag, or one file", completer=files
+)
+
+STORAGE = argument(
+    "-s",
+    "--storage",
+    choices=STORAGES,
+    default="",
+    help="Accepted as in ROS 2; the storage is found out from the files",
+)
+
+STORAGE_CONFIG = argument(
+    "--storage-config-file",
+    type=existing_file,
+    help="Accepted as in ROS 2; nothing of it matters to reading",
+    completer=files,
+)
+
+READ_AHEAD = argument(
+    "--read-ahead-queue-size",
+    type=unsigned_int,
+    default=1000,
+    help="How many messages are read before they are due",
+)
+
+REMAP = argument(
+    "-m",
+    "--remap",
+    nargs="+",
+    default=[],
+    help="New names of topics, for example /tf:=/old_tf",
+)
+
+
+def bag_topics(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Names of the topics in the bag on the command line."""
+    from turtlewire.bag import open_bag
+    from turtlewire.errors import BagError
+
+    try:
+        with open_bag(getattr(parsed_args, "bag_path", None) or "") as bag:
+            return sorted(bag.topics)
+    except (BagError, OSError):
+        return []  # not there yet
+
+
+def event_topics(services: list[str]) -> list[str]:
+    """The topics on which the events of services are."""
+    return [f"{name}/_service_event" for name in services]
+
+
+def remap_words(rules: list[str]) -> list[str]:
+    """Remapping rules as words of a command line.
+
+    Raises:
+        RuntimeError: One has no ``:=``.
+    """
+    for rule in rules:
+        if ":=" not in rule:
+            raise RuntimeError(f"'{rule}' is not of the form OLD:=NEW, for example /tf:=/old_tf")
+    return ["--ros-args", *(word for rule in rules for word in ("--remap", rule))] if rules else []
 
 
 def custom_data(text: str) -> tuple[str, str]:

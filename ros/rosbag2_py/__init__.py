@@ -5,7 +5,8 @@ module                              what it holds
 ==================================  ================================================
 `_reader`, `_writer`                readers and writers, message by message
 `_info`                             reads metadata; counts requests and responses
-`_recorder`                         recording as scripts start it
+`_recorder`, `_player`              recording and playing as scripts start it
+`_rewrite`                          converting bags as a YAML file asks
 `_open_writer`                      a bag to write, by storage options
 `_log_level`                        the level of the logs of recorder and player
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
@@ -15,6 +16,11 @@ module                              what it holds
 `_service_events`                   topics of service introspection
 ==================================  ================================================
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from rosbag2_py._compression_options import (
     CompressionMode,
@@ -30,7 +36,6 @@ from rosbag2_py._reader import (
     SequentialReader,
     get_registered_readers,
 )
-from rosbag2_py._recorder import Recorder
 from rosbag2_py._reindexer import Reindexer
 from rosbag2_py._storage import (
     ConverterOptions,
@@ -53,6 +58,11 @@ from rosbag2_py._writer import (
 )
 from rosbag2_transport.options import PlayOptions, RecordOptions, ServiceRequestsSource
 
+if TYPE_CHECKING:
+    from rosbag2_py._player import Player
+    from rosbag2_py._recorder import Recorder
+    from rosbag2_py._rewrite import bag_rewrite
+
 __all__ = [
     "BagMetadata",
     "CompressionMode",
@@ -64,6 +74,7 @@ __all__ = [
     "MessageDefinition",
     "MetadataIo",
     "PlayOptions",
+    "Player",
     "ReadOrder",
     "ReadOrderSortBy",
     "RecordOptions",
@@ -78,6 +89,7 @@ __all__ = [
     "StorageOptions",
     "TopicInformation",
     "TopicMetadata",
+    "bag_rewrite",
     "compression_mode_from_string",
     "compression_mode_to_string",
     "convert_rclcpp_qos_to_rclpy_qos",
@@ -88,3 +100,12 @@ __all__ = [
     "get_registered_writers",
     "to_rclcpp_qos_vector",
 ]
+
+#: Loaded when they are used: reading a bag needs neither a node nor the network.
+_LAZY = {"Player": "_player", "Recorder": "_recorder", "bag_rewrite": "_rewrite"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LAZY:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module(f"{__name__}.{_LAZY[name]}"), name)

@@ -2,17 +2,27 @@
 
 Messages travel as bytes between the wire and the bag; no message object is made.
 
-===================  ==================================================
-module               what it holds
-===================  ==================================================
-`options`            `RecordOptions`, `PlayOptions`
-`recorder`           `Recorder`: subscribes, takes, pauses, splits
-`recorder_services`  its services
-`recorder_qos`       which QoS receives from all publishers of a topic
-`topic_filter`       which topics are recorded
-`session`            a context, a node and its executor for one command
-`record`             one recording from beginning to end
-`progress`           its progress, on one line of a terminal
-`qos_overrides`      QoS profiles by topic, from YAML
-===================  ==================================================
+=====================  ==========================================================
+module                 what it holds
+=====================  ==========================================================
+`options`              `RecordOptions`, `PlayOptions`
+`record`               one recording from beginning to end
+`play`                 one playback from beginning to end
+`recorder`             `Recorder`: subscribes, takes, pauses
+`recorder_services`    its services and its topic
+`recorder_qos`         which QoS receives from all publishers of a topic
+`topic_filter`         which topics are recorded or converted
+`player`               `Player`: time, order, commands
+`player_outputs`       its publishers
+`player_requests`      recorded requests, sent to services again
+`player_qos`           with which QoS it publishes
+`player_clock`         ``/clock``
+`player_services`      its services and its topic
+`play_filter`          which topics are played
+`latched`              latched messages wherever a playback begins
+`rewrite`              bags into bags
+`qos_overrides`        QoS profiles from a file
+`session`              context, node, keys and signals of one command
+`progress`             a line on a terminal
+=====================  ==========================================================
 """

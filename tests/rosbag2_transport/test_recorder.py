@@ -14,6 +14,8 @@ from rosbag2_interfaces.msg import WriteSplitEvent
 from std_msgs.msg import String
 from turtlewire.bag import open_bag, reindex
 from turtlewire.errors import BagError
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
 
 NAMES = [f"number {i}" for i in range(500)]
 SIZE_LIMIT = 3_000_000
@@ -199,3 +201,20 @@ def test_topics_of_two_types_are_named_once(peer, bag_verb, tmp_path):
     assert recorder.text.count("several types") == 1
     with open_bag(tmp_path / "out") as bag:
         assert "/two" not in bag.topics
+
+
+def test_a_topic_of_a_type_that_is_not_known_here_is_recorded(peer, bag_verb, tmp_path):
+    type_id = TypeId("nobody_msgs/msg/Thing", "RIHS01_" + "7" * 64)
+    publisher = peer.node._rclpy_wire.create_publisher("/thing", type_id, QoS())
+    recorder = bag_verb("record", "-o", "out", "--topics", "/thing")
+    recorder.wait_for("Subscribed to topic '/thing'")
+    graph = peer.context.wire.graph
+    assert graph.wait_for(lambda: publisher.subscription_count() > 0, 60_000_000_000)
+    data = b"\x00\x01\x00\x00" + b"anything"
+    publisher.publish(data)
+    assert publisher.wait_for_acknowledgments(60_000_000_000)
+    assert end(recorder) == 0
+    with open_bag(tmp_path / "out") as bag:
+        topic = bag.topics["/thing"]
+        assert (topic.type, topic.type_hash) == (type_id.name, type_id.type_hash)
+        assert [message.data for message in bag.messages("/thing")] == [data]

@@ -18,6 +18,7 @@ module              what it holds
 `trajectories`      `load_trajectory`: odometry and poses of a topic
 `progress`          a line that shows how far something is
 `message`           `BagMessage`
+`playback`          `PlayClock`, `ReadAhead`: the time of a playback and what is due
 `writer`            `BagWriter`
 `recording`         `Recording`: messages of several threads, written on a thread of its own
 `storage`           one file of a bag, MCAP or sqlite3, behind one interface

@@ -2,35 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
-import os
+from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.completion import files
+from ros2cli.bag_options import BAG_PATH, STORAGE
 
-__all__ = ["ARGUMENTS", "bag_path", "main"]
+if TYPE_CHECKING:
+    import argparse
 
-
-def bag_path(text: str) -> str:
-    """An existing path.
-
-    Raises:
-        argparse.ArgumentTypeError: There is nothing.
-    """
-    if not os.path.exists(text):
-        raise argparse.ArgumentTypeError(f"Bag path '{text}' does not exist!")
-    return text
+__all__ = ["ARGUMENTS", "main"]
 
 
 ARGUMENTS = (
-    argument("bag_path", type=bag_path, help="Folder of the bag, or one file", completer=files),
-    argument(
-        "-s",
-        "--storage",
-        choices=("sqlite3", "mcap"),
-        default="",
-        help="Accepted as in ROS 2; the storage is found out from the files",
-    ),
+    BAG_PATH,
+    STORAGE,
     argument("-t", "--topic-name", action="store_true", help="Only print the names of the topics"),
     argument(
         "-v", "--verbose", action="store_true", help="Count requests and responses of services"

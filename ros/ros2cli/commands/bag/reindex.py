@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.commands.bag.info import bag_path
+from ros2cli.bag_options import STORAGE, bag_path
 from ros2cli.completion import folders
 
 if TYPE_CHECKING:
@@ -17,13 +17,7 @@ __all__ = ["ARGUMENTS", "main"]
 
 ARGUMENTS = (
     argument("bag_path", type=bag_path, help="Folder of the bag", completer=folders),
-    argument(
-        "-s",
-        "--storage",
-        choices=("sqlite3", "mcap"),
-        default="",
-        help="Accepted as in ROS 2; the storage is found out from the files",
-    ),
+    STORAGE,
 )
 
 

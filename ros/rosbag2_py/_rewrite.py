@@ -1,0 +1,119 @@
+"""Converting bags as a YAML file asks."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import fields
+from datetime import timedelta
+from typing import TYPE_CHECKING, Any
+
+from rosbag2_py._open_writer import make_writer
+from rosbag2_py._recorder import compression_mode_of
+from rosbag2_py._storage import StorageOptions
+from rosbag2_transport.options import RecordOptions
+from rosbag2_transport.qos_overrides import qos_profile
+from rosbag2_transport.rewrite import Output, rewrite
+from turtlewire.bag import open_bag
+from turtlewire.bag.qos_yaml import load_yaml
+from turtlewire.errors import BagError
+from turtlewire.suggestion import did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["bag_rewrite"]
+
+_EXAMPLE = """
+Such a file is, for example:
+output_bags:
+- uri: converted
+  storage_id: mcap
+  all_topics: true
+  all_services: true"""
+
+#: Words of the file that stand for others.
+_ALIASES = {
+    "exclude": "exclude_regex",
+    "exclude_services": "exclude_service_events",
+}
+_STORAGE_KEYS = {field.name for field in fields(StorageOptions)}
+_RECORD_KEYS = {field.name for field in fields(RecordOptions)}
+_KEYS = {"all", *_ALIASES, *_STORAGE_KEYS, *_RECORD_KEYS}
+
+
+def bag_rewrite(input_options: Iterable[StorageOptions], output_config_file: str) -> None:
+    """Write the messages of bags into others.
+
+    Args:
+        input_options: The bags to read.
+        output_config_file: A YAML file whose key ``output_bags`` lists the bags to write, with the
+            attributes of `StorageOptions` and `RecordOptions`.
+
+    Raises:
+        RuntimeError: The file cannot be read or asks for what is not known, or a bag cannot be read
+            or written.
+    """
+    configurations = _read(output_config_file)
+    try:
+        with contextlib.ExitStack() as stack:
+            bags = [stack.enter_context(open_bag(options.uri)) for options in input_options]
+            rewrite(bags, [_output(options) for options in configurations])
+    except (BagError, OSError) as error:
+        raise RuntimeError(str(error)) from error
+
+
+def _read(path: str) -> list[tuple[StorageOptions, RecordOptions]]:
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = load_yaml(file.read(), path)
+    except OSError as error:
+        raise RuntimeError(f"bad file: {path}") from error
+    except BagError as error:
+        raise RuntimeError(str(error)) from error
+    outputs = content.get("output_bags") if isinstance(content, dict) else None
+    if not isinstance(outputs, list):
+        raise RuntimeError(  # noqa: TRY004 - the file is wrong, not the call
+            f"{path}: the key 'output_bags' with a list is missing.{_EXAMPLE}"
+        )
+    return [_options(path, output) for output in outputs]
+
+
+def _options(path: str, output: Any) -> tuple[StorageOptions, RecordOptions]:
+    if not isinstance(output, dict) or "uri" not in output:
+        raise RuntimeError(f"{path}: each bag needs the key 'uri'.{_EXAMPLE}")
+    storage: dict[str, Any] = {}
+    record: dict[str, Any] = {}
+    for key, value in output.items():
+        name = _ALIASES.get(key, key)
+        if key == "all":
+            record["all_topics"] = record["all_services"] = bool(value)
+        elif name in _STORAGE_KEYS:
+            storage[name] = value
+        elif name in _RECORD_KEYS:
+            record[name] = _record_value(name, value)
+        else:
+            hint = did_you_mean(str(key), _KEYS)
+            text = f"{path}: unknown key '{key}'"
+            raise RuntimeError(f"{text}\n{hint}" if hint else text)
+    return StorageOptions(**storage), RecordOptions(**record)
+
+
+def _record_value(name: str, value: Any) -> Any:
+    if name in ("services", "exclude_service_events"):
+        return [_event_topic(service) for service in value]
+    if name == "topic_polling_interval":
+        return timedelta(milliseconds=value)
+    if name == "topic_qos_profile_overrides":
+        return {topic: qos_profile(topic, profile) for topic, profile in (value or {}).items()}
+    return value
+
+
+def _event_topic(service: str) -> str:
+    ending = "/_service_event"
+    return service if service.endswith(ending) else service + ending
+
+
+def _output(options: tuple[StorageOptions, RecordOptions]) -> Output:
+    storage, record = options
+    writer = make_writer(storage, compression_mode_of(record))
+    return Output(writer, record, storage.start_time_ns, storage.end_time_ns)

@@ -1,0 +1,81 @@
+"""Sends the requests that a bag of service events holds to the services again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosbag2_transport.options import ServiceRequestsSource
+from turtlewire.errors import InterfaceError
+from turtlewire.msg import deserialize, get_message, serialize, type_hash
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+    from turtlewire.bag import TopicInfo
+    from turtlewire.wire.base import Client
+
+__all__ = ["ServiceRequests"]
+
+_REQUEST_SENT, _REQUEST_RECEIVED = 0, 1
+
+
+class ServiceRequests:
+    """Clients of recorded services.
+
+    Args:
+        node: The node whose clients they are.
+        source: Whose record of a request counts.
+    """
+
+    def __init__(self, node: Node, source: ServiceRequestsSource) -> None:
+        self._node = node
+        by_client = source is ServiceRequestsSource.CLIENT_INTROSPECTION
+        self._kind = _REQUEST_SENT if by_client else _REQUEST_RECEIVED
+        self._clients: list[Client] = []
+        self._told: set[str] = set()
+
+    def sender(self, topic: TopicInfo) -> Callable[[bytes], None]:
+        """What takes the events of a service and sends the requests among them."""
+        service = self._node.resolve_service_name(topic.name.removesuffix("/_service_event"))
+        type_name = topic.type.removesuffix("_Event")
+        try:
+            request, response = (
+                TypeId(f"{type_name}_{part}", type_hash(f"{type_name}_{part}"))
+                for part in ("Request", "Response")
+            )
+        except InterfaceError as error:
+            self._tell(service, f"no requests are sent to {service}: {error}")
+            return lambda _event: None
+        client = self._node._rclpy_wire.create_client(service, request, response, QoS())
+        self._clients.append(client)
+        return lambda event: self._send(client, topic.type, event)
+
+    def _send(self, client: Client, event_type: str, data: bytes) -> None:
+        client.take(1000)  # answers are of no interest, and must not pile up
+        if data[4] != self._kind:  # the event's kind is its first byte
+            return
+        event = deserialize(get_message(event_type), data)
+        requests = event.request  # type: ignore[attr-defined]  # each event type has it
+        if not requests:
+            self._tell(
+                client.service,
+                f"the events of {client.service} lack the requests: "
+                "record with the introspection state 'contents'",
+            )
+        elif not client.is_ready():
+            self._tell(client.service, f"no request is sent: {client.service} has no server")
+        else:
+            client.send_request(serialize(requests[0]))
+
+    def _tell(self, service: str, text: str) -> None:
+        if service not in self._told:
+            self._told.add(service)
+            self._node.get_logger().warning(text)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        for client in self._clients:
+            client.close()

@@ -1,0 +1,105 @@
+"""The services and the topic by which other nodes see and steer a player."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rclpy.time import Time
+from rosbag2_interfaces import srv
+from rosbag2_interfaces.msg import ReadSplitEvent
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rosbag2_transport.player import Player
+    from turtlewire.bag import BagMessage
+
+__all__ = ["PlayerServices"]
+
+
+class PlayerServices:
+    """Answers on the node's executor.
+
+    Args:
+        node: The player's node.
+        player: What is steered.
+    """
+
+    def __init__(self, node: Node, player: Player) -> None:
+        self._node = node
+        self._player = player
+        self._files = player.files()
+        self._file = 0
+        self._splits = node.create_publisher(ReadSplitEvent, "events/read_split", 1)
+        player.on_publish.append(self._report_split)
+        for type_, name, callback in (
+            (srv.Pause, "pause", self._pause),
+            (srv.Resume, "resume", self._resume),
+            (srv.TogglePaused, "toggle_paused", self._toggle_paused),
+            (srv.IsPaused, "is_paused", self._is_paused),
+            (srv.GetRate, "get_rate", self._get_rate),
+            (srv.SetRate, "set_rate", self._set_rate),
+            (srv.Play, "play", self._play),
+            (srv.PlayNext, "play_next", self._play_next),
+            (srv.Burst, "burst", self._burst),
+            (srv.Seek, "seek", self._seek),
+            (srv.Stop, "stop", self._stop),
+        ):
+            node.create_service(type_, f"~/{name}", callback)
+
+    def _report_split(self, message: BagMessage) -> None:
+        """Tell other nodes when the playback goes on to the next file."""
+        following = self._file + 1
+        while following < len(self._files) and message.log_time_ns >= self._files[following][0]:
+            closed, opened = self._files[self._file][1], self._files[following][1]
+            name = self._node.get_fully_qualified_name()
+            self._splits.publish(
+                ReadSplitEvent(closed_file=closed, opened_file=opened, node_name=name)
+            )
+            self._file, following = following, following + 1
+        while self._file and message.log_time_ns < self._files[self._file][0]:
+            self._file -= 1  # after a seek or at the next round
+
+    def _pause(self, _request: Any, response: Any) -> Any:
+        self._player.pause()
+        return response
+
+    def _resume(self, _request: Any, response: Any) -> Any:
+        self._player.resume()
+        return response
+
+    def _toggle_paused(self, _request: Any, response: Any) -> Any:
+        self._player.toggle_paused()
+        return response
+
+    def _is_paused(self, _request: Any, response: Any) -> Any:
+        response.paused = self._player.clock.is_paused
+        return response
+
+    def _get_rate(self, _request: Any, response: Any) -> Any:
+        response.rate = self._player.clock.rate
+        return response
+
+    def _set_rate(self, request: Any, response: Any) -> Any:
+        response.success = self._player.set_rate(request.rate)
+        return response
+
+    def _play(self, _request: Any, response: Any) -> Any:
+        response.success = False  # it plays; when it has ended, so has its node
+        return response
+
+    def _play_next(self, _request: Any, response: Any) -> Any:
+        response.success = self._player.play_next()
+        return response
+
+    def _burst(self, request: Any, response: Any) -> Any:
+        response.actually_burst = self._player.burst(request.num_messages)
+        return response
+
+    def _seek(self, request: Any, response: Any) -> Any:
+        self._player.seek(Time.from_msg(request.time).nanoseconds)
+        response.success = True
+        return response
+
+    def _stop(self, _request: Any, response: Any) -> Any:
+        self._player.stop()
+        return response

@@ -1,0 +1,145 @@
+"""The time of a playback, and messages that are read before they are due."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from turtlewire.bag.message import BagMessage
+
+__all__ = ["PlayClock", "ReadAhead"]
+
+
+class PlayClock:
+    """Shows a time of the bag that runs at a rate, stands still or jumps. Not thread-safe.
+
+    Args:
+        now_ns: The time that it shows first.
+        rate: Bag seconds in one second, more than 0.
+        is_paused: Whether it stands still.
+        monotonic_ns: The clock behind it; another one is for tests.
+
+    Attributes:
+        rate: Bag seconds in one second.
+        is_paused: Whether it stands still.
+    """
+
+    def __init__(
+        self,
+        now_ns: int,
+        rate: float = 1.0,
+        *,
+        is_paused: bool = False,
+        monotonic_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        self.rate = rate
+        self.is_paused = is_paused
+        self._monotonic_ns = monotonic_ns
+        self._shown_ns = now_ns
+        self._since_ns = monotonic_ns()
+
+    def now_ns(self) -> int:
+        """The time of the bag, nanoseconds since 1970."""
+        if self.is_paused:
+            return self._shown_ns
+        return self._shown_ns + int((self._monotonic_ns() - self._since_ns) * self.rate)
+
+    def jump(self, now_ns: int) -> None:
+        """Show another time from now on."""
+        self._shown_ns, self._since_ns = now_ns, self._monotonic_ns()
+
+    def pause(self) -> None:
+        """Stand still."""
+        self.jump(self.now_ns())
+        self.is_paused = True
+
+    def resume(self) -> None:
+        """Run on from the time that it shows."""
+        self.jump(self.now_ns())
+        self.is_paused = False
+
+    def set_rate(self, rate: float) -> None:
+        """Run at another rate, more than 0, from the time that it shows."""
+        self.jump(self.now_ns())
+        self.rate = rate
+
+    def seconds_until(self, time_ns: int) -> float:
+        """Seconds of the real time until a time of the bag, as if it ran; 0 for the past."""
+        # From the last jump and not from now: errors do not add up over a long bag.
+        due_ns = self._since_ns + (time_ns - self._shown_ns) / self.rate
+        return max(0.0, (due_ns - self._monotonic_ns()) * 1e-9)
+
+
+class ReadAhead:
+    """Reads messages on a thread of its own, so that decompressing delays none that is due.
+
+    Args:
+        messages: What is read.
+        size: How many messages are kept ready at most.
+    """
+
+    def __init__(self, messages: Iterator[BagMessage], size: int = 1000) -> None:
+        self._size = max(1, size)
+        self._ready: deque[BagMessage] = deque()
+        self._changed = threading.Condition()
+        self._ended = self._closed = False
+        self._failure: Exception | None = None
+        self._thread = threading.Thread(
+            target=self._run, args=(messages,), name="bag-reader", daemon=True
+        )
+        self._thread.start()
+
+    def peek(self) -> BagMessage | None:
+        """The next message, which stays the next one; None at the end.
+
+        Raises:
+            BagError: The bag is damaged; after all messages that can be read.
+        """
+        if self._ready:
+            return self._ready[0]
+        with self._changed:
+            self._changed.wait_for(lambda: self._ready or self._ended)
+            if self._ready:
+                return self._ready[0]
+        if self._failure is not None:
+            raise self._failure
+        return None
+
+    def pop(self) -> None:
+        """Go on behind the next message."""
+        self._ready.popleft()
+        if len(self._ready) == self._size // 2:
+            with self._changed:
+                self._changed.notify_all()
+
+    def close(self) -> None:
+        """End the thread."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
+        self._thread.join()
+
+    def _run(self, messages: Iterator[BagMessage]) -> None:
+        half = self._size // 2
+        try:
+            for message in messages:
+                if len(self._ready) >= self._size:
+                    with self._changed:
+                        self._changed.wait_for(lambda: len(self._ready) <= half or self._closed)
+                if self._closed:
+                    return
+                self._ready.append(message)
+                if len(self._ready) == 1:
+                    with self._changed:
+                        self._changed.notify_all()
+        except Exception as error:  # noqa: BLE001 - raised where the messages are needed
+            self._failure = error
+        finally:
+            with self._changed:
+                self._ended = True
+                self._changed.notify_all()

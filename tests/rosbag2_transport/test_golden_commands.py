@@ -1,0 +1,89 @@
+"""Command lines of `ros2 bag`: exit codes, texts and files of the real one."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+import pytest
+from tests.rosbag2_transport.conftest import ROS2
+
+GOLDEN = Path(__file__).parents[1] / "golden" / "bag"
+COMMANDS = json.loads((GOLDEN / "commands.json").read_text())
+EXPECTED = {
+    row["command"]: row for row in json.loads((GOLDEN / "commands.expected.json").read_text())
+}
+
+#: The parser of the verb speaks, not that of `ros2`; see docs/compatibility.md.
+OTHER_PARSER = {
+    "ros2 bag record -s rocket --topics /a",
+    "ros2 bag burst p_small -n 3 --disable-keyboard-controls",
+    "ros2 bag nonsense",
+}
+
+
+def lines_of(text, folder, made):
+    """Lines that must be there, in any order: threads log, and topics come out of a hash map."""
+    text = re.sub(r"\[\d{9,10}\.\d{6,9}\]", "[T]", text).replace(str(folder), "$WS")
+    kept, in_usage = [], False
+    for line in text.replace("disabled.[", "disabled.\n[").splitlines():
+        if line.startswith("usage: "):
+            in_usage = True
+        elif in_usage and ": error: " not in line:
+            continue
+        elif line.strip() and "signal_handler" not in line:
+            in_usage = False
+            line = re.sub(r"(\(choose from )(.*)\)", sorted_choices, line)  # noqa: PLW2901
+            line = re.sub(r"^(Topic information: |\s+)Topic: ", "Topic: ", line)  # noqa: PLW2901
+            kept.append(re.sub(r"^Bag size: .*", "Bag size", line) if made else line)
+    return sorted(line.rstrip() for line in kept)
+
+
+def sorted_choices(match):
+    return match[1] + ", ".join(sorted(match[2].replace("'", "").split(", "))) + ")"
+
+
+@pytest.mark.parametrize("case", COMMANDS, ids=[case["command"] for case in COMMANDS])
+def test_a_command(case, tmp_path):
+    command, expected = case["command"], EXPECTED[case["command"]]
+    for name in case.get("needs", []):
+        shutil.copytree(GOLDEN / name, tmp_path / name)
+    for name, text in case.get("files", {}).items():
+        (tmp_path / name).write_text(text)
+    path = f"{ROS2.parent}:{os.environ['PATH']}"
+    process = subprocess.Popen(
+        ["bash", "-c", command],
+        cwd=tmp_path,
+        env={**os.environ, "PATH": path, "TZ": "UTC", "COLUMNS": "100"},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    err = ""
+    if "stop_after" in case:
+        for line in process.stderr:
+            err += line
+            if "Recording..." in line:
+                break
+        os.killpg(process.pid, signal.SIGINT)
+    out, rest = process.communicate(timeout=120)
+    made = "convert" in command or "reindex" in command
+    assert process.returncode == expected["exit"], err + rest
+    assert lines_of(out, tmp_path, made) == lines_of(expected["stdout"], tmp_path, made)
+    if command in OTHER_PARSER:
+        assert ": error: " in err + rest
+    else:
+        assert lines_of(err + rest, tmp_path, made) == lines_of(expected["stderr"], "$WS", made)
+    files = sorted(str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*") if f.is_file())
+    assert files == expected["files"]
+
+
+def test_all_are_here():
+    assert len(COMMANDS) == len(EXPECTED) == 24
