@@ -218,11 +218,18 @@ def reporting_errors(
         try:
             return run(args)
         except (BagError, TransformException, OSError, ValueError) as error:
-            text = f"{error} {getattr(error, 'hint', '') or ''}".rstrip()
+            text = f"{_text_of(error)} {getattr(error, 'hint', '') or ''}".rstrip()
             print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
             return 2
 
     return guarded
+
+
+def _text_of(error: Exception) -> str:
+    """The error's text; of the system's errors without their number."""
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
 
 
 def _bag_tf(args: argparse.Namespace) -> int:
