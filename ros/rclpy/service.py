@@ -54,6 +54,7 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         self.srv_name = srv_name
         self.callback = callback
         self.qos_profile = qos_profile
+        self._context = core.context
 
     def send_response(self, response: Any, header: base.RequestId) -> None:
         """Answer the request that ``header`` identifies.
@@ -115,9 +116,13 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         self._send_unless_destroyed(await outcome, header)
 
     def _send_unless_destroyed(self, response: Any, header: base.RequestId) -> None:
-        """Another thread may destroy the service while it answers: then nobody gets the answer."""
+        """Send the response.
+
+        Another thread may destroy the service, or shut the context down, while it answers: then
+        nobody gets the answer.
+        """
         try:
             self.send_response(response, header)
         except (InvalidHandle, WireError):
-            if not self._destroyed:
+            if not self._destroyed and self._context._is_open():
                 raise

@@ -99,9 +99,10 @@ class _Component:
         except (ExternalShutdownException, ShutdownException):
             pass
         except Exception:  # noqa: BLE001  the other components of the process go on
-            self.node.get_logger().fatal(
-                f"The component ends, for a callback failed:\n{traceback.format_exc()}"
-            )
+            if self.node.context.ok():  # otherwise it failed because the process ends meanwhile
+                self.node.get_logger().fatal(
+                    f"The component ends, for a callback failed:\n{traceback.format_exc()}"
+                )
 
     def unload(self) -> None:
         self._executor.shutdown()

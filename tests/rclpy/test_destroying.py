@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import threading
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
-from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
@@ -158,3 +159,23 @@ def test_a_callback_may_run_an_asyncio_loop_that_awaits_a_future(node):
 
 async def _awaited(future):
     return await future
+
+
+def test_a_context_that_is_shut_down_while_a_service_answers_ends_the_spinning(context):
+    node = Node("server", context=context)
+    called = []
+
+    def answer(_request, response):
+        called.append(context.try_shutdown())  # as Ctrl-C does, in the middle of a callback
+        return response
+
+    node.create_service(Trigger, "go", answer)
+    asker = Node("asker", context=context)
+    client = asker.create_client(Trigger, "go")
+    assert client.wait_for_service(timeout_sec=LIMIT_S)
+    client.call_async(Trigger.Request())
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    with contextlib.suppress(ExternalShutdownException):
+        executor.spin()
+    assert len(called) == 1

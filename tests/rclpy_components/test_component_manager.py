@@ -14,6 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy_components import ComponentManager
+from rclpy_components.component_manager import _Component
 from std_msgs.msg import String
 
 MODULE = "test_components"
@@ -135,6 +136,24 @@ def test_one_that_crashes_leaves_the_others(call):
     assert all(node.ran.wait(30) for node in CREATED)
     listed = call(ListNodes, "list_nodes")
     assert listed.full_node_names == ["/a", "/b"]
+
+
+def test_a_callback_that_fails_because_the_process_ends_is_no_error(capfd):
+    context = rclpy.Context()
+    context.init(args=[])
+    node = Node("late", context=context)
+    publisher = node.create_publisher(String, "chatter", 1)
+
+    def on_timer():
+        context.try_shutdown()  # as Ctrl-C does in the main thread, in the middle of a callback
+        publisher.publish(String())
+
+    node.create_timer(0.001, on_timer)
+    component = _Component(node, context)
+    component._thread.join(60)
+    assert not component._thread.is_alive()
+    assert "Traceback" not in capfd.readouterr().err
+    node.destroy_node()
 
 
 def test_unloading(call):
