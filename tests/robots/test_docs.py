@@ -1,0 +1,76 @@
+"""The how-to page about joints does what it says."""
+
+from __future__ import annotations
+
+import doctest
+import os
+import re
+import sys
+import time
+from pathlib import Path
+
+from joint_state_publisher.description import Options, read_joints
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "how-to" / "robots.md"
+BIN = Path(sys.executable).parent
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+#: Commands that the page shows without running them.
+ONLY_SHOWN = ("ros2 launch urdf_tutorial", "ros2 launch examples/robots/walker")
+
+
+def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", f"{BIN}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.chdir(tmp_path)
+    names = iter(re.findall(r"^Save this as `(\S+)`:$", PAGE.read_text(), re.MULTILINE))
+    lines: list[str] = []
+    checked = 0
+    for kind, text in BLOCK.findall(PAGE.read_text()):
+        if kind in {"xml", "python"}:
+            (tmp_path / next(names)).write_text(text)
+        elif kind == "sh":
+            for line in text.splitlines():
+                lines = [line]
+                if line.endswith(" &"):
+                    run("bash", "-c", f"exec {line.removesuffix(' &')}")
+                else:
+                    printed(run, line)
+        elif not text.startswith(ONLY_SHOWN):
+            wait_until_printed(run, lines[-1], text)
+            checked += 1
+    assert checked == 2
+    assert not list(names)
+
+
+def printed(run, line: str) -> str:
+    program = run("bash", "-c", f"exec {line}")
+    assert program.wait() == 0, program.text
+    return "".join(f"{text}\n" for text in program.text.splitlines() if "[INFO]" not in text)
+
+
+def wait_until_printed(run, line: str, text: str) -> None:
+    limit = time.monotonic() + 60
+    options = doctest.ELLIPSIS | doctest.DONT_ACCEPT_BLANKLINE
+    while not doctest.OutputChecker().check_output(text, got := printed(run, line), options):
+        assert time.monotonic() < limit, got
+
+
+def test_the_table_names_every_parameter(run, tmp_path):
+    model = tmp_path / "one.urdf"
+    model.write_text("<robot name='a'><joint name='j' type='continuous'/></robot>")
+    assert read_joints(model.read_text(), Options({}, {}), print).order == ["j"]
+    node = run(BIN / "ros2", "run", "joint_state_publisher", "joint_state_publisher", model)
+    limit = time.monotonic() + 60
+    listing = run(BIN / "ros2", "param", "list", "/joint_state_publisher")
+    while listing.wait() != 0:  # the node is not there yet
+        assert time.monotonic() < limit, node.text
+        listing = run(BIN / "ros2", "param", "list", "/joint_state_publisher")
+    table = PAGE.read_text().replace("`_velocities`", "`publish_default_velocities`")
+    table = table.replace("`_efforts`", "`publish_default_efforts`")
+    own = {name.strip() for name in listing.text.splitlines()} - {
+        "use_sim_time",
+        "start_type_description_service",
+    }
+    assert own
+    assert all(f"`{name}`" in table for name in own), own
