@@ -204,8 +204,9 @@ class Rate:
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
         self._timer = timer
-        self._ticked = threading.Condition()
-        self._ticks = 0
+        self._changed = threading.Condition()
+        self._has_ticked = False
+        self._sleepers = 0
         self._interrupted = False
         self._destroyed = False
         timer.callback = self._tick
@@ -213,7 +214,9 @@ class Rate:
         context.on_shutdown(self._interrupt)
 
     def sleep(self) -> None:
-        """Block until the timer's next call.
+        """Block until the timer is called, or not at all if it was called since the last sleep.
+
+        So a loop may call ``spin_once`` and then sleep in one thread, as in ROS 2.
 
         Raises:
             ROSInterruptException: The context was shut down.
@@ -226,11 +229,12 @@ class Rate:
                 "Rate cannot sleep in a callback of the executor that serves its timer: it would "
                 "never wake up"
             )
-        with self._ticked:
-            seen = self._ticks
-            self._ticked.wait_for(
-                lambda: self._ticks != seen or self._interrupted or self._destroyed
-            )
+        with self._changed:
+            self._sleepers += 1
+            self._changed.wait_for(lambda: self._has_ticked or self._interrupted or self._destroyed)
+            self._sleepers -= 1
+            if self._sleepers == 0:
+                self._has_ticked = False
             if self._interrupted:
                 raise ROSInterruptException
             if self._destroyed:
@@ -238,16 +242,16 @@ class Rate:
 
     def destroy(self) -> None:
         """End all sleeps."""
-        with self._ticked:
+        with self._changed:
             self._destroyed = True
-            self._ticked.notify_all()
+            self._changed.notify_all()
 
     def _tick(self) -> None:
-        with self._ticked:
-            self._ticks += 1
-            self._ticked.notify_all()
+        with self._changed:
+            self._has_ticked = True
+            self._changed.notify_all()
 
     def _interrupt(self) -> None:
-        with self._ticked:
+        with self._changed:
             self._interrupted = True
-            self._ticked.notify_all()
+            self._changed.notify_all()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import sysconfig
 
 import pytest
 
@@ -183,3 +184,12 @@ def test_log_dir(context, tmp_path):
 def test_text_is_text():
     with pytest.raises(TypeError, match="expected Text object got"):
         TextSubstitution(text=1)
+
+
+def test_a_command_may_lie_beside_the_interpreter(monkeypatch):
+    scripts = sysconfig.get_path("scripts")
+    others = [path for path in os.environ["PATH"].split(os.pathsep) if path != scripts]
+    monkeypatch.setenv("PATH", os.pathsep.join(others))
+    assert Command("xacro --help").perform(LaunchContext()).startswith("Usage: xacro ")
+    with pytest.raises(SubstitutionFailure, match=r"file not found: .*'no_such_program'"):
+        Command("no_such_program").perform(LaunchContext())

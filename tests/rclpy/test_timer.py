@@ -185,6 +185,14 @@ def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, exe
     assert not spinning.is_alive()
 
 
+def test_one_thread_may_spin_once_and_then_sleep(node, executor):
+    """As in the tutorial "Using URDF with robot_state_publisher"."""
+    rate = node.create_rate(100)
+    for _ in range(3):
+        executor.spin_once()
+        rate.sleep()
+
+
 def test_a_destroyed_rate_does_not_sleep(node):
     rate = node.create_rate(0.001)
     ending = threading.Timer(0.05, node.destroy_rate, args=(rate,))

@@ -25,6 +25,7 @@ def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = iter(re.findall(r"^Save this as `(\S+)`:$", PAGE.read_text(), re.MULTILINE))
     lines: list[str] = []
+    background = []
     checked = 0
     for kind, text in BLOCK.findall(PAGE.read_text()):
         if kind in {"xml", "python"}:
@@ -33,13 +34,14 @@ def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
             for line in text.splitlines():
                 lines = [line]
                 if line.endswith(" &"):
-                    run("bash", "-c", f"exec {line.removesuffix(' &')}")
+                    background.append(run("bash", "-c", f"exec {line.removesuffix(' &')}"))
                 else:
                     printed(run, line)
         elif not text.startswith(ONLY_SHOWN):
             wait_until_printed(run, lines[-1], text)
             checked += 1
     assert checked == 2
+    background[-1].wait_for(r"The joints' sliders are at http://127\.0\.0\.1:\d+/")
     assert not list(names)
 
 

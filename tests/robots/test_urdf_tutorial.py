@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import signal
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import pytest
 
@@ -21,6 +22,7 @@ MODELS = {
     "07-physics.urdf": 12,
     "08-macroed.urdf.xacro": 8,
 }
+SOURCES = Path(__file__).parent / "urdf_ws" / "src"
 DISPLAY = "ros2 launch urdf_tutorial display.launch.py"
 
 
@@ -79,3 +81,51 @@ def test_a_slider_moved_in_the_browser_moves_the_transform(browser, sourced, run
     page.close()
     echo.kill()
     end(launch)
+
+
+def test_using_urdf_with_robot_state_publisher(sourced, run):
+    launch = run(*sourced("ros2 launch urdf_tutorial_r2d2 demo_launch.py"), environment=HEADLESS)
+    launch.wait_for(r"\[state_publisher\]: state_publisher started")
+    launch.wait_for(r"The root link axis has an inertia specified in the URDF, but KDL")
+    echo = run(*sourced("ros2 run tf2_ros tf2_echo odom periscope"), environment=HEADLESS)
+    places = echo.wait_for(r"^- Translation: \[(\S+), (\S+), (\S+)\]", count=2)
+    assert len({place.groups() for place in places}) == 2  # it moves
+    echo.kill()
+    launch.signal_group(signal.SIGINT)
+    launch.wait()
+    assert "Traceback" not in launch.text
+    assert launch.survivors() == []
+
+
+YAML = """
+launch:
+- arg: {name: model}
+- node:
+    pkg: robot_state_publisher
+    exec: robot_state_publisher
+    param:
+    - {name: robot_description, value: "$(command 'xacro $(var model)')", type: str}
+"""
+XML = """
+<launch>
+  <arg name="model"/>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description" value="$(command 'xacro $(var model)')" type="str"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(("name", "content"), [("a.launch.yaml", YAML), ("a.launch.xml", XML)])
+def test_a_command_in_yaml_and_xml(name, content, ros2_launch):
+    model = SOURCES / "urdf_tutorial" / "urdf" / "06-flexible.urdf"
+    launch = ros2_launch(content, f"model:={model}", name=name)
+    launch.wait_for(r"\[robot_state_publisher\]: Robot initialized")
+    end(launch)
+
+
+def test_a_model_that_is_not_there_is_one_error(sourced, run):
+    launch = run(*sourced(f"{DISPLAY} model:=urdf/99.urdf"), environment=HEADLESS)
+    assert launch.wait() == 1
+    launch.wait_for("executed command failed.*99.urdf")
+    assert launch.survivors() == []
