@@ -65,8 +65,7 @@ class Buffers {
       add(joined_.ptr());
       return;
     }
-    for (std::size_t i = 0; i < count; ++i)
-      add(PyTuple_GET_ITEM(cdr, static_cast<Py_ssize_t>(i)));
+    for (std::size_t i = 0; i < count; ++i) add(PyTuple_GET_ITEM(cdr, static_cast<Py_ssize_t>(i)));
   }
   Buffers(const Buffers&) = delete;
   Buffers& operator=(const Buffers&) = delete;
