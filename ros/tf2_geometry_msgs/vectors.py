@@ -44,7 +44,7 @@ def do_transform_point(point: _P, transform: TransformStamped | Any) -> _P:
 
     Args:
         point: ``PointStamped`` or ``Point``, in the transform's source frame (``child_frame_id``).
-        transform: ``TransformStamped``; for a ``Point`` a ``Transform`` will do.
+        transform: ``TransformStamped``; a ``Transform`` is enough for a ``Point``.
 
     Returns:
         A new message of the same type; a stamped one has stamp and frame of the transform.
@@ -61,7 +61,7 @@ def do_transform_vector3(vector3: _V, transform: TransformStamped | Any) -> _V:
 
     Args:
         vector3: ``Vector3Stamped`` or ``Vector3``, in the transform's source frame.
-        transform: ``TransformStamped``; for a ``Vector3`` a ``Transform`` will do.
+        transform: ``TransformStamped``; a ``Transform`` is enough for a ``Vector3``.
 
     Returns:
         A new message of the same type; a stamped one has stamp and frame of the transform.

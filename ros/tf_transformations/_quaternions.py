@@ -87,7 +87,7 @@ def euler_from_rotation(
 def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, float, float], ...]:
     """Three rows of the rotation matrix.
 
-    The quaternion need not be normalised, and one that is zero means no rotation.
+    The quaternion need not be normalised; zero stands for no rotation.
     """
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w

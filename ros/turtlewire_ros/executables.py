@@ -3,7 +3,7 @@
 An executable is a file: ``<prefix>/lib/PACKAGE/EXECUTABLE`` of a prefix, or the console script of a
 package that pip installed (pip puts those into the environment's ``bin``). A file that starts with
 a Python shebang runs on this interpreter, whatever the shebang says: a workspace that was built by
-a foreign colcon names the system's Python there, which knows nothing of this distribution.
+a foreign colcon names the system's Python there, which does not have this distribution.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ class AppendEnvironmentVariable(SetVariableAction):
     Args:
         name: Its name.
         value: The value.
-        prepend: Add it before the others: true or false, or a text that says so.
+        prepend: Add it before the others: true or false, or text with one of these words.
         separator: What stands between values.
         **kwargs: See :class:`Action`.
     """

@@ -44,7 +44,8 @@ __all__ = ["ExecuteLocal"]
 class ExecuteLocal(ProcessAction):
     """Runs a process on this machine.
 
-    When the launch ends, or the process is told to end, it gets SIGINT, then SIGTERM, then SIGKILL.
+    At the end of the launch, or when an event asks for it, the process gets SIGINT, then SIGTERM,
+    then SIGKILL.
 
     Args:
         process_description: What is run.

@@ -34,8 +34,8 @@ class TimerAction(Action):
     Args:
         period: Seconds: a number, or a text that is one.
         actions: The actions.
-        cancel_on_shutdown: Whether the end of the launch cancels it: true or false, or a text that
-            says so.
+        cancel_on_shutdown: Whether the end of the launch cancels it: true or false, or text
+            with one of these words.
         **kwargs: See :class:`Action`.
     """
 

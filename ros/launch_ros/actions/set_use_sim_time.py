@@ -19,7 +19,7 @@ class SetUseSimTime(SetParameter):
     """Sets ``use_sim_time`` of all nodes that follow.
 
     Args:
-        value: True or false, or a text that says so.
+        value: True or false, or text with one of these words.
         **kwargs: See :class:`launch.Action`.
     """
 

@@ -1,7 +1,7 @@
 """Decompresses and compresses the chunks, files and messages of bags.
 
 Zstandard comes from the standard library on Python 3.14 and from its backport before. LZ4 is an
-optional extra, because rosbag2 writes it only when it is told to.
+optional extra, because rosbag2 writes it only on request.
 """
 
 from __future__ import annotations

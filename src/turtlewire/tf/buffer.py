@@ -3,7 +3,7 @@
 The environment decides when this module is first imported:
 
 - ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
-  core; any other value is ignored, and one line on stderr says so;
+  core; any other value is ignored with one line on stderr;
 - without it the compiled core is taken if it is there; if not, one line on stderr says how to
   get it;
 - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.

@@ -304,7 +304,7 @@ class TransformListener:
         qos: Of the first subscription.
         static_qos: Of the second one.
 
-    The buffer is told the node that published (``/namespace/name``) as authority, or the
+    The authority in the buffer is the publishing node (``/namespace/name``), or the
     publisher's gid in hex while the graph knows none. Messages that are no ``TFMessage`` are
     counted in the buffer (:func:`turtlewire.tf.inspection.malformed`); the first is warned of.
     """

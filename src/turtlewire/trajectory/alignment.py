@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ALIGNMENTS", "Alignment", "align", "associate"]
 
-#: The ways to align, by name: what may be moved.
+#: The ways to align, by the parts of the estimate that may be moved.
 ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
 
 
@@ -53,7 +53,7 @@ class Alignment(NamedTuple):
 def associate(
     reference: Trajectory, estimate: Trajectory, max_diff_ns: int, offset_ns: int = 0
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Rows that belong together: for each pose of the shorter trajectory the nearest of the other.
+    """Pairs of rows: for each pose of the shorter trajectory the nearest one of the other.
 
     Args:
         reference: The reference.
@@ -65,7 +65,7 @@ def associate(
         Rows of the reference and of the estimate, of equal length.
 
     Raises:
-        ValueError: There is no pair; the text tells both time ranges.
+        ValueError: There is no pair; the text names both time ranges.
     """
     first, second = reference.stamps_ns, estimate.stamps_ns + offset_ns
     if len(first) <= len(second):
