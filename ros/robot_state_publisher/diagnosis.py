@@ -31,7 +31,7 @@ class Diagnosis:
         self._robot: Robot | None = None
         self._timer: Timer | None = None
         self._unknown: dict[str, None] = {}
-        self._knows_a_joint = False
+        self._is_settled = False  # a joint is known, or the warning was given
         self._told_of_skipping = False
 
     def start(self, robot: Robot) -> None:
@@ -39,17 +39,17 @@ class Diagnosis:
         self._robot = robot
         self._cancel()
         self._unknown.clear()
-        self._knows_a_joint = False
+        self._is_settled = False
         for joint in robot.joints.values():
             if joint.type == "floating":
                 self._node.get_logger().info(_floating(joint))
 
     def received(self, names: Iterable[str], knows_a_joint: bool) -> None:
         """A joint state came; ``knows_a_joint`` tells whether one of its joints is the robot's."""
-        if self._knows_a_joint:
+        if self._is_settled:
             return
         if knows_a_joint:
-            self._knows_a_joint = True
+            self._is_settled = True
             self._cancel()
             return
         for name in names:
@@ -83,6 +83,7 @@ class Diagnosis:
         self._told_of_skipping = False
 
     def _tell_of_unknown_joints(self) -> None:
+        self._is_settled = True
         self._cancel()
         robot = self._robot
         assert robot is not None, "joint states are received after the start"

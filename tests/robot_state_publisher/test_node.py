@@ -1,0 +1,202 @@
+"""What ours does beyond a real robot_state_publisher: faults mended, and lines that say why."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from rclpy.serialization import serialize_message
+from robot_state_publisher.node import StartError
+from robot_state_publisher.publish_times import PublishTimes
+from sensor_msgs.msg import JointState
+
+
+def robot(*joints):
+    links = "".join(f'<link name="{name}_link"/>' for name, _, _ in joints)
+    elements = "".join(
+        f'<joint name="{name}" type="{kind}"><parent link="base"/><child link="{name}_link"/>'
+        f"{inside}</joint>"
+        for name, kind, inside in joints
+    )
+    return f'<robot name="r"><link name="base"/>{links}{elements}</robot>'
+
+
+ONE = robot(("turn", "continuous", ""))
+
+
+def joint_state(stamp_ms=0, **positions):
+    message = JointState(name=list(positions), position=list(positions.values()))
+    message.header.stamp.sec, rest = divmod(stamp_ms, 1000)
+    message.header.stamp.nanosec = rest * 1_000_000
+    return message
+
+
+def frames(messages):
+    return [[each.child_frame_id for each in message.transforms] for message in messages]
+
+
+def lines(capfd, pattern):
+    return re.findall(pattern, capfd.readouterr().err)
+
+
+def test_a_mimic_joint_of_a_mimic_joint_moves(rig):
+    # ROS 2 resolves chains only if the alphabet has their joints in the right order.
+    chain = rig(
+        robot(
+            ("a", "continuous", '<axis xyz="0 0 1"/><mimic joint="b" multiplier="2"/>'),
+            ("b", "continuous", '<mimic joint="c" offset="0.5"/>'),
+            ("c", "continuous", ""),
+        )
+    )
+    chain.send(joint_state(5000, c=1.0))
+    (message,) = chain.transforms()
+    assert [each.child_frame_id for each in message.transforms] == ["a_link", "b_link", "c_link"]
+    rotation = message.transforms[0].transform.rotation
+    assert rotation.z == pytest.approx(0.9974949866)  # sin(3 / 2)
+
+
+def test_skipped_messages_are_told_once(rig, capfd):
+    fast = rig(ONE)
+    for number in range(10):
+        fast.send(joint_state(1000 + 10 * number, turn=1.0))
+    assert len(fast.transforms()) == 2  # after 0 and 50 ms
+    (line,) = lines(capfd, r"\[INFO\].*Skipping joint states (.*)")
+    assert line == (
+        "whose stamps are less than 50 ms after the last one published, because"
+        " publish_frequency is 20. To publish more of them:"
+        " ros2 param set /robot_state_publisher publish_frequency 1000.0"
+    )
+
+
+def test_stamps_that_stand_are_told(rig, capfd):
+    stamps = rig(ONE)
+    for _ in range(3):
+        stamps.send(joint_state(0, turn=1.0))
+    stamps.transforms()
+    (line,) = lines(capfd, r"Skipping joint states (.*)")
+    assert line.startswith("whose stamp, 0.000000000 s, does not advance.")
+    assert line.endswith("ros2 param set /robot_state_publisher ignore_timestamp true")
+    assert stamps.set_parameter("ignore_timestamp", True) == [True, ""]
+    for _ in range(3):
+        stamps.send(joint_state(0, turn=1.0))
+    assert frames(stamps.transforms()) == [["turn_link"]] * 3
+
+
+def test_a_frequency_of_zero_publishes_every_message_whose_stamp_does_not_go_back(rig):
+    free = rig(ONE, publish_frequency=0.0)
+    for stamp in (1000, 1000, 1001, 999):
+        free.send(joint_state(stamp, turn=1.0))
+    assert len(free.transforms()) == 3
+
+
+def test_unknown_joints_are_told_after_a_while(rig, capfd):
+    strange = rig(ONE)
+    strange.send(joint_state(1000, elbow=1.0, wrist=2.0))
+    strange.send(joint_state(1000, knee=1.0))
+    text = ""
+
+    def told():
+        nonlocal text
+        text += capfd.readouterr().err
+        return "No joint in the joint states" in text
+
+    strange.spin_until(told)
+    assert (
+        "No joint in the joint states is a moving joint of the robot 'r', so no transforms are"
+        " published: received elbow, wrist, knee; its moving joints are turn." in text
+    )
+    strange.send(joint_state(2000, elbow=1.0))
+    assert not strange.publisher._diagnosis._timer
+
+
+def test_a_known_joint_ends_the_watch(rig):
+    late = rig(ONE)
+    late.send(joint_state(1000, elbow=1.0))
+    late.send(joint_state(1000, turn=1.0))
+    assert list(late.publisher.timers) == []
+
+
+def test_a_floating_joint_is_told(rig, capfd):
+    floating = rig(robot(("drift", "floating", "")))
+    (line,) = lines(capfd, r"\[INFO\].*(The joint .*)")
+    assert line == (
+        "The joint 'drift' is floating, so its transform is not published here; another node must"
+        " publish it, from 'base' to 'drift_link'."
+    )
+    assert frames(floating.static) == [[]]
+
+
+def test_mimic_joints_in_a_loop_are_told_and_the_rest_moves(rig, capfd):
+    loop = rig(
+        robot(
+            ("a", "continuous", '<mimic joint="b"/>'),
+            ("b", "continuous", '<mimic joint="a"/>'),
+            ("c", "continuous", ""),
+        )
+    )
+    (line,) = lines(capfd, r"\[WARN\].*(Joints mimic .*)")
+    assert (
+        line
+        == 'Joints mimic each other in a loop: a -> b -> a (line 1 in <mimic> in <joint name="a">)'
+    )
+    loop.send(joint_state(1000, c=1.0))
+    assert frames(loop.transforms()) == [["c_link"]]
+
+
+def test_a_malformed_message_is_one_line(rig, capfd):
+    damaged = rig(ONE)
+    cdr = serialize_message(joint_state(1000, turn=1.0))
+    damaged.send(cdr[:40])
+    damaged.send(joint_state(1000, turn=1.0))
+    assert frames(damaged.transforms()) == [["turn_link"]]
+    (line,) = lines(capfd, r"\[ERROR\].*(Ignoring .*)")
+    assert line.startswith("Ignoring malformed sensor_msgs/msg/JointState:")
+
+
+def test_a_refused_description_changes_nothing(rig):
+    steady = rig(ONE)
+    broken = ONE.replace("</robot>", '<link name="base"/></robot>')
+    refused = [False, "Unable to initialize urdf::model from robot description"]
+    assert steady.set_parameter("robot_description", broken) == refused
+    steady.send(joint_state(1000, turn=1.0))
+    assert frames(steady.transforms()) == [["turn_link"]]
+    assert len(steady.descriptions) == 1
+
+
+@pytest.mark.parametrize(
+    ("parameters", "text"),
+    [
+        ({"publish_frequency": -1.0}, "publish_frequency must be between 0 and 1000"),
+        (
+            {"frame_prefix": 3},
+            "parameter {frame_prefix} is of type {string}, setting it to {integer}",
+        ),
+    ],
+)
+def test_wrong_parameters(rig, parameters, text):
+    with pytest.raises(StartError) as caught:
+        rig(ONE, **parameters)
+    assert text in str(caught.value)
+
+
+def test_names_that_a_peer_invents_are_forgotten():
+    times = PublishTimes()
+    for number in range(30_000):
+        times.published((f"joint_{number}",), 1)
+    assert len(times._times) <= 10_001
+
+
+def test_times_of_joints_in_different_messages():
+    times = PublishTimes()
+    arm, both = ("a", "b"), ("b", "c")
+    assert times.earliest(arm, 100) == 0
+    times.published(arm, 50)
+    assert times.earliest(arm, 100) == 50
+    assert times.earliest(arm, 40) == 40  # a stamp in the future does not count
+    assert times.earliest(both, 100) == 0
+    times.published(both, 60)
+    assert times.earliest(arm, 100) == 50
+    assert times.earliest(both, 100) == 60
+    times.clear()
+    assert times.earliest(both, 100) == 0
