@@ -184,6 +184,34 @@ messages that wait in a filter or synchronizer survive a clock that jumps back
 `tf_transformations` needs `transforms3d`, and loads NumPy at once
   tf_transformations/test_tf_transformations.py test_the_broadcaster_s_function_needs_no_numpy
 
+urdfdom's errors name a line of its C++ code
+  urdf/test_parser.py test_texts_of_urdfdom_with_line_and_element
+  robot_state_publisher/test_golden.py test_a_description_that_urdfdom_refuses
+a zero `axis` is accepted, and poses are NaN
+  urdf/test_parser.py test_joints_that_urdfdom_refuses
+links with two parents and loops beside the tree are accepted
+  urdf/test_parser.py test_joints_that_urdfdom_refuses
+the DOCTYPE of a URDF is skipped
+  urdf/test_parser.py test_entities_are_refused
+a mimic joint of a mimic joint moves only if the alphabet has them in the right order
+  robot_state_publisher/test_node.py test_a_mimic_joint_of_a_mimic_joint_moves
+joints that mimic each other in a loop are accepted in silence
+  robot_state_publisher/test_node.py test_mimic_joints_in_a_loop_are_told_and_the_rest_moves
+joint states are skipped in silence, because of `publish_frequency` or a stamp that stands
+  robot_state_publisher/test_node.py test_skipped_messages_are_told_once test_stamps_that_stand_are_told
+joint states without a known joint move nothing, in silence
+  robot_state_publisher/test_node.py test_unknown_joints_are_told_after_a_while
+a floating joint is not published, in silence
+  robot_state_publisher/test_node.py test_a_floating_joint_is_told
+`publish_frequency` 0 divides by zero
+  robot_state_publisher/test_node.py test_a_frequency_of_zero_publishes_every_message_whose_stamp_does_not_go_back
+kdl_parser warns twice of a new `robot_description`
+  robot_state_publisher/test_golden.py test_scenario
+a wrong start aborts with 250
+  robot_state_publisher/test_golden.py test_a_wrong_start
+`urdf_to_graphviz` needs Graphviz for the PDF
+  urdfdom/test_programs.py test_drawings
+
 two INFO lines at the start
   turtlesim/test_turtlesim_processes.py test_ctrl_c_ends_it_with_a_browser_open_too test_ctrl_c_ends_the_simulator_cleanly
 a Qt window; closing it ends the node

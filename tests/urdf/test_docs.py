@@ -1,0 +1,48 @@
+"""The how-to about URDF does what it says; a `text` block is what the block before it prints."""
+
+from __future__ import annotations
+
+import doctest
+import os
+import re
+import sys
+from pathlib import Path
+
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "urdf.md"
+BIN = Path(sys.executable).parent
+BLOCKS = 11
+
+
+def commands(text):
+    """The lines of a shell block; a here-document is one."""
+    found = re.findall(r"^(?:cat .*?^END$|.+?)(?:\n|\Z)", text, re.MULTILINE | re.DOTALL)
+    return [line.rstrip("\n") for line in found]
+
+
+def test_the_page_does_what_it_says(run, tmp_path):
+    path = f"{BIN}{os.pathsep}{os.environ['PATH']}"
+    options = {"cwd": tmp_path, "environment": {"PATH": path}}
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    assert len(blocks) == BLOCKS
+    printed = ""
+    for kind, text in blocks:
+        if kind == "text":
+            flags = doctest.ELLIPSIS
+            assert doctest.OutputChecker().check_output(text, printed, flags), printed
+        elif kind == "python":
+            printed = outcome(run(sys.executable, "-c", text, **options))
+        else:
+            for line in commands(text):
+                if line.endswith(" &"):
+                    run("bash", "-c", f"exec {line.removesuffix(' &')}", **options)
+                else:
+                    printed = outcome(run("bash", "-c", line, **options))
+
+
+def outcome(program):
+    """What it printed, without its log and the time of waiting for the first transform."""
+    assert program.wait() == 0, program.text
+    skipped = ("[INFO]", "Waiting", "Warning")
+    return "".join(
+        f"{line}\n" for line in program.text.splitlines() if not line.startswith(skipped)
+    )
