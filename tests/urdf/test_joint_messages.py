@@ -192,6 +192,13 @@ def test_damaged_bytes_are_refused_or_read(data):
         deserialize(TFMessage, layout.transforms(bytes(damaged)))
 
 
+@pytest.mark.parametrize("position", [1e308, float("inf"), float("-inf"), float("nan")])
+def test_positions_that_are_no_place_are_passed_on_without_a_warning(position):
+    found = answer(joint_state({"endless": position, "slide": position}))
+    assert set(found) == {"r1/endless_link", "r1/slide_link"}
+    assert not np.isfinite(found["r1/slide_link"]).all() or position == 1e308
+
+
 def test_a_huge_number_of_names_is_refused():
     at = GOOD.index(b"\x05\x00\x00\x00turn\0") - 4
     with pytest.raises(CdrError, match="within its names"):

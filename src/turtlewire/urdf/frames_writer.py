@@ -102,8 +102,9 @@ class PlainFrames:
             out[self._stamps] = np.frombuffer(joint_state, np.uint8, 8, 4)
             count = int(self._sources.max()) + 1
             given = np.frombuffer(joint_state, "<f8", count, positions)
-            values = given[self._sources] * self._factors + self._offsets
-            out[self._poses] = transforms_at(self._constants, values).view(np.uint8)
+            with np.errstate(over="ignore", invalid="ignore"):  # infinities, as the core has them
+                values = given[self._sources] * self._factors + self._offsets
+                out[self._poses] = transforms_at(self._constants, values).view(np.uint8)
         made: bytes = out.tobytes()
         return made
 
