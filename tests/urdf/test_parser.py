@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from turtlewire.urdf import Mimic, Pose, UrdfError, load_urdf, parse_urdf
 from turtlewire.urdf.elements import MAX_DEPTH
+from turtlewire.urdf.faults import log_lines
 from turtlewire.urdf.model import Box, Cylinder, JointLimits, Mesh
 from turtlewire.urdf.values import as_number
 
@@ -269,6 +270,30 @@ def test_a_damaged_robot_is_a_robot_or_a_refusal(data):
     piece = data.draw(st.text(alphabet='<>/" 01.e-nx', max_size=8))
     with contextlib.suppress(UrdfError):
         assert parse_urdf(text[:begin] + piece + text[end:]).root
+
+
+def test_a_loop_of_ten_thousand_links_is_one_error():
+    count = 10_000
+    links = "".join(f'<link name="l{number}"/>' for number in range(count))
+    joints = "\n".join(
+        f'<joint name="j{number}" type="fixed"><parent link="l{number}"/>'
+        f'<child link="l{(number + 1) % count}"/></joint>'
+        for number in range(count)
+    )
+    error = refusal(robot(links, joints))
+    assert error.reports == [
+        "Failed to find root link: No root link found. The robot xml is not a valid tree."
+    ]
+    beside = refusal(robot('<link name="root"/>', links, joints))
+    assert str(beside).startswith("Failed to build tree: the links ")
+    assert beside.line > 3
+
+
+def test_what_is_logged_has_a_limit_and_no_control_characters():
+    long = refusal(robot(f'<link name="{"9" * 1_000_000}\u202e"/>' * 2))
+    assert all(len(line) < 1100 and line.isprintable() for line in log_lines(long))
+    name = refusal(robot('<link name="\u202e"/>' * 2))
+    assert next(log_lines(name)) == r"Error:   link '\u202e' is not unique."
 
 
 def test_an_error_survives_pickling():

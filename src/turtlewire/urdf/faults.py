@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 __all__ = ["UrdfError", "UrdfWarning", "log_lines", "reported"]
 
 
+_LONGEST = 1000
+
+
 class UrdfError(TurtlewireError, ValueError):
     """A robot description that urdfdom refuses, or that has no kinematics.
 
@@ -65,12 +68,17 @@ class UrdfWarning:
 def log_lines(fault: UrdfError | UrdfWarning) -> Iterator[str]:
     """What urdfdom prints on stderr; the line number is one of the description, not of C++ code."""
     if isinstance(fault, UrdfError):
-        first, *others = (f"Error:   {printable(text)}" for text in fault.reports)
+        first, *others = (f"Error:   {_line(text)}" for text in fault.reports)
     else:
-        first, others = f"Warning: {printable(fault.text)}", []
+        first, others = f"Warning: {_line(fault.text)}", []
     yield first
-    yield f"         at {printable(fault.place)}"
+    yield f"         at {_line(fault.place)}"
     yield from others
+
+
+def _line(text: str) -> str:
+    """Without what a terminal obeys; a name or number of the file may have any length."""
+    return printable(text if len(text) <= _LONGEST else text[:_LONGEST] + "…")
 
 
 @contextmanager
