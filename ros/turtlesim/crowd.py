@@ -71,7 +71,8 @@ class Crowd:
             now_ns: As for :meth:`turtlesim.model.Turtle.step`.
         """
         for turtle in turtles:
-            turtle.age_command(now_ns)
+            if now_ns > turtle.command_ends_ns:
+                turtle.age_command(now_ns)
         old_x, old_y, theta, forward, lateral, turning = _state(turtles)
         theta = turn(theta, turning, np.floor)
         headings = theta.tolist()

@@ -68,6 +68,8 @@ class Pen(NamedTuple):
 
 
 DEFAULT_PEN = Pen(0xB3, 0xB8, 0xFF, 3)
+#: Stands for the end of a command whose first tick is still to come.
+_NEW_COMMAND = -math.inf
 
 
 class Pose(NamedTuple):
@@ -158,12 +160,13 @@ class Turtle:
         pen: Colour and width of its line.
         pen_on: Whether it draws.
         rotation: The rotation being worked on, or None.
+        command_ends_ns: When the velocity command is too old; minus infinity for one that came
+            after the last tick, infinity once the turtle has stopped.
     """
 
     __slots__ = (
-        "_command_is_fresh",
-        "_command_ns",
         "_teleports",
+        "command_ends_ns",
         "forward",
         "lateral",
         "name",
@@ -185,8 +188,7 @@ class Turtle:
         self.pen_on = True
         self.rotation: Rotation | None = None
         self._stop()
-        self._command_ns = 0
-        self._command_is_fresh = False
+        self.command_ends_ns: float = 0
         self._teleports: list[tuple[bool, float, float, float]] = []
 
     @property
@@ -207,7 +209,7 @@ class Turtle:
             The rotation that this command aborted, or None.
         """
         self.forward, self.lateral, self.turning = forward, lateral, turning
-        self._command_is_fresh = True
+        self.command_ends_ns = _NEW_COMMAND
         return self._abort_rotation()
 
     def rotate_to(self, heading: float) -> tuple[Rotation, Rotation | None]:
@@ -257,12 +259,15 @@ class Turtle:
         )
 
     def age_command(self, now_ns: int) -> None:
-        """Note when a new command came, and stop when the last one is too old."""
-        if self._command_is_fresh:
-            self._command_ns = now_ns
-            self._command_is_fresh = False
-        elif now_ns - self._command_ns > COMMAND_LIFETIME_NS:
+        """Note when a new command came, and stop when the last one is too old.
+
+        Nothing is to be done up to the time ``command_ends_ns``.
+        """
+        if self.command_ends_ns == _NEW_COMMAND:
+            self.command_ends_ns = now_ns + COMMAND_LIFETIME_NS
+        elif now_ns > self.command_ends_ns:
             self._stop()
+            self.command_ends_ns = math.inf
 
     def _move(self) -> tuple[float, float] | None:
         """Integrate one tick; the place outside of the field from which a wall moved it back."""
@@ -308,7 +313,7 @@ class Turtle:
             return
         self.forward = self.lateral = 0.0
         self.turning = -ROTATION_SPEED if rotation.remaining < 0.0 else ROTATION_SPEED
-        self._command_ns = now_ns
+        self.command_ends_ns = now_ns + COMMAND_LIFETIME_NS
 
     def _end_rotation(self, rotation: Rotation, state: RotationState) -> None:
         rotation.state = state

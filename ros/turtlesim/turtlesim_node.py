@@ -156,9 +156,10 @@ class TurtlesimNode(CppNode):
         for place in tick.clamped_from:
             self._warn_of_wall(*place)
         drawn = 0
-        for k, (turtle, pose) in enumerate(zip(tick.turtles, tick.poses.tolist(), strict=True)):
+        for k, turtle in enumerate(tick.turtles):
             endpoints = self._endpoints_of[turtle.name]
-            endpoints.publish_pose(pose)
+            if endpoints.pose_listeners:
+                endpoints.publish_pose(tick.poses[k].tolist())
             if endpoints.color_listeners:  # it sees what those before it have drawn in this tick
                 before = int(tick.movers.searchsorted(k))
                 self._path.draw_lines(tick.lines[drawn:before], tick.pens[drawn:before])
