@@ -57,8 +57,9 @@ bool time_of(PyObject* object, Stamp& t, const char* what) {
   PyObject* sec = optional_attribute(object, sec_name);
   PyObject* nanosec = sec != nullptr ? optional_attribute(object, nanosec_name) : nullptr;
   if (nanosec != nullptr) {
-    const bool fits = take_integer(sec, seconds) & take_integer(nanosec, nanoseconds);
-    return fits && join_seconds(seconds, nanoseconds, t, what);
+    const bool has_seconds = take_integer(sec, seconds);
+    const bool has_nanoseconds = take_integer(nanosec, nanoseconds);  // releases it in any case
+    return has_seconds && has_nanoseconds && join_seconds(seconds, nanoseconds, t, what);
   }
   Py_XDECREF(sec);
   if (PyErr_Occurred() != nullptr) return false;

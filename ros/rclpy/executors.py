@@ -206,12 +206,10 @@ class Executor:
     def _spin_once(
         self, timeout_sec: float | None, condition: Callable[[], bool] | None = None
     ) -> None:
-        scheduler = self._rclpy_scheduler
-        with scheduler.spinning():
-            try:
-                scheduler.run(*scheduler.next(_nanoseconds(timeout_sec), condition))
-            except (ShutdownException, TimeoutException, ConditionReachedException):
-                return
+        try:
+            self._rclpy_scheduler.spin_once(_nanoseconds(timeout_sec), condition)
+        except (ShutdownException, TimeoutException, ConditionReachedException):
+            return
 
     def wait_for_ready_callbacks(
         self, timeout_sec: float | None = None

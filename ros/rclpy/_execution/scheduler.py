@@ -129,15 +129,20 @@ class Scheduler:
 
     # Finding the next thing to run
 
-    @contextmanager
-    def spinning(self) -> Iterator[None]:
-        """Within the block, this thread spins; RuntimeError if another one does."""
+    def spin_once(
+        self, timeout_ns: int | None, condition: Callable[[], bool] | None = None
+    ) -> None:
+        """Wait for the next thing to run, and run it; raises as :meth:`next`.
+
+        Raises:
+            RuntimeError: Another thread spins.
+        """
         outer, me = self._spinning_thread, threading.get_ident()
         if outer is not None and outer != me:
             raise RuntimeError("Executor is already spinning")
         self._spinning_thread = me
         try:
-            yield
+            self.run(*self.next(timeout_ns, condition))
         finally:
             self._spinning_thread = outer
 
