@@ -41,6 +41,19 @@ def test_a_window_has_the_static_transforms_from_before_it(tmp_path):
     buffer.lookup_transform("odom", "camera", start + 100_000_000)
 
 
+def test_one_file_of_a_split_bag_says_where_the_static_transforms_are(tmp_path):
+    path = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
+    first, *_, last = sorted(path.glob("*.mcap"), key=lambda file: int(file.stem.split("_")[1]))
+    buffer, report = load_transforms(last)
+    assert "camera" not in buffer
+    (problem,) = report.problems
+    assert "has no static transforms" in problem
+    assert f"open {path} to have them all" in problem
+    assert load_transforms(first)[1].problems == []
+    (path / "metadata.yaml").write_text("[")
+    assert load_transforms(last)[1].problems == []
+
+
 def test_other_topic_names(tmp_path):
     with BagWriter(tmp_path / "made") as writer:
         writer.add_topic("/robot1/tf", "tf2_msgs/msg/TFMessage")

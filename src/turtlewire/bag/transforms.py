@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.metadata import read_metadata
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.storage import McapStorage
@@ -110,9 +111,30 @@ def fill_buffer(
             report.jumps += group_jumps(walk.jumps)
             report.steps_back.update(walk.steps_back)
         tell(1.0)
-        report.problems = bag.problems
+        report.problems = bag.problems + _lonely_file(bag, fixed)
     describe(buffer, report)
     return report
+
+
+def _lonely_file(bag: Bag, static: set[str]) -> list[str]:
+    """A complaint if one file of several was opened, and the static transforms are in another."""
+    folder, name = os.path.split(bag.path)
+    if os.path.isdir(bag.path) or any(bag.topics[t].message_count for t in static & {*bag.topics}):
+        return []
+    try:
+        whole = read_metadata(folder or ".")
+    except BagError:  # of the folder; the file was read without it
+        return []
+    if whole is None or name not in whole.paths or len(whole.paths) == 1:
+        return []
+    if not any(topic.name in static and topic.message_count for topic in whole.topics):
+        return []
+    return [
+        (
+            f"{bag.path} is one of {len(whole.paths)} files of a bag and has no static transforms: "
+            f"open {folder or 'the folder'} to have them all"
+        )
+    ]
 
 
 def _names(topics: str | Iterable[str]) -> set[str]:

@@ -14,7 +14,7 @@ from turtlewire.tf.plain.report import frames_as_dot, frames_as_string, frames_a
 from turtlewire.tf.plain.shared_tree import SharedTree
 from turtlewire.tf.plain.tf_message import decode_tf_message
 from turtlewire.tf.plain.transform import Transform
-from turtlewire.tf.plain.tree import NO_PARENT
+from turtlewire.tf.plain.tree import NO_PARENT, judge_names
 from turtlewire.tf.status import LookupStatus
 
 if TYPE_CHECKING:
@@ -120,10 +120,9 @@ class Buffer(SharedTree):
                 try:
                     names = parent.decode(), child.decode()
                 except UnicodeDecodeError:
-                    shown = child.decode(errors="replace")
-                    self._tree.refusals.add(
-                        Refusal(Verdict.BAD_NAME, shown, stamp, pose, authority)
-                    )
+                    verdict = judge_names(_escaped(parent), _escaped(child))
+                    shown = child.removeprefix(b"/").decode(errors="replace")
+                    self._tree.refusals.add(Refusal(verdict, shown, stamp, pose, authority))
                     continue
                 verdict = self._tree.set(*names, stamp, pose, authority, static=static)
                 accepted += verdict is Verdict.ACCEPTED
@@ -317,3 +316,8 @@ class Buffer(SharedTree):
         self._tree.check_name(target, question, "target_frame")
         self._tree.check_name(source, question, "source_frame")
         self._tree.check_name(fixed, question, "fixed_frame")
+
+
+def _escaped(name: bytes) -> str:
+    """A name as the tree judges it: bytes that are no UTF-8 become surrogates."""
+    return name.removeprefix(b"/").decode(errors="surrogateescape")

@@ -107,6 +107,8 @@ class RecordWalk:
         if static or len(data) < _SMALLEST:  # without transforms
             return
         count, seconds, nanoseconds = _HEADS[data[1]].unpack_from(data)
+        if not count:  # what follows is no transform
+            return
         stamp = seconds * 1_000_000_000 + nanoseconds
         # The names of a message with one transform lie between its head and its numbers.
         names = data[_NAMES_AT:-_NUMBERS_SIZE] if count == 1 else b""

@@ -56,7 +56,7 @@ class Tree:
         return verdict
 
     def _insert(self, parent: str, child: str, stamp: int, pose: Pose, *, static: bool) -> Verdict:
-        verdict = _judge_names(parent, child)
+        verdict = judge_names(parent, child)
         if verdict is not Verdict.ACCEPTED:
             return verdict
         stored = (*pose[:3], *through_matrix(pose[3:]))
@@ -237,7 +237,15 @@ def _earliest(stamps: list[int]) -> int:
     return min((stamp for stamp in stamps if stamp != 0), default=0)
 
 
-def _judge_names(parent: str, child: str) -> Verdict:
+def _is_frame_name(name: str) -> bool:
+    try:
+        return "\0" not in name and len(name.encode()) <= _LONGEST_NAME
+    except UnicodeEncodeError:
+        return False
+
+
+def judge_names(parent: str, child: str) -> Verdict:
+    """What is wrong with the names; bytes that are no UTF-8 stand in them as surrogates."""
     if child == parent:
         return Verdict.SELF_TRANSFORM
     if not child:
@@ -246,10 +254,9 @@ def _judge_names(parent: str, child: str) -> Verdict:
         return Verdict.NO_PARENT_FRAME
     if NO_PARENT in {child, parent}:
         return Verdict.RESERVED_NAME
-    for name in (child, parent):
-        if "\0" in name or len(name.encode()) > _LONGEST_NAME:
-            return Verdict.BAD_NAME
+    if not (_is_frame_name(child) and _is_frame_name(parent)):
+        return Verdict.BAD_NAME
     return Verdict.ACCEPTED
 
 
-__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "Failure", "Reader", "Tree"]
+__all__ = ["MAX_GRAPH_DEPTH", "NO_PARENT", "Failure", "Reader", "Tree", "judge_names"]
