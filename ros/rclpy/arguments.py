@@ -104,9 +104,9 @@ class Arguments:
         self.rosout_logs = True
         self.external_lib_logs = True
         self.enclave = "/"
-        self._rules: list[RemapRule] = []
+        self.rules: list[RemapRule] = []
         #: Per command line, later ones win: node name pattern to parameters.
-        self._parameter_maps: list[dict[str, dict[str, ParameterValue]]] = [{}]
+        self.parameter_maps: list[dict[str, dict[str, ParameterValue]]] = [{}]
 
     @classmethod
     def parse(cls, argv: Sequence[str]) -> Arguments:
@@ -177,8 +177,8 @@ class Arguments:
         """
         both = Arguments()
         both.__dict__.update(self.__dict__)
-        both._rules = self._rules + other._rules
-        both._parameter_maps = other._parameter_maps + self._parameter_maps
+        both.rules = self.rules + other.rules
+        both.parameter_maps = other.parameter_maps + self.parameter_maps
         return both
 
     def configure_logging(self) -> None:
@@ -216,11 +216,11 @@ class Arguments:
         return self._remap("SERVICE", service, node_name, namespace)
 
     def _remap(self, kind: str, name: str, node_name: str, namespace: str) -> str:
-        if not self._rules:
+        if not self.rules:
             return name
         from .impl.rcl_remap import RemapKind, remap
 
-        return remap(self._rules, RemapKind[kind], name, node_name, namespace)
+        return remap(self.rules, RemapKind[kind], name, node_name, namespace)
 
     def parameter_overrides(self, node_fqn: str) -> dict[str, Any]:
         """The values that the command line and its files give to a node's parameters.
@@ -232,7 +232,7 @@ class Arguments:
             Name to bool, int, float, str or a list of one of them.
         """
         overrides: dict[str, Any] = {}
-        for nodes in self._parameter_maps:
+        for nodes in self.parameter_maps:
             for pattern, parameters in nodes.items():
                 if _matches(pattern, node_fqn):
                     overrides.update(parameters)
@@ -252,19 +252,19 @@ class Arguments:
     def _add_remap_rule(self, text: str) -> None:
         from .impl.rcl_remap import parse_remap_rule
 
-        self._rules.append(parse_remap_rule(text))
+        self.rules.append(parse_remap_rule(text))
 
     def _add_parameter(self, text: str) -> None:
         from .impl.rcl_param_rule import parse_parameter_rule
 
         node_name, parameter_name, value = parse_parameter_rule(text)
-        self._parameter_maps[0].setdefault(node_name, {})[parameter_name] = value
+        self.parameter_maps[0].setdefault(node_name, {})[parameter_name] = value
 
     def _add_parameter_file(self, path: str) -> None:
         from .impl.rcl_yaml_param_parser import parse_file
 
         for node_name, parameters in parse_file(path).items():
-            self._parameter_maps[0].setdefault(node_name, {}).update(parameters)
+            self.parameter_maps[0].setdefault(node_name, {}).update(parameters)
 
     def _set_log_level(self, text: str) -> None:
         from .logging import get_logging_severity_from_string

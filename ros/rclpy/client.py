@@ -9,6 +9,7 @@ from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
 from ._execution.blocking import Call, wait_for_response
+from ._execution.futures import call_when_done, run_callbacks_on
 from ._rclpy_pybind11 import RCLError
 from ._typing import RequestT, ResponseT, SrvT_co, T
 from .hints import described
@@ -89,14 +90,14 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
             self._events.publish(
                 EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
             )
-        future._add_waiter(lambda: self._pending.pop(sequence_number, None))
+        call_when_done(future, lambda: self._pending.pop(sequence_number, None))
         return future
 
     def _send(self, cdr: bytes) -> int:
         try:
             return self._wire.send_request(cdr)
         except WireError:
-            if self._context._is_open():
+            if self._context.is_open():
                 raise
             raise RCLError("failed to send request: client's context is invalid") from None
 
@@ -154,7 +155,7 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
         """
         self._check_usable()
         timeout_ns = None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1e9)
-        return self._context._wait_for_graph(self._wire.is_ready, timeout_ns)
+        return self._context.wait_for_graph(self._wire.is_ready, timeout_ns)
 
     def _take(self) -> Work | None:
         for sequence_number, cdr in self._wire.take(1):
@@ -173,6 +174,6 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
                     sequence_number,
                     response=response,
                 )
-            future._set_executor(self._serving_host())
+            run_callbacks_on(self._serving_host(), future)
             return future.set_result, (response,)
         return None

@@ -127,13 +127,13 @@ class JumpHandle:
         self._threshold = threshold
         self._pre_callback = pre_callback
         self._post_callback = post_callback
-        clock._add_jump_handle(self)
+        clock.add_jump_handle(self)
 
     def unregister(self) -> None:
         """Hear of no further jump. Idempotent."""
         clock, self._clock = self._clock, None
         if clock is not None:
-            clock._remove_jump_handle(self)
+            clock.remove_jump_handle(self)
 
     def before(self) -> None:
         """Run the first callback."""
@@ -249,11 +249,13 @@ class Clock:
         """Wait for ``rel_time`` on this clock; see :meth:`sleep_until`."""
         return self.sleep_until(self.now() + rel_time, context)
 
-    def _add_jump_handle(self, handle: JumpHandle) -> None:
+    def add_jump_handle(self, handle: JumpHandle) -> None:
+        """Tell ``handle`` of jumps; :meth:`create_jump_callback` makes one."""
         with self._lock:
             self._jump_handles.append(handle)
 
-    def _remove_jump_handle(self, handle: JumpHandle) -> None:
+    def remove_jump_handle(self, handle: JumpHandle) -> None:
+        """Undo :meth:`add_jump_handle`."""
         with self._lock:
             self._jump_handles.remove(handle)
 

@@ -109,7 +109,7 @@ class Context:
         """Whether it is initialized and has not been shut down."""
         return self._valid
 
-    def _is_open(self) -> bool:
+    def is_open(self) -> bool:
         """Whether endpoints work.
 
         After a signal they still do, until the program calls :meth:`shutdown`: it may send its last
@@ -202,7 +202,7 @@ class Context:
 
         return tell
 
-    def _wait_for_graph(self, predicate: Callable[[], bool], timeout_ns: int | None) -> bool:
+    def wait_for_graph(self, predicate: Callable[[], bool], timeout_ns: int | None) -> bool:
         """Block until ``predicate()`` is true, looking again after each change of the graph.
 
         A shutdown ends the wait.

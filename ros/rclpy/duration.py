@@ -72,35 +72,31 @@ class Duration:
 
     def __eq__(self, other: object) -> bool:
         return (
-            self._nanoseconds == other._nanoseconds
+            self._nanoseconds == other.nanoseconds
             if isinstance(other, Duration)
             else NotImplemented
         )
 
     def __lt__(self, other: Any) -> bool:
         return (
-            self._nanoseconds < other._nanoseconds
-            if isinstance(other, Duration)
-            else NotImplemented
+            self._nanoseconds < other.nanoseconds if isinstance(other, Duration) else NotImplemented
         )
 
     def __le__(self, other: Any) -> bool:
         return (
-            self._nanoseconds <= other._nanoseconds
+            self._nanoseconds <= other.nanoseconds
             if isinstance(other, Duration)
             else NotImplemented
         )
 
     def __gt__(self, other: Any) -> bool:
         return (
-            self._nanoseconds > other._nanoseconds
-            if isinstance(other, Duration)
-            else NotImplemented
+            self._nanoseconds > other.nanoseconds if isinstance(other, Duration) else NotImplemented
         )
 
     def __ge__(self, other: Any) -> bool:
         return (
-            self._nanoseconds >= other._nanoseconds
+            self._nanoseconds >= other.nanoseconds
             if isinstance(other, Duration)
             else NotImplemented
         )

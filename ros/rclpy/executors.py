@@ -13,6 +13,7 @@ from ._execution.exceptions import (
     ShutdownException,
     TimeoutException,
 )
+from ._execution.futures import call_when_done
 from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
 from .hints import described
@@ -195,7 +196,7 @@ class Executor:
 
     def _wake_when_done(self, future: Future[Any]) -> None:
         if isinstance(future, Future):
-            future._add_waiter(self.wake)
+            call_when_done(future, self.wake)
         elif hasattr(future, "add_done_callback"):  # of concurrent.futures, for example
             future.add_done_callback(lambda _: self.wake())
         else:

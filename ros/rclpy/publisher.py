@@ -88,7 +88,7 @@ class Publisher(Generic[MsgT]):
             raise RCLError(f"Failed to publish: {error}") from error
 
     def _check_context(self) -> None:
-        if not self._context._is_open():
+        if not self._context.is_open():
             raise RCLError("Failed to publish: publisher's context is invalid") from None
 
     def get_subscription_count(self) -> int:

@@ -104,9 +104,9 @@ class Time:
 
     def __sub__(self, other: Any) -> Any:
         if isinstance(other, Time):
-            if self._clock_type != other._clock_type:
+            if self._clock_type != other.clock_type:
                 raise TypeError("Can't subtract times with different clock types")
-            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+            return Duration(nanoseconds=self._nanoseconds - other.nanoseconds)
         if isinstance(other, Duration):
             try:
                 return Time(
@@ -119,27 +119,23 @@ class Time:
     def _comparable(self, other: object) -> bool:
         if not isinstance(other, Time):
             return False
-        if self._clock_type != other._clock_type:
+        if self._clock_type != other.clock_type:
             raise TypeError("Can't compare times with different clock types")
         return True
 
     def __eq__(self, other: object) -> bool:
         if not self._comparable(other):
             return NotImplemented
-        return self._nanoseconds == other._nanoseconds  # type: ignore[attr-defined, no-any-return]
+        return self._nanoseconds == other.nanoseconds  # type: ignore[attr-defined, no-any-return]
 
     def __lt__(self, other: Any) -> bool:
-        return self._nanoseconds < other._nanoseconds if self._comparable(other) else NotImplemented
+        return self._nanoseconds < other.nanoseconds if self._comparable(other) else NotImplemented
 
     def __le__(self, other: Any) -> bool:
-        return (
-            self._nanoseconds <= other._nanoseconds if self._comparable(other) else NotImplemented
-        )
+        return self._nanoseconds <= other.nanoseconds if self._comparable(other) else NotImplemented
 
     def __gt__(self, other: Any) -> bool:
-        return self._nanoseconds > other._nanoseconds if self._comparable(other) else NotImplemented
+        return self._nanoseconds > other.nanoseconds if self._comparable(other) else NotImplemented
 
     def __ge__(self, other: Any) -> bool:
-        return (
-            self._nanoseconds >= other._nanoseconds if self._comparable(other) else NotImplemented
-        )
+        return self._nanoseconds >= other.nanoseconds if self._comparable(other) else NotImplemented

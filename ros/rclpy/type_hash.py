@@ -59,7 +59,7 @@ class TypeHash:
 
     def __eq__(self, other: object) -> bool:
         return (
-            (self._version, self._value) == (other._version, other._value)
+            (self._version, self._value) == (other.version, other.value)
             if isinstance(other, TypeHash)
             else NotImplemented
         )

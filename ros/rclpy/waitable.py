@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._execution.entity import Entity, Host, Work
+from ._execution.futures import run_callbacks_on
 from .subscription import Subscription
 from .timer import Timer
 
@@ -155,8 +156,7 @@ class Waitable(Entity):
 
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
-        host = self._serving_host()
-        future._set_executor(host)
+        run_callbacks_on(self._serving_host(), future)
 
     def _attach(self, host: Host) -> None:
         if self._wait_set is None:

@@ -354,17 +354,17 @@ def test_coming_and_going(serve, client, node, context):
     assert client.wait_for_server(timeout_sec=20)
     assert set(node.waitables) == {client, server}
     server.destroy()
-    assert context._wait_for_graph(lambda: not client.server_is_ready(), 20_000_000_000)
+    assert context.wait_for_graph(lambda: not client.server_is_ready(), 20_000_000_000)
     assert list(node.waitables) == [client]
 
 
 def test_the_graph_knows_actions(serve, client, node, context):
     serve(count)
     expected = [("/fibonacci", ["example_interfaces/action/Fibonacci"])]
-    assert context._wait_for_graph(
+    assert context.wait_for_graph(
         lambda: get_action_names_and_types(node) == expected, 20_000_000_000
     )
-    assert context._wait_for_graph(
+    assert context.wait_for_graph(
         lambda: get_action_server_names_and_types_by_node(node, "tested", "/") == expected,
         20_000_000_000,
     )

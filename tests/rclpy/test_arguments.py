@@ -326,7 +326,7 @@ def test_wildcards_of_parameter_files(node_tokens, data):
 
 def overrides(pattern, node):
     arguments = Arguments()
-    arguments._parameter_maps = [{pattern: {"x": 1}}]
+    arguments.parameter_maps = [{pattern: {"x": 1}}]
     return arguments.parameter_overrides(node)
 
 

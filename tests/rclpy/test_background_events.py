@@ -50,7 +50,7 @@ class Talker:
     def wait_for_listener(self):
         assert self.node.wait_for_node("/tested", LIMIT_S)
         publisher = self.broadcaster.pub_tf
-        assert publisher._context._wait_for_graph(
+        assert publisher._context.wait_for_graph(
             lambda: publisher.get_subscription_count() > 0, LIMIT_S * 10**9
         )
 

@@ -163,7 +163,7 @@ def test_a_twin_and_another_type_in_another_process(program, capfd, monkeypatch)
         context.init(args=[])
         node = Node("twin", context=context)
         node.create_subscription(Int32, "chatter", print, 10)
-        assert context._wait_for_graph(
+        assert context.wait_for_graph(
             lambda: (
                 node.count_publishers("chatter") == 1
                 and node.get_fully_qualified_node_names().count("/twin") == 2

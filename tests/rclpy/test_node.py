@@ -233,7 +233,7 @@ def gone(observer, name):
     def is_gone():
         return name not in observer.get_node_names()
 
-    return observer.context._wait_for_graph(is_gone, 60_000_000_000)
+    return observer.context.wait_for_graph(is_gone, 60_000_000_000)
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])

@@ -47,7 +47,7 @@ def other(middleware):
 @pytest.fixture
 def wait_for(context):
     def wait(predicate):
-        assert context._wait_for_graph(predicate, 20_000_000_000)
+        assert context.wait_for_graph(predicate, 20_000_000_000)
 
     return wait
 

@@ -37,7 +37,7 @@ def context(request, monkeypatch):
 
 
 def matched(context, publisher):
-    assert context._wait_for_graph(lambda: publisher.get_subscription_count() > 0, 10_000_000_000)
+    assert context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, 10_000_000_000)
 
 
 def test_messages_arrive(context, node, spin_until):

@@ -31,7 +31,7 @@ def test_events_of_a_call(run):
         )
         client = node.create_client(AddTwoInts, "add")
         echo = run(*ROS2, "service", "echo", "/add")
-        assert context._wait_for_graph(
+        assert context.wait_for_graph(
             lambda: service._events.wire.subscription_count() == 1, 30_000_000_000
         )
         rclpy.spin_until_future_complete(

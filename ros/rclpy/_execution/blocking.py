@@ -12,6 +12,7 @@ from .exceptions import (
     ShutdownException,
     TimeoutException,
 )
+from .futures import call_when_done
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -71,7 +72,7 @@ def _serve_responses(host: Host, future: Future[T], call: Call, deadline: float 
 
     For a callback of the executor's own thread.
     """
-    future._add_waiter(host.wake)
+    call_when_done(future, host.wake)
     patience: float | None = time.monotonic() + _PATIENCE_S
     with host.serving_responses(future):
         while not future.done() and (deadline is None or time.monotonic() < deadline):
@@ -101,7 +102,7 @@ def _remaining_ns(*moments: float | None) -> int | None:
 
 def _wait_for_other_thread(future: Future[T], call: Call, deadline: float | None) -> None:
     done = threading.Event()
-    future._add_waiter(done.set)
+    call_when_done(future, done.set)
     waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])
     for wait in waits:
         wait.add(done)

@@ -6,13 +6,13 @@ an underscore; within the package, the scheduler uses them.
 
 from __future__ import annotations
 
+import weakref
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 
 if TYPE_CHECKING:
     import threading
-    import weakref
     from collections.abc import Callable
     from contextlib import AbstractContextManager
 
@@ -117,6 +117,19 @@ class Entity:
         if callback_group is not None:
             self.callback_group = callback_group
             callback_group.add_entity(self)
+
+    def _join(self, host: Host, node_index: int, number: int) -> bool:
+        """Belong to ``host``; False if it belongs to one already, or was destroyed."""
+        if self._host is not None or self._destroyed:
+            return False
+        self._rank = (node_index, self._ORDER, number)
+        self._host = weakref.ref(host)
+        return True
+
+    def _leave(self, host: Host) -> None:
+        """Belong to no executor, and report to ``host`` no more."""
+        self._host = None
+        self._detach(host)
 
     def _serving_host(self) -> Host | None:
         """The executor that serves it."""

@@ -61,9 +61,14 @@ class PoolScheduler(Scheduler):
             # Handing a response to its future takes no thread: all may be waiting for it.
             self.execute(source, work)
             return
-        with self.lock:
-            self._free_threads -= 1
-        self._pool.submit(self._run_in_pool, source, work)
+        with self.lock:  # so that the pool is not shut down between the question and its task
+            if not self.is_shutdown:
+                self._free_threads -= 1
+                self._pool.submit(self._run_in_pool, source, work)
+                return
+        if isinstance(source, Entity):
+            self._release_group(source)
+        raise ShutdownException
 
     def _run_in_pool(self, source: Entity | Task[Any], work: Work | None) -> None:
         try:
@@ -78,7 +83,7 @@ class PoolScheduler(Scheduler):
     def shutdown(self, timeout_sec: float | None) -> bool:
         """See :meth:`Scheduler.shutdown`."""
         ended = super().shutdown(timeout_sec)
-        if not ended:
+        with self.lock:
             self._pool.shutdown(wait=False)
         return ended
 

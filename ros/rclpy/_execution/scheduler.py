@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import threading
 import time
-import weakref
 from collections import deque
 from contextlib import contextmanager
 from types import CoroutineType
@@ -84,22 +83,18 @@ class Scheduler:
     def adopt(self, entity: Entity, node_index: int = -1) -> None:
         """Serve an entity of the node with this number; those of no node come first."""
         with self.lock:
-            if entity._host is not None or entity._destroyed:
-                return
             self._entities_made += 1
-            entity._rank = (node_index, entity._ORDER, self._entities_made)
-            entity._host = weakref.ref(self)
-            self._served[entity] = None
-            self._listen_to(entity, entity._attach)
+            if entity._join(self, node_index, self._entities_made):
+                self._served[entity] = None
+                self._listen_to(entity, entity._attach)
 
     def release(self, entity: Entity) -> None:
         """Serve an entity no longer."""
         with self.lock:
-            entity._host = None
             self._served.pop(entity, None)
             self._paused.discard(entity)
             self._self_waits.goes_on(entity)
-            entity._detach(self)
+            entity._leave(self)
 
     def _listen_to(self, entity: Entity, attach: Callable[[Host], None]) -> None:
         """Attach an entity, which another thread or a shutdown may destroy at this moment."""

@@ -172,7 +172,7 @@ class NodeEndpoints:
         return Subscription(wire, msg_type, callback, group, profile, raw, self._core)
 
     def _require_context(self, what: str) -> None:
-        if not self._core.context._is_open():
+        if not self._core.context.is_open():
             raise RCLError(f"could not create {what}: rcl node's context is invalid")
 
     def _own_events(

@@ -192,4 +192,4 @@ class NodeGraph:
             )
 
         timeout_ns = None if timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
-        return self._core.context._wait_for_graph(is_there, timeout_ns)
+        return self._core.context.wait_for_graph(is_there, timeout_ns)

@@ -7,6 +7,7 @@ import weakref
 from collections import deque
 from typing import TYPE_CHECKING, Any, Generic
 
+from rclpy._execution.futures import call_when_done
 from rclpy._typing import ActionT_co
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -204,7 +205,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         timeout_ns = (
             None if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * 1_000_000_000)
         )
-        return self._node.context._wait_for_graph(self.server_is_ready, timeout_ns)
+        return self._node.context.wait_for_graph(self.server_is_ready, timeout_ns)
 
     def send_goal_async(
         self: ActionClient[Action[GoalT, ResultT, FeedbackT]],
@@ -239,7 +240,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             self._feedback_callbacks[goal_id] = feedback_callback
         future = Future()
         response = self._goal_client.call_async(request)
-        response._add_waiter(lambda: self._on_goal_response(request.goal_id, response, future))
+        call_when_done(response, lambda: self._on_goal_response(request.goal_id, response, future))
         return future
 
     def _on_goal_response(self, goal_id: Any, response: Future, future: Future) -> None:
@@ -304,7 +305,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
         response = self._result_client.call_async(request)
-        response._add_waiter(lambda: self._on_result(goal_handle, response))
+        call_when_done(response, lambda: self._on_result(goal_handle, response))
         return response
 
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:

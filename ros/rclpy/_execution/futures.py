@@ -1,0 +1,27 @@
+"""What executors, clients and waitables do with futures; programs see none of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.task import Future
+
+    from .entity import Host
+
+__all__ = ["call_when_done", "run_callbacks_on"]
+
+
+def call_when_done(future: Future[Any], call: Callable[[], object]) -> None:
+    """Call ``call()`` in the thread that finishes the future; at once if it is done.
+
+    Unlike a done-callback, it never goes through an executor: it must be short and not raise.
+    """
+    future._add_waiter(call)
+
+
+def run_callbacks_on(host: Host | None, future: Future[Any]) -> None:
+    """Have the done-callbacks of a future run on an executor; None: in the finishing thread."""
+    future._set_executor(host)
