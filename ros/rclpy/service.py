@@ -124,5 +124,5 @@ class Service(IntrospectedEndpoint, Generic[SrvT_co]):
         try:
             self.send_response(response, header)
         except (InvalidHandle, WireError):
-            if not self._destroyed and self._context._is_open():
+            if not self._destroyed and self._context.is_open():
                 raise
