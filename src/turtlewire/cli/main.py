@@ -73,7 +73,7 @@ def _add_doctor(commands: Any) -> None:
         "--listen",
         type=seconds,
         metavar="S",
-        help="Listen to the transforms for S seconds (default: 2; less if all are static)",
+        help="Listen to the transforms for S seconds (default: as long as needed, at most 2)",
     )
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
     parser.set_defaults(run=reporting_errors("doctor", _doctor), parser=parser)

@@ -46,7 +46,7 @@ ARGUMENTS = (
         "--listen",
         type=seconds,
         metavar="S",
-        help="Listen to the transforms for S seconds (default: 2; less if all are static)",
+        help="Listen to the transforms for S seconds (default: as long as needed, at most 2)",
     ),
 )
 
