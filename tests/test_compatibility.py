@@ -251,6 +251,8 @@ a playback that begins at an offset, paused or after a seek loses the latched me
   rosbag2_transport/test_player.py test_what_arrives_is_what_the_real_one_sends test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
 one that joins a playback late gets the last ten messages of `/tf_static`
   rosbag2_transport/test_player.py test_one_that_joins_late_gets_all_static_transforms
+`ros2 bag play` says nothing of a topic in `--topics` that the bag does not have
+  rosbag2_transport/test_golden_commands.py test_a_command
 a recorder loses latched messages that come during a pause
   rosbag2_transport/test_recorder.py test_latched_messages_that_come_during_a_pause_are_kept
 a topic whose type is not installed is not recorded

@@ -10,6 +10,7 @@ from rosbag2_py._log_level import set_log_level
 from rosbag2_py._open_writer import make_writer
 from rosbag2_py._writer import get_registered_compressors
 from rosbag2_transport.record import record
+from rosbag2_transport.topic_filter import check_patterns
 
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
@@ -42,6 +43,7 @@ class Recorder:
             RuntimeError: The bag exists, the options do not fit, or the bag could not be written
                 any more.
         """
+        check_patterns(record_options)  # before there is a folder
         writer = make_writer(storage_options, compression_mode_of(record_options))
         stop: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._running.add(stop)

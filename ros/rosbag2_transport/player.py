@@ -15,6 +15,7 @@ from rosbag2_transport.play_filter import played_topics
 from rosbag2_transport.player_outputs import PlayerOutputs
 from turtlewire.bag import Bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
+from turtlewire.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,6 +60,12 @@ class Player:
         self._side_bag = Bag(path)
         self.start_ns, self.end_ns = self._bag.start_ns, self._bag.end_ns
         self._topics = played_topics(self._bag, options)
+        for name in options.topics_to_filter:
+            if name not in self._bag.topics:
+                hint = did_you_mean(name, self._bag.topics) or (
+                    f"Its topics are {', '.join(sorted(self._bag.topics))}."
+                )
+                self._logger.warning(f"The bag has no topic '{name}'. {hint}")
         self._outputs = PlayerOutputs(node, self._bag, self._topics, options)
         self._latched = Latched(self._side_bag, self._outputs.latched)
         self.changed = threading.Condition()

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from rosbag2_transport.options import RecordOptions
 
-__all__ = ["TopicFilter", "is_service_event", "pattern"]
+__all__ = ["TopicFilter", "check_patterns", "is_service_event", "pattern"]
 
 _EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 
@@ -32,6 +32,16 @@ def pattern(text: str) -> re.Pattern[str] | None:
         return re.compile(text) if text else None
     except re.error as error:
         raise RuntimeError(f"'{text}' is not a regular expression: {error}") from None
+
+
+def check_patterns(options: RecordOptions) -> None:
+    """Check the patterns of a recording.
+
+    Raises:
+        RuntimeError: One is no regular expression.
+    """
+    for text in (options.regex, options.exclude_regex):
+        pattern(text)
 
 
 class TopicFilter:

@@ -25,6 +25,8 @@ OTHER_PARSER = {
     "ros2 bag burst p_small -n 3 --disable-keyboard-controls",
     "ros2 bag nonsense",
 }
+#: A topic that is not in the bag is mentioned.
+WARNS = "ros2 bag play p_small --topics /unknown --disable-keyboard-controls"
 
 
 def lines_of(text, folder, made):
@@ -77,7 +79,9 @@ def test_a_command(case, tmp_path):
     made = "convert" in command or "reindex" in command
     assert process.returncode == expected["exit"], err + rest
     assert lines_of(out, tmp_path, made) == lines_of(expected["stdout"], tmp_path, made)
-    if command in OTHER_PARSER:
+    if command == WARNS:
+        assert "The bag has no topic '/unknown'. Its topics are /a, /b, /latched" in err + rest
+    elif command in OTHER_PARSER:
         assert ": error: " in err + rest
     else:
         assert lines_of(err + rest, tmp_path, made) == lines_of(expected["stderr"], "$WS", made)

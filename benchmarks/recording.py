@@ -1,0 +1,172 @@
+"""Records 200 MB a minute, and plays at three rates: what is lost, and how late messages come.
+
+    python -m benchmarks.recording load --minutes 10
+    python -m benchmarks.recording timing
+    python -m benchmarks.recording writing
+
+`load` publishes images of 100 kB and small messages with numbers, records them with ``ros2 bag
+record``, and compares the bag with what was sent. `timing` plays a bag of 100 messages a second and
+measures when each message is published. `writing` writes a million messages.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from turtlewire.bag import BagWriter, open_bag
+from turtlewire.msg import get_message, serialize
+from turtlewire.testing import isolated_domain
+from turtlewire.wire import open_context
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import QoS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from turtlewire.wire.base import Publisher
+
+SECOND = 1_000_000_000
+START = 1_700_000_000 * SECOND
+STRING = "std_msgs/msg/String"
+#: Topic, bytes of a message and messages in a second: 3.34 MB a second, 200 MB a minute.
+STREAMS = (("/image", 100_000, 33), ("/imu", 40, 1000))
+RATES = (1.0, 10.0, 0.1)
+
+
+@contextmanager
+def publishers() -> Iterator[dict[str, Publisher]]:
+    """A node that publishes strings on each topic of `STREAMS`."""
+    from turtlewire.msg import type_hash
+
+    context = open_context()
+    node = context.create_node("load")
+    type_id = TypeId(STRING, type_hash(STRING))
+    try:
+        yield {
+            topic: node.create_publisher(topic, type_id, QoS(depth=1000)) for topic, *_ in STREAMS
+        }
+    finally:
+        context.close()
+
+
+def number(count: int, size: int) -> bytes:
+    """A message that holds a number."""
+    return serialize(get_message(STRING)(data=f"{count:<{size}}"))
+
+
+def send(writers: dict[str, Publisher], seconds: float) -> dict[str, int]:
+    """Publish in steps of a millisecond; returns how many messages on each topic."""
+    sent = dict.fromkeys(writers, 0)
+    begin = time.monotonic()
+    while (elapsed := time.monotonic() - begin) < seconds:
+        for topic, size, rate in STREAMS:
+            while sent[topic] < elapsed * rate:
+                writers[topic].publish(number(sent[topic], size))
+                sent[topic] += 1
+        time.sleep(0.001)
+    return sent
+
+
+def load(minutes: float) -> int:
+    """Record for some minutes; returns how many messages are missing in the bag."""
+    with tempfile.TemporaryDirectory() as folder, isolated_domain(), publishers() as writers:
+        ros2 = Path(sys.executable).parent / "ros2"
+        words = ("record", "-a", "-o", "bag", "--disable-keyboard-controls")
+        recorder = subprocess.Popen([ros2, "bag", *words], cwd=folder)
+        while not all(writer.subscription_count() for writer in writers.values()):
+            time.sleep(0.05)
+        sent = send(writers, minutes * 60)
+        for writer in writers.values():
+            writer.wait_for_acknowledgments(60 * SECOND)
+        before = os.times()
+        recorder.send_signal(signal.SIGINT)
+        recorder.wait()
+        after = os.times()
+        cpu = after.children_user + after.children_system
+        cpu -= before.children_user + before.children_system
+        with open_bag(Path(folder) / "bag") as bag:
+            found = {topic: bag.topics[topic].message_count for topic in sent}
+            numbers = [int(message.data[8:].rstrip(b"\0 ")) for message in bag.messages("/imu")]
+        size = sum(file.stat().st_size for file in Path(folder, "bag").iterdir())
+    lost = sum(sent.values()) - sum(found.values())
+    in_order = numbers == list(range(sent["/imu"]))
+    print(
+        f"{minutes:g} minutes, {size / 1e6 / minutes:.0f} MB a minute: sent {sent}, recorded "
+        f"{found}, lost {lost}, in order: {in_order}; CPU {cpu / minutes / 60:.1%} of one core"
+    )
+    return lost
+
+
+def timing() -> None:
+    """Play at three rates, and print how late messages were published."""
+    from rosbag2_transport.options import PlayOptions
+    from rosbag2_transport.player import Player
+    from rosbag2_transport.session import Session
+
+    with tempfile.TemporaryDirectory() as folder, isolated_domain():
+        path = f"{folder}/bag"
+        with BagWriter(path, compression="zstd") as writer:
+            writer.add_topic("/imu", STRING)
+            for i in range(10_000):
+                writer.write("/imu", number(i, 40), START + i * SECOND // 100)
+        for rate in RATES:
+            times: list[tuple[int, int]] = []
+            options = PlayOptions(rate=rate, playback_duration=5.0 * rate)
+            with Session("timing") as session:
+                player = Player(session.node, path, options)
+                player.on_publish.append(
+                    lambda message, note=times.append: note(  # type: ignore[misc]
+                        (message.log_time_ns, time.monotonic_ns())
+                    )
+                )
+                player.play()
+                player.close()
+            first_log, first = times[0]
+            errors = sorted((now - first - (log - first_log) / rate) / 1e6 for log, now in times)
+            print(
+                f"{rate:g}x: {len(times)} messages, late by [ms] median "
+                f"{statistics.median(errors):.3f}, 99 % {errors[int(len(errors) * 0.99)]:.3f}, "
+                f"most {errors[-1]:.3f}"
+            )
+
+
+def writing() -> None:
+    """Write a million messages of 100 bytes, and print the CPU time of the best of five."""
+    data = bytes(range(100))
+    for compression in ("", "zstd"):
+        best = float("inf")
+        for _ in range(5):
+            with tempfile.TemporaryDirectory() as folder:
+                begin = time.process_time()
+                with BagWriter(f"{folder}/bag", compression=compression) as writer:
+                    writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+                    for i in range(1_000_000):
+                        writer.write("/tf", data, START + i, START + i)
+                best = min(best, time.process_time() - begin)
+        print(f"1,000,000 messages, {compression or 'not compressed'}: {best:.2f} s CPU")
+
+
+def main() -> int:
+    """Run one of them."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=("load", "timing", "writing"))
+    parser.add_argument("--minutes", type=float, default=10.0)
+    args = parser.parse_args()
+    if args.what == "load":
+        return int(load(args.minutes) != 0)
+    (timing if args.what == "timing" else writing)()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""The commands of the how-to page about recording and playing, run."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from tests.rosbag2_transport.conftest import ROS2, end, texts
+
+from turtlewire.bag import open_bag
+
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "record_and_play.md"
+
+
+@pytest.fixture
+def shell(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", f"{ROS2.parent}{os.pathsep}{os.environ['PATH']}")
+    return lambda line: run("bash", "-c", f"exec {line}", cwd=tmp_path)
+
+
+def test_the_page_does_what_it_says(shell, run, tmp_path):
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    assert len(blocks) == 10
+    for kind, text in blocks:
+        if kind == "yaml":
+            (tmp_path / "wanted.yaml").write_text(text)
+        elif kind == "python":
+            assert run(sys.executable, "-c", text, cwd=tmp_path).wait() == 0
+        else:
+            assert kind == "sh"
+            for line in text.splitlines():
+                do(shell, line, tmp_path)
+    with open_bag(tmp_path / "only_tf") as bag:
+        assert list(bag.topics) == ["/tf_static"]
+        assert len(bag) == 1
+
+
+def do(shell, line, folder):
+    """Run a line; Ctrl-C for a recorder when it has received something of each topic."""
+    if line.endswith(" &"):
+        shell(line.removesuffix(" &"))
+        return
+    program = shell(line)
+    if line.startswith("ros2 bag record"):
+        program.wait_for("All requested topics are subscribed")
+        wait_until_recorded(folder / "my_bag")
+        assert end(program) == 0
+        return
+    assert program.wait() == 0, program.text
+    if line.startswith("ros2 bag info my_bag"):
+        assert "Topic: /chatter | Type: std_msgs/msg/String" in program.text
+
+
+def wait_until_recorded(path):
+    import threading
+
+    for _ in range(600):
+        if path.exists() and any(path.glob("*.mcap")) and len(texts(path, "/chatter")) > 1:
+            return
+        threading.Event().wait(0.1)
+    raise AssertionError(path)

@@ -1,0 +1,59 @@
+"""What the shell offers for `ros2 bag`, and what wrong words are answered."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from tests.ros2cli.test_completion import offered
+
+import ros2cli.main
+
+SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("ros2 bag re", {"record", "reindex"}),
+        ("ros2 bag record --storage-preset-profile zstd_", {"zstd_fast", "zstd_small"}),
+        ("ros2 bag play --clock-topics-", {"--clock-topics-all"}),
+        (f"ros2 bag play {SMALL} --topics /l", {"/latched", "/lossy"}),
+        ("ros2 bag record --topic-types std_msgs/msg/UInt8", None),
+    ],
+)
+def test_completion(line, expected):
+    words = offered(line)
+    assert words == expected if expected else "std_msgs/msg/UInt8MultiArray" in words
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "answer"),
+    [
+        ("pla", 2, "Did you mean: play"),
+        ("record --topcs /a", 2, "Did you mean: --topics"),
+        ("record -e (", 1, "'(' is not a regular expression"),
+        ("record --topics /a --custom-data x", 2, "'x' is not of the form KEY=VALUE"),
+        ("record --topics /a -b 5", 1, "Please provide a value greater than 1024"),
+        ("record --topics /a --exclude-topics /b", 1, "--exclude-topics argument requires either"),
+        ("record -a --storage-config-file c.yaml", 1, "c.yaml: unknown key 'chunksize'"),
+        ("play SMALL -r fast", 2, "fast is not the valid type (float)"),
+        ("play SMALL -m /a", 1, "'/a' is not of the form OLD:=NEW"),
+        ("play SMALL --qos-profile-overrides-path q.yaml", 1, "Unexpected key `reliabilty`"),
+        ("convert -i SMALL -o c.yaml", 1, "the key 'output_bags' with a list is missing"),
+        ("convert -i SMALL -o o.yaml", 1, "unknown key 'topcs'\nDid you mean: topics"),
+        ("burst SMALL -n -3", 2, "value must be non-negative integer"),
+    ],
+)
+def test_wrong_words(words, status, answer, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    Path("c.yaml").write_text("chunksize: 3\n")
+    Path("q.yaml").write_text("/a:\n  reliabilty: reliable\n")
+    Path("o.yaml").write_text("output_bags:\n- uri: o\n  topcs: [/a]\n")
+    before = set(Path().iterdir())
+    try:
+        found = ros2cli.main.main(["bag", *words.replace("SMALL", str(SMALL)).split()])
+    except SystemExit as end:
+        found = end.code
+    assert (found, answer in capfd.readouterr().err) == (status, True)
+    assert set(Path().iterdir()) == before  # no folder is begun
