@@ -50,10 +50,10 @@ class JointStatePublisher(Node):
             "joint_state_publisher", automatically_declare_parameters_from_overrides=True, **options
         )
         self.joints = JointSet()
-        self._delta = float(self._setting("delta", 0.0))
+        self._delta = self._number("delta", 0.0)
         self._options = self._read_options()
         sources = self._sources()
-        self.rate = float(self._setting("rate", 10))
+        self.rate = self._number("rate", 10)
         if not self.rate > 0:
             raise SettingError(f"the parameter 'rate' must be greater than 0, got {self.rate:g}")
         if description_file is not None:
@@ -105,6 +105,15 @@ class JointStatePublisher(Node):
             self.declare_parameter(name, default)
         return self.get_parameter(name).value
 
+    def _number(self, name: str, default: float) -> float:
+        return _as_number(name, self._setting(name, default))
+
+    def _switch(self, name: str, default: bool) -> bool:
+        value = self._setting(name, default)
+        if not isinstance(value, bool):
+            raise SettingError(f"the parameter '{name}' must be true or false, got {value!r}")
+        return value
+
     def _sources(self) -> list[str]:
         name = "source_list"
         if not self.has_parameter(name):  # an empty list as default would not say of what
@@ -113,17 +122,17 @@ class JointStatePublisher(Node):
 
     def _read_options(self) -> Options:
         zeros = {
-            name: float(parameter.value)
+            name: _as_number(f"zeros.{name}", parameter.value)
             for name, parameter in self.get_parameters_by_prefix("zeros").items()
         }
         return Options(
             zeros,
             _dependent_joints(self.get_parameters_by_prefix("dependent_joints")),
-            use_mimic_tags=self._setting("use_mimic_tags", True),
-            use_smallest_limits=self._setting("use_smallest_joint_limits", True),
-            positions=self._setting("publish_default_positions", True),
-            velocities=self._setting("publish_default_velocities", False),
-            efforts=self._setting("publish_default_efforts", False),
+            use_mimic_tags=self._switch("use_mimic_tags", True),
+            use_smallest_limits=self._switch("use_smallest_joint_limits", True),
+            positions=self._switch("publish_default_positions", True),
+            velocities=self._switch("publish_default_velocities", False),
+            efforts=self._switch("publish_default_efforts", False),
         )
 
     def _load(self, path: str) -> None:
@@ -188,10 +197,18 @@ def _dependent_joints(parameters: dict[str, Any]) -> dict[str, Mimic]:
         raise SettingError("All dependent_joints must at least have a parent")
     return {
         joint: Mimic(
-            setting["parent"], float(setting.get("factor", 1)), float(setting.get("offset", 0))
+            str(setting["parent"]),
+            _as_number(f"dependent_joints.{joint}.factor", setting.get("factor", 1)),
+            _as_number(f"dependent_joints.{joint}.offset", setting.get("offset", 0)),
         )
         for joint, setting in settings.items()
     }
+
+
+def _as_number(name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise SettingError(f"the parameter '{name}' must be a number, got {value!r}")
+    return float(value)
 
 
 def run(make_node: Callable[[str | None], Node], args: list[str] | None = None) -> int:

@@ -172,3 +172,17 @@ def test_a_circle_of_mimics_is_refused(make_rig, tmp_path):
     rig = make_rig({"urdf": "weaver_sound"})
     with pytest.raises(SettingError, match=r"infinite recursive mimic chain: \['a', 'b', 'a'\]"):
         JointStatePublisher(str(file), context=rig.node.context)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "error"),
+    [
+        ("rate", "fast", "the parameter 'rate' must be a number, got 'fast'"),
+        ("zeros.c_free", "left", "the parameter 'zeros.c_free' must be a number, got 'left'"),
+        ("use_mimic_tags", 1, "the parameter 'use_mimic_tags' must be true or false, got 1"),
+    ],
+)
+def test_a_parameter_of_another_type_is_one_error(make_rig, name, value, error):
+    with pytest.raises(SettingError) as caught:
+        make_rig({"urdf": "weaver_sound", "parameters": {name: value}})
+    assert str(caught.value) == error

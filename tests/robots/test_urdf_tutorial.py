@@ -78,6 +78,11 @@ def test_a_slider_moved_in_the_browser_moves_the_transform(browser, sourced, run
     slider.wait_for(timeout=60_000)
     slider.fill("7500")  # three quarters of the way from -1 to 1 rad
     echo.wait_for(re.escape("- Rotation: in RPY (degree) [0.000, 28.648, 0.000]"))
+    page.get_by_role("button", name="Center").click()
+    launch.wait_for(r"\[joint_state_publisher\]: Centering$")
+    page.wait_for_function(
+        "document.querySelector('.joint[data-name=lamp_tilt] .value input').value === '0.000'"
+    )
     page.close()
     echo.kill()
     end(launch)
