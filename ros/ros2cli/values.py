@@ -10,6 +10,7 @@ __all__ = [
     "positive_float",
     "positive_int",
     "read_values",
+    "regular_expression",
     "shortened",
     "unsigned_int",
 ]
@@ -75,6 +76,21 @@ def positive_float(text: str) -> float:
     if not value > 0:
         raise argparse.ArgumentTypeError("value must be positive")
     return value
+
+
+def regular_expression(text: str) -> str:
+    """A regular expression on the command line.
+
+    Raises:
+        argparse.ArgumentTypeError: It is none.
+    """
+    import re
+
+    try:
+        re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no regular expression: {error}") from None
+    return text
 
 
 def positive_int(text: str) -> int:

@@ -13,6 +13,7 @@ from ros2cli.values import (
     positive_float,
     positive_int,
     read_values,
+    regular_expression,
     shortened,
     unsigned_int,
 )
@@ -82,3 +83,11 @@ def test_assignments():
     for bad in ("a", ":=b"):
         with pytest.raises(argparse.ArgumentTypeError, match="not of the form name:=value"):
             assignment(bad)
+
+
+def test_regular_expressions():
+    assert regular_expression("^back.*_r$") == "^back.*_r$"
+    with pytest.raises(
+        argparse.ArgumentTypeError, match=r"^'\(' is no regular expression: missing"
+    ):
+        regular_expression("(")

@@ -10,6 +10,7 @@ from ros2cli.direct_node import DirectNode
 from ros2cli.output import tell
 from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import TYPE_NAMES, Question
+from ros2cli.values import regular_expression
 
 if TYPE_CHECKING:
     import argparse
@@ -23,7 +24,11 @@ ARGUMENTS = (
         "--param-prefixes", nargs="+", default=[], help="Only parameters below these prefixes"
     ),
     argument("--param-type", action="store_true", help="Show the types too"),
-    argument("--filter", help="Only parameters whose name matches this regular expression"),
+    argument(
+        "--filter",
+        type=regular_expression,
+        help="Only parameters whose name matches this regular expression",
+    ),
 )
 
 
