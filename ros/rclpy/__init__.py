@@ -266,7 +266,9 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Run the callbacks of ``node`` until ``future`` is done, the time is over, or the context is shut down.
+    """Run the callbacks of ``node`` until ``future`` is done or the time is over.
+
+    It also ends when the context is shut down.
 
     Args:
         node: What to serve; when it is in no executor, it is in this one for the time of the call.

@@ -53,7 +53,7 @@ class TimerCancelledError(RCLError):
 
 
 class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801  ROS 2's name, which its text shows
-    """The policies, as events of incompatible QoS name them; equal to ``rclpy.qos.QoSPolicyKind``."""
+    """The policies in events of incompatible QoS, equal to ``rclpy.qos.QoSPolicyKind``."""
 
     RMW_QOS_POLICY_INVALID = 1
     RMW_QOS_POLICY_DURABILITY = 2

@@ -107,7 +107,7 @@ class TimeJump:
 
 
 class JumpHandle:
-    """Keeps a pair of jump callbacks registered until :meth:`unregister`, or until its ``with`` block ends."""
+    """Keeps two jump callbacks registered, until :meth:`unregister` or the end of a ``with``."""
 
     def __init__(
         self,
@@ -324,7 +324,7 @@ class ROSClock(Clock):
 
 
 class _Sleep:
-    """One wait for a time, ended by the time, by a shutdown, or by a change of the source of time."""
+    """One wait for a time; a shutdown or another source of time ends it early."""
 
     def __init__(self, clock: Clock, until_ns: int, context: Any) -> None:
         self._clock = clock

@@ -8,7 +8,7 @@ __all__ = ["ClockType"]
 
 
 class ClockType(IntEnum):
-    """ROS time follows ``/clock`` when ``use_sim_time`` is set, and is the system's time otherwise."""
+    """ROS time follows ``/clock`` if ``use_sim_time`` is set, else it is the system's time."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1

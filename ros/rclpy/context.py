@@ -273,7 +273,7 @@ _open_contexts: set[Any] = set()
 
 
 def _close_open_contexts() -> None:
-    """Leave the domain at the end of the process, so that peers need not wait until our lease is over."""
+    """Leave the domain at the end of the process, so that peers need not wait for our lease."""
     for context in list(_open_contexts):
         context.try_shutdown()
 

@@ -1,4 +1,4 @@
-"""The node: a named participant of the graph that owns publishers, subscriptions, services, timers and parameters.
+"""The node: a named participant of the graph, with its endpoints, timers and parameters.
 
 :class:`Node` itself holds no logic: each method hands over to the part that does the work.
 ``node_endpoints.py`` makes and keeps the endpoints, ``node_graph.py`` answers questions about other
@@ -71,7 +71,10 @@ HIDDEN_NODE_PREFIX = "_"
 
 
 class _MadeByConstructor:
-    """Stands for an attribute until the constructor sets it, for programs whose ``__init__`` forgets that of its base."""
+    """Stands for an attribute until the constructor sets it.
+
+    For programs whose ``__init__`` forgets that of its base.
+    """
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -571,7 +574,10 @@ class Node:
     def declare_parameters(
         self, namespace: str, parameters: list[Any], ignore_override: bool = False
     ) -> list[Parameter]:
-        """Declare several parameters, ``(name[, value or type[, descriptor]])`` each, their names after ``namespace`` and a dot."""
+        """Declare several parameters, each as ``(name[, value or type[, descriptor]])``.
+
+        Their names follow ``namespace`` and a dot.
+        """
         return self._parameters.declare_parameters(namespace, parameters, ignore_override)
 
     def undeclare_parameter(self, name: str) -> None:
@@ -639,13 +645,13 @@ class Node:
     def set_descriptor(
         self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None
     ) -> Any:
-        """Give a parameter another descriptor, and ``alternative_value`` if its value does not fit it."""
+        """Replace a descriptor, and the value by ``alternative_value`` if it does not fit."""
         return self._parameters.set_descriptor(name, descriptor, alternative_value)
 
     def add_pre_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], list[Parameter]]
     ) -> None:
-        """Have ``callback`` look through, and change, the list of parameters before they are checked."""
+        """Have ``callback`` see, and change, the list of parameters before they are checked."""
         self._parameters.add_pre_set_parameters_callback(callback)
 
     def add_on_set_parameters_callback(

@@ -1,4 +1,7 @@
-"""Lets parameters ``qos_overrides.<topic>.<publisher or subscription>.<policy>`` change the QoS of an endpoint at its creation."""
+"""Lets parameters change the QoS of an endpoint at its creation.
+
+They are called ``qos_overrides.<topic>.<publisher or subscription>.<policy>``.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +79,7 @@ class QoSOverridingOptions:
 
 
 def __getattr__(name: str) -> Any:
-    """``QoSCallbackResult`` is another name of a message type, which is made when it is asked for."""
+    """``QoSCallbackResult`` names a message class, which is made when it is asked for."""
     if name != "QoSCallbackResult":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from rcl_interfaces.msg import SetParametersResult

@@ -134,7 +134,10 @@ class _EventPublisher(NamedTuple):
     def publish(
         self, event_type: EventType, client_id: int, sequence_number: int, **content: Any
     ) -> None:
-        """Publish that ``content`` (``request=`` or ``response=``) of this client's request with this number passed by."""
+        """Publish what happened to a client's request of this number.
+
+        ``content`` is the message that passed: ``request=`` or ``response=``.
+        """
         if self.wire.subscription_count() == 0:
             return
         event = self.srv_type.Event()

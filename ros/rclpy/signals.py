@@ -113,7 +113,7 @@ class _Watcher:
         return time.monotonic() - self._interrupted_at < REPEATED_INTERRUPT_S
 
     def _handle(self, signum: int, frame: FrameType | None) -> None:
-        """Run by the interpreter in the main thread, after its C handler has written to the pipe."""
+        """Runs in the main thread, after the C handler has written to the pipe."""
         excepthooks.note_signal()  # the thread may be slower
         if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))

@@ -8,5 +8,5 @@ _HIDDEN_PREFIX = "_"
 
 
 def topic_or_service_is_hidden(name: str) -> bool:
-    """Whether a part of the name begins with an underscore, as in ``/_hidden/topic`` or ``/fibonacci/_action/status``."""
+    """Whether a part of the name begins with an underscore, as in ``/fibonacci/_action/status``."""
     return any(token.startswith(_HIDDEN_PREFIX) for token in name.split("/"))

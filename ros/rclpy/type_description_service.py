@@ -20,7 +20,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class TypeDescriptionService:
-    """Serves ``~/get_type_description`` of ``node``, unless the read-only parameter that it declares is false."""
+    """Serves ``~/get_type_description``, unless the parameter that it declares is false."""
 
     def __init__(self, node: ParameterOwner) -> None:
         if not node.has_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM):

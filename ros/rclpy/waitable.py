@@ -92,7 +92,12 @@ class WaitSet:
         return len(self._entities[entity_type]) - 1
 
     def is_ready(self, entity_type: str, index: int) -> bool:
-        """Whether the entity of this type (``guard_condition``, ``subscription``, ``timer``) and index is ready."""
+        """Whether an entity is ready.
+
+        Args:
+            entity_type: ``guard_condition``, ``subscription`` or ``timer``.
+            index: What :meth:`add_guard_condition` and its like returned.
+        """
         return self._entities[entity_type][index] in self._ready
 
     def mark_ready(self, entity: Entity) -> None:

@@ -116,7 +116,7 @@ class NodeParameters:
     def declare_parameters(
         self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
     ) -> list[Parameter]:
-        """Declare several parameters, each as ``(name)``, ``(name, value or type)`` or ``(name, value or type, descriptor)``.
+        """Declare several parameters, each as ``(name[, value or type[, descriptor]])``.
 
         Args:
             namespace: Put before each name, with a dot between; nothing if empty.
@@ -161,7 +161,7 @@ class NodeParameters:
         return [self._parameters[name] for name in declared]
 
     def declare_overrides(self) -> None:
-        """Declare every parameter that the command line or the constructor names, each with a type that may change."""
+        """Declare every parameter of the command line and the constructor; types may change."""
         for name, value in self._overrides.items():
             descriptor = new_descriptor()
             descriptor.dynamic_typing = True
@@ -211,7 +211,7 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """One parameter, or the alternative (a parameter that is not set, if None) when it has no value."""
+        """One parameter, or the alternative when it has no value (None: one that is not set)."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
             return parameter

@@ -142,30 +142,41 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         )
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
         self._finished: deque[bytes] = deque()
-        impl = action_type.Impl  # type: ignore[attr-defined]  # of generated classes
-        self._goal_client = self._make_client(
-            impl.SendGoalService, "send_goal", goal_service_qos_profile
+        self._make_endpoints(
+            goal_service_qos_profile,
+            result_service_qos_profile,
+            cancel_service_qos_profile,
+            feedback_sub_qos_profile,
+            status_sub_qos_profile,
         )
-        self._cancel_client = self._make_client(
-            impl.CancelGoalService, "cancel_goal", cancel_service_qos_profile
-        )
-        self._result_client = self._make_client(
-            impl.GetResultService, "get_result", result_service_qos_profile
-        )
-        subscribe = node._rclpy_endpoints.make_subscription
-        name, group = f"{action_name}/_action", self.callback_group
+        node.add_waitable(self)
+
+    def _make_endpoints(
+        self,
+        goal_qos: QoSProfile,
+        result_qos: QoSProfile,
+        cancel_qos: QoSProfile,
+        feedback_qos: QoSProfile,
+        status_qos: QoSProfile,
+    ) -> None:
+        impl = self._action_type.Impl
+        self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_qos)
+        self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_qos)
+        self._result_client = self._make_client(impl.GetResultService, "get_result", result_qos)
+        subscribe = self._node._rclpy_endpoints.make_subscription
+        name, group = f"{self._action_name}/_action", self.callback_group
         self._feedback = subscribe(
             impl.FeedbackMessage,
             f"{name}/feedback",
             self._on_feedback,
-            feedback_sub_qos_profile,
+            feedback_qos,
             group,
         )
         self._status = subscribe(
             impl.GoalStatusMessage,
             f"{name}/status",
             self._on_status,
-            status_sub_qos_profile,
+            status_qos,
             group,
             raw=True,
         )
@@ -176,7 +187,6 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             self._feedback,
             self._status,
         ]
-        node.add_waitable(self)
 
     def _make_client(self, service_type: Any, name: str, qos: QoSProfile) -> Client:
         return self._node._rclpy_endpoints.make_client(

@@ -255,7 +255,7 @@ class ActionServer(Waitable):
         goal_handle: ServerGoalHandle,
         execute_callback: Callable[[ServerGoalHandle], Any] | None,
     ) -> None:
-        """Have a goal executed on the executor, by ``execute_callback`` or by that of the server."""
+        """Execute a goal on the executor; None takes the execute callback of the server."""
         executor = self._node.executor
         if executor is None:
             raise RuntimeError(

@@ -182,7 +182,7 @@ def shutdown() -> None:
 
 
 def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
-    """Hand the records of logger ``name`` and of its children to ``sink``, on the thread that logs."""
+    """Hand the records of a logger and its children to ``sink``, on the thread that logs."""
     if name in _rosout_sinks:
         text = (
             f"Publisher already registered for node name: '{name}'. If this is due to multiple "

@@ -233,7 +233,10 @@ class RcutilsLogger:
 
 
 def _encodable(text: str) -> str:
-    """``text`` with lone surrogates (undecodable bytes of a file name, for example) escaped, so that every output can take it."""
+    """``text`` with lone surrogates escaped, so that every output can take it.
+
+    They stand for undecodable bytes, of a file name for example.
+    """
     return text if text.isascii() else text.encode(errors="backslashreplace").decode()
 
 
