@@ -10,4 +10,4 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "tf_buffer.md"
 
 def test_the_examples_do_what_the_page_says() -> None:
     failed, tried = doctest.testfile(str(PAGE), module_relative=False)
-    assert (failed, tried) == (0, 27)
+    assert (failed, tried) == (0, 29)
