@@ -281,7 +281,7 @@ import os, signal, sys
 from turtlewire import msg
 
 def interrupt(frame, event, argument):
-    if frame.f_code.co_name == "<module>" and frame.f_back.f_code.co_name == "_make_constructor":
+    if frame.f_code.co_name == "<module>" and frame.f_back.f_code.co_name == "make_constructor":
         sys.settrace(None)
         os.kill(os.getpid(), signal.SIGINT)
 

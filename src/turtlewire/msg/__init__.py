@@ -21,6 +21,7 @@ module                what it holds
 `registry`            definitions by name, parsed at first use
 `message`             `Message`, the base of all message classes
 `classes`             the classes of messages, services and actions, made at first use
+`constructor`         their constructors, compiled for each
 `values`              defaults of fields, and bulk numbers as arrays
 `checks`              ROS 2's checks at every assignment (``check_fields``)
 `cdr`                 `serialize` and `deserialize`

@@ -7,27 +7,24 @@ list to them converts it.
 
 from __future__ import annotations
 
-import os
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Generic, cast
 
 from turtlewire.errors import InterfaceError
+from turtlewire.msg.constructor import make_constructor
 from turtlewire.msg.definition import split_name
 from turtlewire.msg.message import Message
 from turtlewire.msg.registry import load_action, load_message, load_service
-from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
+from turtlewire.msg.types import Array
 from turtlewire.msg.values import (
     array_of_bytes,
-    array_values,
     converter,
-    element_code,
     numpy_name,
     raw_name,
-    scalar_default,
 )
 
 if TYPE_CHECKING:
-    from turtlewire.msg.definition import Field, MessageDefinition
+    from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.values import Cdr
 
 if TYPE_CHECKING:
@@ -47,7 +44,6 @@ else:  # the defaults came with Python 3.13
 __all__ = [
     "Action",
     "Service",
-    "checks_are_on",
     "get_action",
     "get_interface_class",
     "get_message",
@@ -202,7 +198,7 @@ def _make_message(definition: MessageDefinition) -> type[Message]:
         "SLOT_TYPES": tuple(field.type for field in definition.fields),
         "_TYPE_NAME": definition.full_name,
         "_DEFINITION": definition,
-        "__init__": _make_constructor(definition),
+        "__init__": make_constructor(definition, get_message),
         "__reduce__": _reduce,
         "_to_cdr": _first_to_cdr,
         "_from_cdr": classmethod(_first_from_cdr),
@@ -253,91 +249,6 @@ def _array_property(slot: Any, type_: Array, convert: Any) -> property:
         store(message, value if type(value) is bytes and len(value) == size else convert(value))
 
     return property(read, assign, slot.__delete__)
-
-
-def _make_constructor(definition: MessageDefinition) -> Any:
-    """Compile ``__init__``: one assignment for each field, defaults as in ROS 2."""
-    environment: dict[str, Any] = {"_finish": _finish}
-    parameters = ["_self"]
-    body = []
-    for index, field in enumerate(definition.fields):
-        fresh = _fresh_default(field, index, environment)
-        if index == 0:
-            parameters.append("*")
-        if isinstance(field.type, Array) and element_code(field.type):
-            parameters.append(f"{field.name}=None")
-            body.append(f" if {field.name} is None: _self.{raw_name(field.name)} = {fresh}")
-            body.append(f" else: _self.{field.name} = {field.name}")
-        elif fresh:
-            parameters.append(f"{field.name}=None")
-            body.append(f" _self.{field.name} = {fresh} if {field.name} is None else {field.name}")
-        else:
-            environment[f"_default{index}"] = (
-                scalar_default(field.type) if field.default is None else field.default
-            )
-            parameters.append(f"{field.name}=_default{index}")
-            body.append(f" _self.{field.name} = {field.name}")
-    condition = "" if checks_are_on() else "if _unknown: "
-    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join(
-        [*body, f" {condition}_finish(_self, _unknown)"]
-    )
-    # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program
-    # caught.
-    exec(compile(source, f"<constructor of {definition.full_name}>", "exec"), environment)  # noqa: S102 - our own source, checked names
-    return environment["__init__"]
-
-
-def _fresh_default(field: Field, index: int, environment: dict[str, Any]) -> str:
-    """Expression for a default that every message needs its own of.
-
-    The empty string where a shared constant does.
-    """
-    type_ = field.type
-    if isinstance(type_, NamespacedType):
-        environment[f"_class{index}"] = get_message(type_.full_name)
-        return f"_class{index}()"
-    if not isinstance(type_, AbstractNestedType):
-        return ""
-    return _fresh_values(field.default, type_, index, environment)
-
-
-def _fresh_values(
-    default: Any, type_: AbstractNestedType, index: int, environment: dict[str, Any]
-) -> str:
-    code = element_code(type_)
-    if code:
-        if isinstance(type_, Array):
-            environment[f"_default{index}"] = array_values(code, default or (0,) * type_.size)
-        else:
-            environment[f"_default{index}"] = default or ()  # the assignment makes the array.array
-        return f"_default{index}"
-    if default is not None:
-        environment[f"_default{index}"] = default
-        return f"_default{index}.copy()"
-    if not isinstance(type_, Array):
-        return "[]"
-    if isinstance(type_.value_type, NamespacedType):
-        environment[f"_class{index}"] = get_message(type_.value_type.full_name)
-        return f"[_class{index}() for _ in range({type_.size})]"
-    return f"[{scalar_default(type_.value_type)!r}] * {type_.size}"
-
-
-def _finish(message: Message, unknown: dict[str, Any]) -> None:
-    """Look at what the constructor's keywords did not cover: ``check_fields``, and mistakes."""
-    check = unknown.pop("check_fields", checks_are_on())
-    if unknown:
-        raise AssertionError(
-            f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
-        )
-    if check:
-        from turtlewire.msg.checks import turn_on_checks
-
-        turn_on_checks(message)
-
-
-def checks_are_on() -> bool:
-    """Whether ``ROS_PYTHON_CHECK_FIELDS=1`` asks for ROS 2's checks at every assignment."""
-    return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
 
 
 def _make_service(full_name: str) -> type[Service]:

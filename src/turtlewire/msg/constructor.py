@@ -1,0 +1,119 @@
+"""Compiles the constructors of message classes."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
+from turtlewire.msg.values import array_values, element_code, raw_name, scalar_default
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.msg.definition import Field, MessageDefinition
+    from turtlewire.msg.message import Message
+
+__all__ = ["make_constructor"]
+
+
+def make_constructor(
+    definition: MessageDefinition, class_of: Callable[[str], type[Message]]
+) -> Callable[..., None]:
+    """Compile ``__init__``: one assignment for each field, defaults as in ROS 2.
+
+    Args:
+        definition: The message.
+        class_of: Finds the class of a nested message by its full name.
+    """
+    environment: dict[str, Any] = {"_finish": _finish}
+    parameters = ["_self"]
+    body = []
+    for index, field in enumerate(definition.fields):
+        fresh = _fresh_default(field, index, environment, class_of)
+        if index == 0:
+            parameters.append("*")
+        if isinstance(field.type, Array) and element_code(field.type):
+            parameters.append(f"{field.name}=None")
+            body.append(f" if {field.name} is None: _self.{raw_name(field.name)} = {fresh}")
+            body.append(f" else: _self.{field.name} = {field.name}")
+        elif fresh:
+            parameters.append(f"{field.name}=None")
+            body.append(f" _self.{field.name} = {fresh} if {field.name} is None else {field.name}")
+        else:
+            environment[f"_default{index}"] = (
+                scalar_default(field.type) if field.default is None else field.default
+            )
+            parameters.append(f"{field.name}=_default{index}")
+            body.append(f" _self.{field.name} = {field.name}")
+    condition = "" if _checks_are_on() else "if _unknown: "
+    source = f"def __init__({', '.join(parameters)}, **_unknown):\n" + "\n".join(
+        [*body, f" {condition}_finish(_self, _unknown)"]
+    )
+    # Not exec(source): CPython ends with -2 after a Ctrl-C in there, even one that the program
+    # caught.
+    exec(compile(source, f"<constructor of {definition.full_name}>", "exec"), environment)  # noqa: S102 - our own source, checked names
+    constructor: Callable[..., None] = environment["__init__"]
+    return constructor
+
+
+def _fresh_default(
+    field: Field,
+    index: int,
+    environment: dict[str, Any],
+    class_of: Callable[[str], type[Message]],
+) -> str:
+    """Expression for a default that every message needs its own of.
+
+    The empty string where a shared constant does.
+    """
+    type_ = field.type
+    if isinstance(type_, NamespacedType):
+        environment[f"_class{index}"] = class_of(type_.full_name)
+        return f"_class{index}()"
+    if not isinstance(type_, AbstractNestedType):
+        return ""
+    return _fresh_values(field.default, type_, index, environment, class_of)
+
+
+def _fresh_values(
+    default: Any,
+    type_: AbstractNestedType,
+    index: int,
+    environment: dict[str, Any],
+    class_of: Callable[[str], type[Message]],
+) -> str:
+    code = element_code(type_)
+    if code:
+        if isinstance(type_, Array):
+            environment[f"_default{index}"] = array_values(code, default or (0,) * type_.size)
+        else:
+            environment[f"_default{index}"] = default or ()  # the assignment makes the array.array
+        return f"_default{index}"
+    if default is not None:
+        environment[f"_default{index}"] = default
+        return f"_default{index}.copy()"
+    if not isinstance(type_, Array):
+        return "[]"
+    if isinstance(type_.value_type, NamespacedType):
+        environment[f"_class{index}"] = class_of(type_.value_type.full_name)
+        return f"[_class{index}() for _ in range({type_.size})]"
+    return f"[{scalar_default(type_.value_type)!r}] * {type_.size}"
+
+
+def _finish(message: Message, unknown: dict[str, Any]) -> None:
+    """Look at what the constructor's keywords did not cover: ``check_fields``, and mistakes."""
+    check = unknown.pop("check_fields", _checks_are_on())
+    if unknown:
+        raise AssertionError(
+            f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        )
+    if check:
+        from turtlewire.msg.checks import turn_on_checks
+
+        turn_on_checks(message)
+
+
+def _checks_are_on() -> bool:
+    """Whether ``ROS_PYTHON_CHECK_FIELDS=1`` asks for ROS 2's checks at every assignment."""
+    return os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
