@@ -427,6 +427,21 @@ void test_record_walk(std::size_t rounds) {
   check(damaged > rounds / 10, "damage is found");
 }
 
+// ---------------------------------------------------------------- names
+
+void test_same_name() {
+  for (std::size_t size = 0; size < 20; ++size) {
+    const std::string name(size, 'a');
+    check(same_name(name, std::string(size, 'a')), "equal names");
+    check(!same_name(name, name + "a"), "names of different lengths");
+    for (std::size_t i = 0; i < size; ++i) {
+      std::string other = name;
+      other[i] = 'b';
+      check(!same_name(name, other), "names that differ in one letter");
+    }
+  }
+}
+
 // ---------------------------------------------------------------- the intake
 
 std::vector<unsigned char> message_at(std::int32_t second) {
@@ -559,6 +574,7 @@ int main(int count, char** arguments) {
   test_random_operations();
   test_memory();
   test_threads();
+  test_same_name();
   test_intake();
   test_intake_threads();
   test_malformed_messages(messages);

@@ -288,3 +288,25 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
     finally:
         stop.set()
         thread.join()
+
+
+def test_the_gids_of_publishers_that_left_are_forgotten(flow):
+    buffer = Buffer()
+    with flow.listen(buffer, static_topic=None) as listening:
+        [channel] = listening._joined
+        subscription = channel._subscription
+        flow.wait_for_match()
+        for number in range(5):
+            guest = flow.sender.create_node(f"guest{number}").create_publisher(
+                "/tf", TYPE, KEEP_ALL
+            )
+            assert flow.sender.graph.wait_for(
+                lambda guest=guest: guest.subscription_count() == 1, LONG_NS
+            )
+            guest.publish(tf_bytes(1, f"guest{number}"))
+            assert buffer.can_transform("world", f"guest{number}", 0, LONG_NS)
+            guest.close()
+            assert flow.receiver.graph.wait_for(
+                lambda: subscription.publisher_count() == 1, LONG_NS
+            )
+        assert len(subscription._gids) <= 3  # the last ones may still be on their way out
