@@ -20,6 +20,7 @@ import sys
 import tempfile
 import time
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,6 +34,8 @@ from turtlewire.wire.qos import QoS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from rosbag2_transport.player import Player
+    from turtlewire.bag import BagMessage
     from turtlewire.wire.base import Publisher
 
 SECOND = 1_000_000_000
@@ -107,6 +110,11 @@ def load(minutes: float) -> int:
     return lost
 
 
+def note(player: Player, errors: list[float], message: BagMessage) -> None:
+    """Note how many milliseconds a message is late as it is published."""
+    errors.append((player.clock.now_ns() - message.log_time_ns) / player.clock.rate * 1e-6)
+
+
 def timing() -> None:
     """Play at three rates, and print how late messages were published."""
     from rosbag2_transport.options import PlayOptions
@@ -120,21 +128,16 @@ def timing() -> None:
             for i in range(10_000):
                 writer.write("/imu", number(i, 40), START + i * SECOND // 100)
         for rate in RATES:
-            times: list[tuple[int, int]] = []
+            errors: list[float] = []
             options = PlayOptions(rate=rate, playback_duration=5.0 * rate)
             with Session("timing") as session:
                 player = Player(session.node, path, options)
-                player.on_publish.append(
-                    lambda message, note=times.append: note(  # type: ignore[misc]
-                        (message.log_time_ns, time.monotonic_ns())
-                    )
-                )
+                player.on_publish.append(partial(note, player, errors))
                 player.play()
                 player.close()
-            first_log, first = times[0]
-            errors = sorted((now - first - (log - first_log) / rate) / 1e6 for log, now in times)
+            errors.sort()
             print(
-                f"{rate:g}x: {len(times)} messages, late by [ms] median "
+                f"{rate:g}x: {len(errors)} messages, late by [ms] median "
                 f"{statistics.median(errors):.3f}, 99 % {errors[int(len(errors) * 0.99)]:.3f}, "
                 f"most {errors[-1]:.3f}"
             )

@@ -189,11 +189,12 @@ class Player:
     def _move(self, time_ns: int) -> None:
         """Continue at another time; listeners get the latched messages from before."""
         self._close_source()
-        self.clock.jump(time_ns)
         for message in self._latched.move(time_ns, look_ahead=self.clock.is_paused):
             self._outputs.publish(message)
         messages = self._bag.messages(self._topics, start_ns=time_ns)
         self._source = ReadAhead(messages, self._options.read_ahead_queue_size)
+        self._source.wait_until_ready()  # or the first messages would be late
+        self.clock.jump(time_ns)
 
     def _close_source(self) -> None:
         if self._source is not None:

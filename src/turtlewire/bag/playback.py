@@ -94,6 +94,11 @@ class ReadAhead:
         )
         self._thread.start()
 
+    def wait_until_ready(self) -> None:
+        """Wait until the first message is read, or there is none."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._ready or self._ended)
+
     def peek(self) -> BagMessage | None:
         """The next message, which stays the next one; None at the end.
 
