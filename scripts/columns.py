@@ -18,7 +18,6 @@ FOREIGN = re.compile(
     r"tests/golden/|tests/tutorial/verbatim/|.*\.svg$|LICENSE$|\.importlinter$"
     r"|tests/rclpy/test_surface\.py$|tests/test_compatibility\.py$"
     r"|tests/urdf/test_parser\.py$"
-    r"|ros/rclpy/"  # still to be wrapped
 )
 #: What Python prints for a message or an error.
 OUTPUT = re.compile(r"\w+(\.\w+)+(\(|: )")

@@ -8,6 +8,7 @@ module                    what it holds
 `entity`                  `Entity` and `Host`: all that an entity knows of its executor
 `running_callbacks`       threads that run callbacks, and which
 `blocking`, `self_waits`  waiting for a response; warnings of deadlocks
+`futures`                 callbacks of futures: called at once, or by an executor
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
 ========================  =============================================================

@@ -71,7 +71,8 @@ def _warn_of_name_alone(name: str) -> None:
     warnings.warn(
         f"when declaring parameter named '{name}', declaring a parameter only providing its name "
         "is deprecated. You have to either:\n"
-        '\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
+        '\t- Pass a name and a default value different to "PARAMETER NOT SET" '
+        "(and optionally a descriptor).\n"
         "\t- Pass a name and a parameter type.\n"
         "\t- Pass a name and a descriptor with `dynamic_typing=True",
         stacklevel=6,

@@ -28,7 +28,8 @@ def _date_time_with_ms(record: LogRecord) -> str:
     import time
 
     seconds, nanoseconds = divmod(record.stamp_ns, 1_000_000_000)
-    return f"{time.strftime('%Y-%m-%d %H:%M:%S', time.localtime(seconds))}.{nanoseconds // 1_000_000:03d}"
+    date_time = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds))
+    return f"{date_time}.{nanoseconds // 1_000_000:03d}"
 
 
 _TOKENS: dict[str, Callable[[LogRecord], str]] = {

@@ -127,7 +127,8 @@ def _requested_filters(options: dict[str, Any]) -> list[str]:
         for option, default in _FILTERS[name].items():
             if default is None and option not in options:
                 raise TypeError(
-                    f'required parameter "{option}" not specified but is required for the the logging filter "{name}"'
+                    f'required parameter "{option}" not specified but is required for the the '
+                    f'logging filter "{name}"'
                 )
     for option in options:
         if option not in _OPTIONS:
