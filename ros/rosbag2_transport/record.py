@@ -91,8 +91,8 @@ def _run(
         started = time.monotonic()
         with ProgressLine(lambda: _progress(recorder, recording, time.monotonic() - started)):
             stop.get()
+    recorder.stop()  # takes what has arrived, which a pause would drop
     recorder.pause()
-    recorder.stop()
     _say_that_it_writes()
     if writer.metadata.compression_mode == "FILE":
         _say_that_it_compresses(writer.file_path)
