@@ -141,6 +141,8 @@ def test_datagrams_are_large_on_loopback_only():
 
     assert largest(Range.LOCALHOST, ()) == largest(Range.OFF, ()) == "65500B"
     assert largest(Range.LOCALHOST, ("10.0.0.1",)) is largest(Range.SUBNET, ()) is None
+    local = configuration(Discovery(Range.LOCALHOST, ()))
+    assert local.findtext("General/FragmentSize") == "64000B"
 
 
 def test_configuration_of_each_range():
