@@ -82,10 +82,10 @@ def choose_core() -> None:
 
 def show(seconds: float | None) -> int:
     """Run the demo for a person, until Ctrl-C or for some seconds."""
-    greet()
     deadline = time.monotonic() + seconds if seconds is not None else float("inf")
     launch = Launch()
     try:
+        greet()
         launch.start()
         from turtlewire.web.desktop import desktop_is_there
 
@@ -97,7 +97,7 @@ def show(seconds: float | None) -> int:
         pass
     finally:
         status = launch.stop()
-        print("[demo] ended", flush=True)
+    print("[demo] ended", flush=True)
     return status
 
 

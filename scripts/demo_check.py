@@ -58,13 +58,13 @@ def check(started: float) -> int:
     os.environ |= {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     log = Path(os.environ["ROS_LOG_DIR"]) / f"demo-check-{os.getpid()}.txt"
     log.parent.mkdir(parents=True, exist_ok=True)
-    print(
-        f"[demo] checking in ROS domain {domain}; what the processes say goes to {log}",
-        flush=True,
-    )
     with log.open("wb") as output:
         launch = Launch(output.fileno())
         try:
+            print(
+                f"[demo] checking in ROS domain {domain}; what the processes say goes to {log}",
+                flush=True,
+            )
             launch.start()
             with Observer(started) as observer:
                 problem = judge(observer, launch)

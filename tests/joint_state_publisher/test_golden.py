@@ -44,7 +44,7 @@ class Rig:
 
     def __init__(self, context: Context, parameters: dict, file: Path | None = None):
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
-        self.node = Node("rig", context=context)
+        self.node = Node("joint_state_rig", context=context)
         self.got: list[dict] = []
         self.node.create_subscription(JointState, "/joint_states", self._take, 1000)
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -32,7 +32,7 @@ class Rig:
             context=context,
             parameter_overrides=[Parameter(name, value=value) for name, value in given.items()],
         )
-        self.node = Node("rig", context=context)
+        self.node = Node("robot_state_rig", context=context)
         self.executor = SingleThreadedExecutor(context=context)
         self.executor.add_node(self.publisher)
         self.executor.add_node(self.node)
