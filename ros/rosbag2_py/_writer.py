@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 from typing import TYPE_CHECKING
+from weakref import WeakSet
 
 from rosbag2_py._compression_options import CompressionMode, CompressionOptions
 from rosbag2_py._open_writer import make_writer
@@ -37,8 +39,18 @@ def get_registered_serializers() -> set[str]:
     return set()
 
 
+_open_writers: WeakSet[SequentialWriter] = WeakSet()
+
+
+@atexit.register
+def _close_writers() -> None:
+    """Finish the bags of a program that ends; when ``__del__`` comes, it is too late for files."""
+    for writer in list(_open_writers):
+        writer.close()
+
+
 class SequentialWriter:
-    """Writes a bag; `close` or ``del`` finishes it."""
+    """Writes a bag; `close`, ``del`` or the end of the program finishes it."""
 
     def __init__(self) -> None:
         self._writer: BagWriter | None = None
@@ -56,6 +68,7 @@ class SequentialWriter:
             RuntimeError: It exists, or the options do not fit.
         """
         self._writer = make_writer(storage_options, self._mode)
+        _open_writers.add(self)
 
     def _opened(self) -> BagWriter:
         if self._writer is None:
@@ -124,6 +137,7 @@ class SequentialWriter:
         if self._writer is not None:
             self._writer.close()
             self._writer = None
+            _open_writers.discard(self)
 
 
 class SequentialCompressionWriter(SequentialWriter):

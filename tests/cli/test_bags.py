@@ -11,7 +11,7 @@ from tests.bag.conftest import GOLDEN, SECOND, START, transform, write_bag
 from tests.cli.test_main import offered
 
 from turtlewire import msg
-from turtlewire.bag import BagWriter
+from turtlewire.bag import BagWriter, reindex
 from turtlewire.cli.main import main
 from turtlewire.trajectory import read_kitti, read_tum, write_tum
 
@@ -198,6 +198,30 @@ def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):
     assert "'base_link' goes back and forth between the parents 'map' and 'odom'" in done.out
     assert "'wheel' is sent by '/tf' and '/tf_static'" in done.out
     assert "1 messages of /tf are no TFMessage" in done.out
+
+
+def test_damage_is_named_where_it_left_no_transforms(capsys, tmp_path):
+    """A whole bag of one chunk, cut within it: not "no transforms" alone, but why."""
+    shutil.copytree(GOLDEN / "d_mcap", tmp_path / "cut")
+    with open(tmp_path / "cut" / "d_mcap_0.mcap", "r+b") as file:
+        file.truncate(60_000)
+    damage = "d_mcap_0.mcap: the record at byte 567 is cut off or damaged"
+    (tmp_path / "cut" / "metadata.yaml").unlink()
+    done = run(capsys, "bag", "tf", tmp_path / "cut")
+    assert done.status == 2
+    assert "none of the topics /tf, /tf_static. It has no TF. Damaged: " in done.err
+    assert damage in done.err
+    reindex(tmp_path / "cut")
+    done = run(capsys, "doctor", tmp_path / "cut")
+    assert done.status == 1
+    assert damage in done.out
+
+
+def test_a_file_has_gaps_too(capsys, tmp_path):
+    (tmp_path / "a.tum").write_text("".join(f"{t} 0 0 0 0 0 0 1\n" for t in (1, 2, 3, 4, 50)))
+    assert "gap       46.000 s from 4.000000 s" in run(capsys, "trajectory", tmp_path / "a.tum").out
+    done = run(capsys, "trajectory", tmp_path / "a.tum", "--max-gap", "50")
+    assert "gap " not in done.out
 
 
 def test_tab(tmp_path, bag, monkeypatch):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gzip
 import json
+import subprocess
+import sys
 import zlib
 from pathlib import Path
 
@@ -145,6 +147,26 @@ def test_a_script_that_writes_and_reads(tmp_path):
     assert texts == [("chatter", f"hello {i}", 1000 + i) for i in range(5)]
     assert reader.get_metadata().message_count == 5
     reader.close()
+
+
+def test_a_program_that_ends_finishes_its_bag(tmp_path):
+    """The tutorial's recorder is an attribute of a node, and nobody closes it."""
+    program = (
+        "import sys, rosbag2_py\n"
+        "class Node: pass\n"
+        "node = Node(); node.itself = node\n"
+        "node.writer = rosbag2_py.SequentialWriter()\n"
+        "node.writer.open(rosbag2_py.StorageOptions(uri=sys.argv[1], storage_id='mcap'))\n"
+        "sys.kept = node\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "bag")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert run.stderr == ""
+    assert (tmp_path / "bag" / "metadata.yaml").exists()
 
 
 def test_writers_refuse_what_cannot_be(tmp_path):

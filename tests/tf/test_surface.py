@@ -77,6 +77,8 @@ def test_what_does_not_fit(equipped):
         a @ c
     with pytest.raises(TypeError):
         a @ 3
+    with pytest.raises(TypeError, match=r"Transform times ndarray is not defined; .*as_matrix"):
+        a @ np.ones(7)  # NumPy would make one number of it
     with pytest.raises(ValueError, match="different frames"):
         a.interpolate(c, 6)
     with pytest.raises(ValueError, match="9 is not between 5 and 8"):

@@ -41,6 +41,27 @@ def test_nothing_is_lost(tmp_path, name):
         assert found.poses.tolist() == walk.poses.tolist()
 
 
+@pytest.mark.parametrize("name", FORMATS)
+def test_pauses_in_a_file_are_gaps(tmp_path, name):
+    """Files do not tell of gaps: what pauses as long as one is one, and no line crosses it."""
+    read, write = FORMATS[name]
+    walk = random_walk(1)
+    gap = 10**11
+    stamps = walk.stamps_ns + np.where(np.arange(len(walk)) < 100, 0, gap)
+    write(Trajectory(stamps, walk.poses), tmp_path / "walk")
+    found = read(tmp_path / "walk")
+    assert found.gaps == ((stamps[99], stamps[100]),)
+    assert repr(found).endswith("1 gap>")
+
+
+def test_parts_of_a_trajectory(tmp_path):
+    write_kitti(random_walk(1), tmp_path / "poses")
+    found = read_kitti(tmp_path / "poses")
+    assert not found[:5].timed
+    with pytest.raises(TypeError, match=r"pose 3 is poses\[3\]"):
+        found[3]
+
+
 def test_kitti(tmp_path):
     walk = random_walk(1)
     write_kitti(walk, tmp_path / "poses", tmp_path / "times")

@@ -167,6 +167,8 @@ def test_clocks_that_differ_are_told():
     with pytest.raises(ValueError, match=r"an offset of -3600\.000 s makes them begin together"):
         compare(early, late)
     assert len(compare(early, late, offset_ns=-3600 * 10**9).estimate) == len(early)
+    with pytest.raises(ValueError, match=r"an offset of -3600\.000 s makes them begin together"):
+        compare(early, late, offset_ns=50 * 10**9)  # what was tried does not change the advice
 
 
 def test_the_table_is_evos(pair):

@@ -70,7 +70,7 @@ class TransformReport:
 
     def complaints(self) -> list[str]:
         """What looks wrong, one line each."""
-        lines = [f"damaged: {text}" for text in self.problems]
+        lines = [f"problem: {text}" for text in self.problems]
         if self.malformed is not None and self.malformed.messages:
             lines.append(f"no TFMessage: {self.malformed.messages} messages: {self.malformed.last}")
         lines += [f"{each.kind}: {each.text}" for each in self.conflicts]

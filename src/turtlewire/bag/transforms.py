@@ -146,8 +146,10 @@ def _check_topics(bag: Bag, wanted: set[str]) -> None:
         return
     similar = [name for name, topic in bag.topics.items() if topic.type == _TF_TYPE]
     names = ", ".join(sorted(wanted))
+    hint = f"Topics of type {_TF_TYPE} in it: {', '.join(similar)}." if similar else "It has no TF."
+    damage = [f"Damaged: {text}." for text in bag.problems]
     raise BagError(f"{bag.path} has none of the topics {names}").with_hint(
-        f"Topics of type {_TF_TYPE} in it: {', '.join(similar)}." if similar else "It has no TF."
+        " ".join((hint, *damage))
     )
 
 

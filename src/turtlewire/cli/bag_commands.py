@@ -218,7 +218,9 @@ def reporting_errors(
         try:
             return run(args)
         except (BagError, TransformException, OSError, ValueError) as error:
-            text = f"{_text_of(error)} {getattr(error, 'hint', '') or ''}".rstrip()
+            text = _text_of(error)
+            if hint := getattr(error, "hint", ""):
+                text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"
             print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
             return 2
 

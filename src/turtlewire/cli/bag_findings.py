@@ -47,7 +47,8 @@ def examine_bag(path: str) -> list[Finding]:
         found += _bag_findings(bag, path)
         has_tf = {"/tf", "/tf_static"} & bag.topics.keys()
         if not has_tf:
-            found += [problem(text, _DAMAGED) for text in bag.problems]
+            unread = [text for path in bag.metadata.paths for text in _unreadable(bag, path)]
+            found += [problem(text, _DAMAGED) for text in (*bag.problems, *unread)]
             return [*found, note("The bag has no transforms.", _NO_TF.format(path))]
     try:
         buffer, report = load_transforms(path)
@@ -55,6 +56,15 @@ def examine_bag(path: str) -> list[Finding]:
         return [*found, problem(str(error), error.hint)]
     found += [problem(text, _DAMAGED) for text in report.problems]
     return [*found, *_report_findings(report), *traffic_findings(_traffic(buffer, report, end_ns))]
+
+
+def _unreadable(bag: Bag, path: str) -> list[str]:
+    """Why a file cannot be opened; what is damaged in one that can comes into ``bag.problems``."""
+    try:
+        bag.file(path)
+    except (BagError, OSError) as error:
+        return [str(error)]
+    return []
 
 
 def _bag_findings(bag: Bag, path: str) -> list[Finding]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -74,12 +75,15 @@ class TrajectoryReader:
             ValueError: It is no trajectory, or nothing moves.
         """
         from turtlewire.bag import load_trajectory
-        from turtlewire.trajectory import read_trajectory
+        from turtlewire.trajectory import find_gaps, read_trajectory
 
         if not source.names:
             if _is_bag(source.path):
                 raise ValueError(_names_are_missing(source.path))
-            return read_trajectory(source.path)
+            found = read_trajectory(source.path)
+            if self._max_gap_ns is None or not found.timed:
+                return found
+            return replace(found, gaps=tuple(find_gaps(found.stamps_ns, self._max_gap_ns)))
         if not source.is_transform:
             return load_trajectory(source.path, source.names[0], max_gap_ns=self._max_gap_ns)
         return self._buffer(source.path).trajectory(

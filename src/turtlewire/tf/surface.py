@@ -172,6 +172,11 @@ def _compose(self: Transform, other: Transform) -> Transform:
         ValueError: The frames do not meet.
     """
     if not isinstance(other, type(self)):
+        if hasattr(other, "__array_ufunc__"):  # NumPy would take the transform for seven numbers
+            raise TypeError(
+                f"a Transform times {type(other).__name__} is not defined; for points in an array "
+                "use as_matrix(), or Buffer.transform_points"
+            )
         return NotImplemented
     if self.child_frame_id != other.frame_id:
         raise ValueError(

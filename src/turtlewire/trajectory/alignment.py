@@ -77,7 +77,7 @@ def associate(
         kept = np.abs(first[rows] - second) <= max_diff_ns
         pairs = rows[kept], np.flatnonzero(kept)
     if not len(pairs[0]):
-        raise ValueError(_no_pairs(first, second, max_diff_ns))
+        raise ValueError(_no_pairs(first, second, max_diff_ns, offset_ns))
     return pairs
 
 
@@ -91,7 +91,9 @@ def _nearest(few: NDArray[np.int64], many: NDArray[np.int64]) -> NDArray[np.intp
     return np.where(few - many[before] <= many[after] - few, before, after)
 
 
-def _no_pairs(first: NDArray[np.int64], second: NDArray[np.int64], max_diff_ns: int) -> str:
+def _no_pairs(
+    first: NDArray[np.int64], second: NDArray[np.int64], max_diff_ns: int, offset_ns: int
+) -> str:
     def span(stamps: NDArray[np.int64]) -> str:
         return f"{stamps[0] / 1e9:.3f} to {stamps[-1] / 1e9:.3f} s" if len(stamps) else "nothing"
 
@@ -100,7 +102,8 @@ def _no_pairs(first: NDArray[np.int64], second: NDArray[np.int64], max_diff_ns: 
         f"{span(first)}, the estimate {span(second)}"
     )
     if len(first) and len(second):
-        text += f"; an offset of {(first[0] - second[0]) / 1e9:.3f} s makes them begin together"
+        offset = (first[0] - second[0] + offset_ns) / 1e9  # second is moved by offset_ns already
+        text += f"; an offset of {offset:.3f} s makes them begin together"
     return text
 
 

@@ -2,7 +2,7 @@
 
 Stamps are written and read as integers (``seconds.nanoseconds``), so that no nanosecond is lost:
 a double holds the seconds since 1970 only to 0.24 microseconds. Numbers are written so that they
-read back as the same doubles.
+read back as the same doubles. No format tells of gaps: pauses that `find_gaps` takes for some are.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from turtlewire.trajectory import quaternions
+from turtlewire.trajectory.sampling import find_gaps
 from turtlewire.trajectory.trajectory import Trajectory, as_stamps
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def read_tum(path: str | os.PathLike[str]) -> Trajectory:
         ValueError: A line is not like that; the text names it.
     """
     stamps, rows = _read_table(path, None, 8, "8 numbers: timestamp tx ty tz qx qy qz qw")
-    return Trajectory(_in_order(stamps, path), rows)
+    return _with_gaps(_in_order(stamps, path), rows)
 
 
 def write_tum(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -65,7 +66,7 @@ def read_csv(path: str | os.PathLike[str]) -> Trajectory:
         ValueError: A line is not like that; the text names it.
     """
     stamps, rows = _read_table(path, ",", 8, "8 numbers: t_ns,x,y,z,qx,qy,qz,qw", unit=1)
-    return Trajectory(_in_order(stamps, path), rows)
+    return _with_gaps(_in_order(stamps, path), rows)
 
 
 def write_csv(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -83,7 +84,7 @@ def read_euroc(path: str | os.PathLike[str]) -> Trajectory:
     """
     wanted = "at least 8 numbers: t_ns,x,y,z,qw,qx,qy,qz"
     stamps, rows = _read_table(path, ",", 8, wanted, unit=1, exact=False)
-    return Trajectory(_in_order(stamps, path), rows[:, [0, 1, 2, 4, 5, 6, 3]])
+    return _with_gaps(_in_order(stamps, path), rows[:, [0, 1, 2, 4, 5, 6, 3]])
 
 
 def write_euroc(trajectory: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -114,7 +115,7 @@ def read_kitti(
     stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")
     if len(stamps) != len(poses):
         raise ValueError(f"{path} has {len(poses)} poses, {times} has {len(stamps)} times")
-    return Trajectory(_in_order(stamps, times), poses)
+    return _with_gaps(_in_order(stamps, times), poses)
 
 
 def write_kitti(
@@ -233,6 +234,10 @@ def _in_order(stamps: list[int], path: str | os.PathLike[str]) -> NDArray[np.int
         return as_stamps(np.array(stamps, dtype=np.int64))
     except (ValueError, OverflowError) as error:
         raise ValueError(f"{os.fspath(path)}: {error}") from None
+
+
+def _with_gaps(stamps: NDArray[np.int64], poses: NDArray[np.float64]) -> Trajectory:
+    return Trajectory(stamps, poses, gaps=tuple(find_gaps(stamps)))
 
 
 def _write_lines(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -65,16 +65,21 @@ class Trajectory:
         return len(self.stamps_ns)
 
     def __getitem__(self, rows: slice | NDArray[Any]) -> Trajectory:
-        """The poses of a slice or of an index array."""
-        return Trajectory(
-            self.stamps_ns[rows], self.poses[rows], self.frame_id, self.child_frame_id, self.gaps
-        )
+        """The poses of a slice or of an index array.
+
+        Raises:
+            TypeError: It is a single number: ``stamps_ns[i]`` and ``poses[i]`` are that pose.
+        """
+        if isinstance(rows, (int, np.integer)):
+            raise TypeError(f"expected a slice or an index array; pose {rows} is poses[{rows}]")
+        return replace(self, stamps_ns=self.stamps_ns[rows], poses=self.poses[rows])
 
     def __repr__(self) -> str:
         what = f"'{self.child_frame_id}' in '{self.frame_id}', " if self.child_frame_id else ""
+        gaps = "1 gap" if len(self.gaps) == 1 else f"{len(self.gaps)} gaps"
         return (
             f"<Trajectory: {what}{len(self)} poses, {self.duration_ns / 1e9:.3f} s, "
-            f"{self.path_length:.3f} m{f', {len(self.gaps)} gaps' if self.gaps else ''}>"
+            f"{self.path_length:.3f} m{f', {gaps}' if self.gaps else ''}>"
         )
 
     @property
