@@ -63,6 +63,16 @@ def test_flipped_bytes_never_crash(tmp_path, storage, compression_mode):
         assert len(messages) <= 111 + 10
 
 
+def test_a_damaged_definition_is_named(tmp_path):
+    data = bytearray((GOLDEN / "d_mcap" / "d_mcap_0.mcap").read_bytes())  # it has no checksums
+    name = b"tf2_msgs/msg/TFMessage"
+    data[data.index(len(name).to_bytes(4, "little") + name) + 4] = 0xFF
+    path = tmp_path / "damaged.mcap"
+    path.write_bytes(data)
+    _, complaint = read_what_there_is(path)
+    assert re.search(r"damaged\.mcap: chunk at byte \d+: .* a text is not UTF-8", complaint)
+
+
 def test_a_damaged_chunk_is_named_and_the_others_are_read(tmp_path):
     folder = write_bag(tmp_path / "made", compression="zstd", chunk_bytes=1000)
     (path,) = folder.glob("*.mcap")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -135,6 +136,24 @@ def test_mistakes(tmp_path):
     with pytest.raises(BagError, match="compress chunks, not messages"):
         BagWriter(tmp_path / "another", compression_mode="MESSAGE")
     assert not (tmp_path / "another").exists()
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_times_are_checked_where_they_are_given(tmp_path, storage):
+    """What could not be written must not spoil the bag when it is closed."""
+    with BagWriter(tmp_path / "made", storage=storage) as writer:
+        writer.add_topic("/a", "std_msgs/msg/String")
+        time = np.datetime64("2001-09-09T01:46:40", "s")
+        writer.write("/a", msg.get_message("std_msgs/msg/String")(data="x"), time, time)
+        writer.write("/a", b"", np.int64(10**18 + 1))
+        with pytest.raises(ValueError, match="log_time_ns is -1: bags have no times before 1970"):
+            writer.write("/a", b"", -1)
+        with pytest.raises(TypeError, match="log_time_ns must be an int of nanoseconds"):
+            writer.write("/a", b"", 1.5)
+        with pytest.raises(TypeError, match="bytes-like"):
+            writer.write("/a", 3, 1)
+    with open_bag(tmp_path / "made") as bag:
+        assert [message.log_time_ns for message in bag] == [10**18, 10**18 + 1]
 
 
 def test_an_empty_bag(tmp_path):

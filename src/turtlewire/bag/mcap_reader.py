@@ -142,7 +142,10 @@ class McapFile:
                         records[body + _MESSAGE_FIELDS : position],
                     )
             elif opcode in _DEFINITIONS:
-                self._read_definition(opcode, memoryview(records)[body:position])
+                try:
+                    self._read_definition(opcode, memoryview(records)[body:position])
+                except BagError as error:
+                    raise BagError(f"{self.cut(chunk, body - _PREFIX)}: {error}") from None
 
     def cut(self, chunk: ChunkIndex, position: int) -> BagError:
         """The error of a chunk whose records end at a position in the middle of one."""

@@ -22,6 +22,7 @@ from turtlewire.bag.qos_yaml import qos_to_yaml
 from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import Message, serialize, type_hash
+from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -201,11 +202,13 @@ class BagWriter:
         Args:
             topic: A topic that was added.
             data: The message, or its CDR bytes.
-            log_time_ns: When it was received, nanoseconds since 1970.
+            log_time_ns: When it was received, nanoseconds since 1970 or a ``datetime64``.
             publish_time_ns: When it was sent; None if it is not known.
 
         Raises:
             BagError: The topic was not added, or the bag is closed.
+            TypeError: The data are no bytes, or a time is none.
+            ValueError: A time lies before 1970.
             OSError: The disk is full, for example. What was written before stays readable.
         """
         number = self._ids.get(topic)
@@ -215,7 +218,11 @@ class BagWriter:
                 "Call add_topic() first."
             )
         if not isinstance(data, bytes):
-            data = serialize(data) if isinstance(data, Message) else bytes(data)
+            data = serialize(data) if isinstance(data, Message) else bytes(memoryview(data))
+        if type(log_time_ns) is not int or log_time_ns < 0:
+            log_time_ns = _stamp(log_time_ns, "log_time_ns")
+        if publish_time_ns and (type(publish_time_ns) is not int or publish_time_ns < 0):
+            publish_time_ns = _stamp(publish_time_ns, "publish_time_ns")
         if self._compresses_messages:
             data = compress("zstd", data)
         self._file.write(number, log_time_ns, publish_time_ns or log_time_ns, data)
@@ -341,6 +348,14 @@ class BagWriter:
         self.metadata.message_count = sum(file.message_count for file in filled)
         self.metadata.topics = list(self._topics.values())
         return self.metadata
+
+
+def _stamp(time: Any, argument: str) -> int:
+    """A time as an integer, which can be written."""
+    stamp = as_nanoseconds(time, argument)
+    if stamp < 0:
+        raise ValueError(f"{argument} is {stamp}: bags have no times before 1970")
+    return stamp
 
 
 def _known_definition(type_name: str) -> tuple[str, str]:

@@ -5,6 +5,7 @@ This module does not import NumPy: a caller that has such a time has imported it
 
 from __future__ import annotations
 
+import operator
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -30,8 +31,11 @@ def nanoseconds(time: Any, argument: str) -> int:
 
 
 def as_nanoseconds(time: Any, argument: str) -> int:
-    """An integer as it is; anything else as `nanoseconds` takes it."""
-    return time if isinstance(time, int) else nanoseconds(time, argument)
+    """An integer of Python or NumPy as an int; anything else as `nanoseconds` takes it."""
+    try:
+        return operator.index(time)
+    except TypeError:
+        return nanoseconds(time, argument)
 
 
 def nanoseconds_array(times: NDArray[np.datetime64]) -> NDArray[np.int64]:
