@@ -88,6 +88,8 @@ class Recorder:
         self._wait_set.wake()
         self._seeker.join()
         self._taker.join()
+        # Only now: a topic may have been subscribed to while the taker ended.
+        self._take_from(list(self._subscriptions.values()))
         self._remove_listener()
         self._wait_set.close()
         for subscription in self._subscriptions.values():
@@ -193,7 +195,6 @@ class Recorder:
     def _take(self) -> None:
         while not self._stopped.is_set():
             self._take_from(self._wait_set.wait())
-        self._take_from(list(self._subscriptions.values()))
 
     def _take_from(self, subscriptions: Iterable[Entity]) -> None:
         for subscription in subscriptions:
