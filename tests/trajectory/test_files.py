@@ -54,6 +54,16 @@ def test_pauses_in_a_file_are_gaps(tmp_path, name):
     assert repr(found).endswith("1 gap>")
 
 
+def test_words_among_the_numbers_and_numbers_that_are_none(tmp_path):
+    path = tmp_path / "walk.tum"
+    path.write_text("1 0 0 0 0 0 0 1\nnan 0 0 0 0 0 0 1\n")
+    with pytest.raises(ValueError, match=r"walk\.tum, line 2: .*'nan' is not a time"):
+        read_trajectory(path)
+    path.write_text("1 0 0 0 0 0 0 1\n2 inf 0 0 0 0 0 1\n")
+    with pytest.raises(ValueError, match=r"walk\.tum: pose 1 has a number that is not finite"):
+        read_trajectory(path)
+
+
 def test_parts_of_a_trajectory(tmp_path):
     write_kitti(random_walk(1), tmp_path / "poses")
     found = read_kitti(tmp_path / "poses")
@@ -127,7 +137,7 @@ def test_comments_headings_exponents_and_a_byte_order_mark(tmp_path):
         ("1.x 0 0 0 0 0 0 1\n", r"line 1: .*'1\.x' is not a time"),
         ("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "walk: stamps must increase; stamp 1"),
         ("1 0 0 0 0 0 0 0.5\n", "quaternion of pose 0 has the length 0.5"),
-        ("1 0 0 0 nan 0 0 1\n", "quaternion of pose 0 has the length nan"),
+        ("1 0 0 0 nan 0 0 1\n", "pose 0 has a number that is not finite"),
     ],
 )
 def test_wrong_files(tmp_path, text, complaint):

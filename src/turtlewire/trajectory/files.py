@@ -195,8 +195,8 @@ def _read_table(
     rows: list[list[float]] = []
     with open(path, encoding="utf-8-sig") as file:
         for number, line in enumerate(file, start=1):
-            if _is_comment(line):
-                continue
+            if _is_comment(line) and not (rows and line.strip()[:1].isalpha()):
+                continue  # words are a heading, which has its place above the numbers
             items = line.split(separator)
             try:
                 if len(items) < columns or (exact and len(items) > columns):
@@ -208,7 +208,11 @@ def _read_table(
                 raise ValueError(
                     f"{os.fspath(path)}, line {number}: expected {wanted}; {error}"
                 ) from None
-    return stamps, np.array(rows, dtype=np.float64).reshape(len(rows), columns - timed)
+    table = np.array(rows, dtype=np.float64).reshape(len(rows), columns - timed)
+    infinite = np.flatnonzero(~np.isfinite(table).all(axis=1))
+    if len(infinite):
+        raise ValueError(f"{os.fspath(path)}: pose {infinite[0]} has a number that is not finite")
+    return stamps, table
 
 
 def _is_comment(line: str) -> bool:
