@@ -18,7 +18,7 @@ module                                      what it holds
 `executors`                                 `Executor`; its parts are in `_execution`
 `_node`, `_execution`                       what a node and an executor consist of
 `context`, `utilities`                      `Context`; the default context, `ok`, `try_shutdown`
-`arguments`                                 ROS arguments of the command line
+`arguments`                                 ROS arguments, and the nodes that they are for
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services
 `timer`, `guard_condition`                  timers; wake-ups by hand
@@ -27,14 +27,14 @@ module                                      what it holds
 `callback_groups`, `task`                   which callbacks may run together; futures and coroutines
 `clock`, `clock_type`, `time`, `duration`   clocks, times and durations
 `time_source`                               ``use_sim_time``: ROS time from ``/clock``
-`parameter`                                 values and files of parameters
+`parameter`                                 values of parameters, and their YAML files
 `parameter_client`                          parameters of another node
 `parameter_service`                         the services of a node's parameters
 `parameter_event_handler`                   callbacks for changed parameters
 `qos`, `qos_policies`                       `QoSProfile`, its policies and presets
 `qos_compatibility`                         whether two profiles match
 `qos_overriding_options`                    QoS set by parameters
-`event_handler`                             events of endpoints: deadlines, matches, lost messages
+`event_handler`                             events: incompatible QoS, deadlines, matches
 `topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
 `logging`, `impl`                           loggers; their outputs, formats and filters
 `logging_service`                           the services of a node's log levels

@@ -6,13 +6,13 @@ Messages travel as bytes between the wire and the bag; no message object is made
 module                 what it holds
 =====================  ==========================================================
 `options`              `RecordOptions`, `PlayOptions`
-`record`               one recording from beginning to end
-`play`                 one playback from beginning to end
+`record`               `ros2 bag record` from beginning to end, and its keys
+`play`                 `ros2 bag play` from beginning to end, and its keys
 `recorder`             `Recorder`: subscribes, takes, pauses
 `recorder_services`    its services and its topic
 `recorder_qos`         which QoS receives from all publishers of a topic
 `topic_filter`         which topics are recorded or converted
-`player`               `Player`: time, order, commands
+`player`               `Player`: time, order, and what pauses, seeks or ends it
 `player_outputs`       its publishers
 `player_requests`      recorded requests, sent to services again
 `player_qos`           with which QoS it publishes
@@ -22,7 +22,7 @@ module                 what it holds
 `latched`              latched messages wherever a playback begins
 `rewrite`              bags into bags
 `qos_overrides`        QoS profiles from a file
-`session`              context, node, keys and signals of one command
+`session`              what both share: context, node, terminal, signals
 `progress`             a line on a terminal
 =====================  ==========================================================
 """

@@ -4,9 +4,9 @@
 module        what it holds
 ============  ==================================================================
 `bag`         rosbag2 folders, MCAP and sqlite3, read and written
-`cli`         the ``turtlewire`` command: ``doctor`` and ``frames``
+`cli`         the ``turtlewire`` command and its verbs
 `errors`      every error that turtlewire raises on purpose
-`keyboard`    keys of a terminal, as they are typed
+`keyboard`    keys of a terminal, as teleop and ``ros2 bag`` read them
 `msg`         interface definitions, message classes, CDR and type hashes
 `printable`   text from other processes, made safe for a terminal
 `suggestion`  the nearest names to one that does not exist

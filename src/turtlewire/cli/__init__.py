@@ -20,7 +20,7 @@ module                what it holds
 `trajectory_command`  the verb ``trajectory``
 `compare_command`     the verb ``compare``
 `trajectory_sources`  trajectories of bags and files, for these verbs
-`keyboard`            single keys of a terminal, without echo
+`keyboard`            keys with which ``frames`` is scrolled
 `pipes`               a quiet end when the reader of a pipe has gone
 ====================  ============================================================
 """

@@ -68,11 +68,10 @@ class Errors(NamedTuple):
         """The statistics; the standard deviation is the population's."""
         e = self.values
         sse = float(np.einsum("i,i->", e, e))  # dot() wakes BLAS's threads, which takes longer
-        middle = [(len(e) - 1) // 2, len(e) // 2]
         return Statistics(
             max=float(e.max()),
             mean=float(e.mean()),
-            median=float(np.partition(e, middle)[middle].mean()),
+            median=_median(e),
             min=float(e.min()),
             rmse=float(np.sqrt(sse / len(e))),
             sse=sse,
@@ -82,6 +81,14 @@ class Errors(NamedTuple):
     def table(self) -> str:
         """The statistics as evo prints them: name and value a line, separated by a tab."""
         return "".join(f"{k:>10}\t{v:.6f}\n" for k, v in self.statistics._asdict().items())
+
+
+def _median(values: NDArray[np.float64]) -> float:
+    # One place alone is partitioned with SIMD: a sixth of the time of `numpy.median`.
+    middle = len(values) // 2
+    parted = np.partition(values, middle)
+    upper = float(parted[middle])
+    return upper if len(values) % 2 else (float(parted[:middle].max()) + upper) / 2
 
 
 def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part") -> Errors:
@@ -98,7 +105,7 @@ def ape(reference: Trajectory, estimate: Trajectory, relation: str = "trans_part
     """
     _check(reference, estimate, relation, tuple(RELATIONS)[:-1])
     rows = np.arange(len(reference))
-    distance = quaternions.lengths(estimate.positions - reference.positions)
+    distance = quaternions.distances(reference.positions, estimate.positions)
     if relation in ("trans_part", "point_distance"):
         return Errors("APE", relation, distance, rows)
     turn = quaternions.multiply(quaternions.conjugate(reference.rotations), estimate.rotations)
