@@ -14,7 +14,8 @@ BLOCKS = 11
 
 
 def commands(text):
-    """The lines of a shell block; a here-document is one."""
+    """The lines of a shell block; a here-document is one, and so is a line that is continued."""
+    text = text.replace("\\\n", "")
     found = re.findall(r"^(?:cat .*?^END$|.+?)(?:\n|\Z)", text, re.MULTILINE | re.DOTALL)
     return [line.rstrip("\n") for line in found]
 
