@@ -85,7 +85,7 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         self._add_marker(name, docstring.splitlines()[0])
         share = source / "share"
         for path in share.rglob("*") if share.is_dir() else ():
-            if path.is_file():
+            if path.is_file() and path.suffix != ".pyc":
                 self._write(
                     f"share/{name}/{path.relative_to(share).as_posix()}",
                     path.read_text(encoding="utf-8"),
