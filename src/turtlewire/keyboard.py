@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
+import errno
 import os
 import select
 import signal
@@ -75,14 +75,20 @@ class Keyboard:
     def _set(self, mode: list[Any]) -> None:
         import termios
 
-        # The terminal may be gone. In the background the attempt stops the process (SIGTTOU); the
-        # next SIGCONT interrupts it, and its handler tries again.
-        with contextlib.suppress(termios.error):
+        try:
             termios.tcsetattr(self._fd, termios.TCSANOW, mode)
+        except termios.error as error:
+            # In the background the attempt stops the process (SIGTTOU), and SIGCONT interrupts it.
+            # Other errors mean that the terminal is gone.
+            if error.args[0] == errno.EINTR:
+                self._set(mode)
 
     def _suspend(self, *_: object) -> None:
         self._give_back()
-        os.kill(os.getpid(), signal.SIGSTOP)
+        signal.raise_signal(signal.SIGSTOP)
+        # The kernel may hand SIGCONT to another thread. This one would then wait for a key again
+        # before the signal's handler can run here.
+        self._take()
 
     def read(self) -> bytes:
         """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
