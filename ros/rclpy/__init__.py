@@ -61,7 +61,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import excepthooks as _excepthooks  # noqa: F401 -- first: an early Ctrl-C, too, ends without a traceback
+# First: an early Ctrl-C, too, ends without a traceback.
+from . import excepthooks as _excepthooks  # noqa: F401
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
 from .utilities import get_default_context, ok, try_shutdown
 from .utilities import shutdown as _shutdown

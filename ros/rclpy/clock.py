@@ -171,7 +171,8 @@ class Clock:
     _jump_handles: list[JumpHandle]
     _lock: threading.Lock
 
-    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034 - it may make a subclass
+    # It may make a subclass.
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:  # noqa: PYI034
         """Choose the class by the clock type."""
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")

@@ -173,7 +173,8 @@ class Context:
         if self._wire is not None:
             self._wire.close()
 
-    def on_signal(self, signum: int) -> None:  # noqa: ARG002 - all handled signals mean the same here
+    # All handled signals mean the same here.
+    def on_signal(self, signum: int) -> None:  # noqa: ARG002
         """Shut down because of a signal; the middleware stays open for the program's last words."""
         with self._lock:
             if not self._valid:

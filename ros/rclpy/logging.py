@@ -61,7 +61,8 @@ def clear_config() -> None:
     initialize()
 
 
-def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:  # noqa: ARG001 - nothing can fail here
+# Nothing can fail here.
+def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:  # noqa: ARG001
     """Set the level of a logger; an empty name means the default, ``UNSET`` inherits.
 
     Raises:

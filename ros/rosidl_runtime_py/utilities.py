@@ -88,5 +88,6 @@ def _get(identifier: str, kind: str, base: type, word: str) -> Any:
     full_name = identifier.replace("/", f"/{kind}/") if identifier.count("/") == 1 else identifier
     interface = get_interface(full_name)
     if not (isinstance(interface, type) and issubclass(interface, base)):
-        raise ValueError(f"Expected the full name of a {word}, got '{identifier}'")  # noqa: TRY004 - ROS 2's class
+        # ROS 2's class.
+        raise ValueError(f"Expected the full name of a {word}, got '{identifier}'")  # noqa: TRY004
     return interface

@@ -48,7 +48,8 @@ def unit_vector(
 
 def random_vector(size: int | tuple[int, ...]) -> Any:
     """Uniform random numbers in [0, 1), an array of shape ``size``."""
-    return np.random.random(size)  # noqa: NPY002 -- the caller's numpy.random.seed decides, as in the original
+    # The caller's numpy.random.seed decides, as in the original.
+    return np.random.random(size)  # noqa: NPY002
 
 
 def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64]:

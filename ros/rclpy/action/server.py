@@ -64,7 +64,8 @@ class _DeferredService(Service):
         return self.callback(header, request)
 
 
-def default_goal_callback(goal_request: Any) -> GoalResponse:  # noqa: ARG001 - the signature of a goal callback
+# The signature of a goal callback.
+def default_goal_callback(goal_request: Any) -> GoalResponse:  # noqa: ARG001
     """Accept."""
     return GoalResponse.ACCEPT
 
@@ -74,7 +75,8 @@ def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
     goal_handle.execute()
 
 
-def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001 - likewise
+# Likewise.
+def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:  # noqa: ARG001
     """Reject."""
     return CancelResponse.REJECT
 
@@ -276,7 +278,8 @@ class ActionServer(Waitable):
             result = await await_or_execute(execute_callback, goal_handle)
         except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
             result = self._action_type.Result()
-            self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400 - a ROS logger
+            # A ROS logger.
+            self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400
             import traceback
 
             traceback.print_exc()

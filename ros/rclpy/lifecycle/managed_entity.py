@@ -16,7 +16,8 @@ __all__ = ["ManagedEntity", "SimpleManagedEntity"]
 class ManagedEntity:
     """Told of the transitions of its node; each method gets the state before, and may refuse."""
 
-    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the signature of a callback
+    # The signature of a callback.
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """The node is to be configured."""
         return TransitionCallbackReturn.SUCCESS
 

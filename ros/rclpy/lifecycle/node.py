@@ -269,7 +269,8 @@ class LifecycleNodeMixin(ManagedEntity):
         response.success = self.__change_state(transition) is _SUCCESS
         return response
 
-    def __on_get_state(self, request: Any, response: Any) -> Any:  # noqa: ARG002 - the signature of a service callback
+    # The signature of a service callback.
+    def __on_get_state(self, request: Any, response: Any) -> Any:  # noqa: ARG002
         response.current_state = _state_message(self._state_machine.current_state)
         return response
 

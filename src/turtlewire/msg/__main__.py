@@ -39,7 +39,8 @@ def main(argv: list[str] | None = None) -> int:
     try:
         folder = generate_package(options.directory, options.output, options.package)
     except InterfaceError as error:
-        print(error, error.hint, sep="\n" if error.hint else "", file=sys.stderr)  # noqa: T201 - a command line prints
+        # A command line prints.
+        print(error, error.hint, sep="\n" if error.hint else "", file=sys.stderr)  # noqa: T201
         return 1
     except OSError as error:
         print(error, file=sys.stderr)  # noqa: T201 - as above

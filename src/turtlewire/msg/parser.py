@@ -249,7 +249,8 @@ def _parse_value(type_: AbstractType, text: str) -> Any:
             raise ValueError(f"'{value}' is longer than {type_}")
         return value
     if not isinstance(type_, BasicType):
-        raise ValueError(f"{type_} cannot have a value")  # noqa: TRY004 - ValueError becomes the InterfaceError with the line
+        # ValueError becomes the InterfaceError with the line.
+        raise ValueError(f"{type_} cannot have a value")  # noqa: TRY004
     return _parse_basic_value(type_.typename, text)
 
 

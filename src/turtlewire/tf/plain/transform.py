@@ -100,7 +100,8 @@ class Transform:
     def __eq__(self, other: object) -> bool:
         return self._fields() == other._fields() if isinstance(other, Transform) else NotImplemented
 
-    __hash__ = None  # type: ignore[assignment] # poses are compared by value, but floats make poor keys
+    # Poses are compared by value, but floats make poor keys.
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return (

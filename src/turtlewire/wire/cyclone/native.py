@@ -17,7 +17,8 @@ __all__ = ["NATIVE"]
 
 
 def _address(function: Callable[..., object]) -> int:
-    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type] # a function of ctypes
+    # A function of ctypes.
+    address = ctypes.cast(function, ctypes.c_void_p).value  # type: ignore[arg-type]
     assert address is not None
     return address
 
