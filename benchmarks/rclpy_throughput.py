@@ -177,8 +177,7 @@ def flood(message: Any, type_: Any, count: int, quality: Any) -> None:
 
     node = make_node("sender")
     publisher = node.create_publisher(type_, "flood", quality)
-    while publisher.get_subscription_count() == 0:
-        time.sleep(0.01)
+    node.context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, None)
     for _ in range(count // 10):
         publisher.publish(message)
     cpu, begin = time.process_time(), time.perf_counter()

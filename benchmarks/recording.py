@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from rosbag2_transport.player import Player
     from turtlewire.bag import BagMessage
-    from turtlewire.wire.base import Publisher
+    from turtlewire.wire.base import Graph, Publisher
 
 SECOND = 1_000_000_000
 START = 1_700_000_000 * SECOND
@@ -47,17 +47,18 @@ RATES = (1.0, 10.0, 0.1)
 
 
 @contextmanager
-def publishers() -> Iterator[dict[str, Publisher]]:
-    """A node that publishes strings on each topic of `STREAMS`."""
+def publishers() -> Iterator[tuple[dict[str, Publisher], Graph]]:
+    """A node that publishes strings on each topic of `STREAMS`, and the graph around it."""
     from turtlewire.msg import type_hash
 
     context = open_context()
     node = context.create_node("load")
     type_id = TypeId(STRING, type_hash(STRING))
     try:
-        yield {
+        writers = {
             topic: node.create_publisher(topic, type_id, QoS(depth=1000)) for topic, *_ in STREAMS
         }
+        yield writers, context.graph
     finally:
         context.close()
 
@@ -82,12 +83,15 @@ def send(writers: dict[str, Publisher], seconds: float) -> dict[str, int]:
 
 def load(minutes: float) -> int:
     """Record for some minutes; returns how many messages are missing in the bag."""
-    with tempfile.TemporaryDirectory() as folder, isolated_domain(), publishers() as writers:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        isolated_domain(),
+        publishers() as (writers, graph),
+    ):
         ros2 = Path(sys.executable).parent / "ros2"
         words = ("record", "-a", "-o", "bag", "--disable-keyboard-controls")
         recorder = subprocess.Popen([ros2, "bag", *words], cwd=folder)
-        while not all(writer.subscription_count() for writer in writers.values()):
-            time.sleep(0.05)
+        graph.wait_for(lambda: all(writer.subscription_count() for writer in writers.values()))
         sent = send(writers, minutes * 60)
         for writer in writers.values():
             writer.wait_for_acknowledgments(60 * SECOND)

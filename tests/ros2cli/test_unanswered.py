@@ -13,9 +13,12 @@ import threading
 import rclpy
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionServer
+from std_msgs.msg import Empty as Nothing
 from std_srvs.srv import Empty
 rclpy.init()
 node = rclpy.create_node("sleeper")
+node.create_subscription(Nothing, "/heard", print, 1)
+said = node.create_publisher(Nothing, "/said", 1)
 def sleep(*_):
     print("called", flush=True)
     threading.Event().wait()
@@ -64,14 +67,29 @@ def test_a_killed_server_ends_the_wait(run):
         ("action send_goal /qqqq example_interfaces/action/Fibonacci {}", "Known actions: /count"),
         ("action send_goal /count turtlesim/action/RotateAbsolute {}",
             "The action '/count' has the type .*/Fibonacci, not turtlesim/.*"),
-        ("topic echo /rosout std_msgs/msg/String",
-            "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
+        ("topic echo /heard std_msgs/msg/String",
+            "The topic '/heard' has the type std_msgs/msg/Empty, not std_msgs/msg/String"),
         ("topic pub /rosout std_msgs/msg/String",
             "The topic '/rosout' has the type rcl_interfaces/msg/Log, not std_msgs/msg/String"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_at_once(run, server, words, told):
     ros2(run, *words.split()).wait_for(f"^{told}$")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("topic echo /said std_msgs/msg/String",
+            "topic /said has the type std_msgs/msg/Empty, but this process subscribes to"),
+        ("topic pub /heard std_msgs/msg/String",
+            "topic /heard has the type std_msgs/msg/Empty, but this process publishes"),
+    ],
+)  # fmt: skip
+def test_messages_that_do_not_get_through_are_told_once(run, server, words, told):
+    verb = ros2(run, *words.split())
+    verb.wait_for(f": {told} std_msgs/msg/String: no messages get through")
+    assert verb.text.count("has the type") == 1
 
 
 def test_a_rejected_goal_is_told_and_no_error_of_the_command(run):

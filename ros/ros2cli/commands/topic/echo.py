@@ -91,7 +91,9 @@ def main(args: argparse.Namespace) -> str | None:
         )
         if kind is None:
             raise RuntimeError("Could not determine the type for the passed topic")
-        warn_of_other_type("topic", topic, type_name(kind), direct.graph.topic_names_and_types())
+        if not direct.node.count_publishers(topic):  # of publishers the subscription will warn
+            known = direct.graph.topic_names_and_types()
+            warn_of_other_type("topic", topic, type_name(kind), known)
         _check_field(kind, args.field)
         qos = (
             with_options(args, "sensor_data")

@@ -97,8 +97,9 @@ def main(args: argparse.Namespace) -> str | None:
     times = 1 if args.once else args.times
     with DirectNode(args, name=args.node_name, lingers=True) as direct:
         topic = direct.node.resolve_topic_name(args.topic_name)
-        known = direct.graph.topic_names_and_types()
-        warn_of_other_type("topic", topic, type_name(type(message)), known)
+        if not direct.node.count_subscribers(topic):  # of subscriptions the publisher will warn
+            known = direct.graph.topic_names_and_types()
+            warn_of_other_type("topic", topic, type_name(type(message)), known)
         publisher = direct.node.create_publisher(
             type(message), args.topic_name, with_options(args, "default")
         )
