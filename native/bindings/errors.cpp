@@ -16,9 +16,7 @@ enum Class : std::size_t {
   lookup,
   connectivity,
   transform,
-  forward,
-  backward,
-  no_data,
+  extrapolation,
   kClasses
 };
 constexpr std::array<const char*, kClasses> kNames{"CdrError",
@@ -26,9 +24,7 @@ constexpr std::array<const char*, kClasses> kNames{"CdrError",
                                                    "LookupException",
                                                    "ConnectivityException",
                                                    "TransformException",
-                                                   "ForwardExtrapolationException",
-                                                   "BackwardExtrapolationException",
-                                                   "NoDataForExtrapolationException"};
+                                                   "ExtrapolationException"};
 std::array<PyObject*, kClasses> classes;  // those of turtlewire.errors
 
 // The attributes of the exceptions, by the names that turtlewire.errors documents.
@@ -45,11 +41,13 @@ enum Field : std::size_t {
   oldest_ns,
   newest_ns,
   has_data,
+  reason,
   kFields
 };
 constexpr std::array<const char*, kFields> kFieldNames{
     "frame",        "_buffer",     "target_frame", "source_frame", "target_root", "source_root",
-    "parent_frame", "child_frame", "requested_ns", "oldest_ns",    "newest_ns",   "_has_data"};
+    "parent_frame", "child_frame", "requested_ns", "oldest_ns",    "newest_ns",   "_has_data",
+    "reason"};
 std::array<PyObject*, kFields> field_names;
 
 PyObject* text_of(const std::string& text) {
@@ -67,12 +65,19 @@ Class class_of(Status status, Question question) {
       return question == Question::latest_common_time ? transform : lookup;
     case Status::not_connected:
       return question == Question::latest_common_time ? transform : connectivity;
-    case Status::future:
-      return forward;
-    case Status::past:
-      return backward;
     default:
-      return no_data;
+      return extrapolation;
+  }
+}
+
+const char* reason_of(Status status) {
+  switch (status) {
+    case Status::future:
+      return "future";
+    case Status::past:
+      return "past";
+    default:
+      return "no data";
   }
 }
 
@@ -107,7 +112,8 @@ bool describe(PyObject* error, const Failure& f, Question question, PyObject* bu
              set(error, parent_frame, f.link_parent) && set(error, child_frame, f.link_child) &&
              set(error, requested_ns, f.requested) && set(error, oldest_ns, f.oldest) &&
              set(error, newest_ns, f.newest) &&
-             set(error, has_data, f.emptied ? Py_False : Py_True);
+             set(error, has_data, f.emptied ? Py_False : Py_True) &&
+             set_new(error, reason, PyUnicode_InternFromString(reason_of(f.status)));
     default:
       return true;
   }

@@ -9,11 +9,7 @@ from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
 from tf2_py.times import to_nanoseconds
-from turtlewire.errors import (
-    BackwardExtrapolationException,
-    InvalidArgumentException,
-    NoDataForExtrapolationException,
-)
+from turtlewire.errors import ExtrapolationException, InvalidArgumentException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .transform_futures import TransformFutures
@@ -262,9 +258,9 @@ class _Question(NamedTuple):
         if isinstance(error, InvalidArgumentException):
             return True
         keep_ns = self.engine.cache_time_ns
-        if keep_ns is None or not isinstance(
-            error, (BackwardExtrapolationException, NoDataForExtrapolationException)
-        ):
+        if not isinstance(error, ExtrapolationException):
+            return False
+        if keep_ns is None or error.reason == "future":
             return False
         latest = any(
             leg.stamp_ns == 0

@@ -11,9 +11,6 @@
         ├── ConnectivityException     the two frames are not in one tree
         ├── LookupException           a frame does not exist
         ├── ExtrapolationException    the time asked for is outside of the data of a link
-        │   ├── BackwardExtrapolationException   it is older than the oldest
-        │   ├── ForwardExtrapolationException    it is newer than the newest
-        │   └── NoDataForExtrapolationException  the link has no data, or one sample of another time
         ├── InvalidArgumentException  an empty frame id, or one that starts with '/'
         └── TimeoutException          a remote buffer did not answer in time
 
@@ -24,19 +21,16 @@ Python 3.11 and later.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 __all__ = [
-    "BackwardExtrapolationException",
     "BagError",
     "CdrError",
     "ConnectivityException",
     "ExtrapolationException",
-    "ForwardExtrapolationException",
     "InterfaceError",
     "InvalidArgumentException",
     "LookupException",
-    "NoDataForExtrapolationException",
     "TimeoutException",
     "TransformException",
     "TurtlewireError",
@@ -183,7 +177,13 @@ class LookupException(TransformException):
 class ExtrapolationException(TransformException):
     """The requested time lies outside of the data of at least one link on the way.
 
+    As in ROS 2's Python, one class for the future, the past and a lack of data; ``reason`` tells
+    which it is.
+
     Attributes:
+        reason: ``"future"``, the time is newer than the newest data of the link; ``"past"``, older
+            than the oldest; ``"no data"``, the link has none, or one sample of another time.
+            Empty if unknown.
         target_frame: The frame in which the answer was to be expressed; empty if unknown, as is the
             next.
         source_frame: The frame whose pose was asked for. (These two are a part of the way in a
@@ -195,6 +195,7 @@ class ExtrapolationException(TransformException):
         newest_ns: The time of the newest data of the link; 0 without data.
     """
 
+    reason: Literal["future", "past", "no data", ""] = ""
     target_frame: str = ""
     source_frame: str = ""
     parent_frame: str = ""
@@ -205,42 +206,25 @@ class ExtrapolationException(TransformException):
     _has_data: bool = True
 
     def _make_hint(self) -> str:
-        return self._describe() if self.child_frame else ""
+        if not self.child_frame:
+            return ""
+        link = f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
+        if self.reason == "future":
+            gap = (self.requested_ns - self.newest_ns) / 1e9
+            return (
+                f"The newest data of {link} is {gap:.6g} s older than the time asked for. "
+                "Give the lookup a timeout to wait for it, or ask for time 0, the latest."
+            )
+        if self.reason == "past":
+            gap = (self.oldest_ns - self.requested_ns) / 1e9
+            kept = (self.newest_ns - self.oldest_ns) / 1e9
+            return (
+                f"The oldest data of {link} is {gap:.6g} s younger than the time asked for; "
+                f"{kept:.6g} s of it are kept."
+            )
+        return self._lack_of_data(link)
 
-    def _describe(self) -> str:
-        return ""
-
-    def _link(self) -> str:
-        return f"the transform from '{self.child_frame}' to '{self.parent_frame}'"
-
-
-class BackwardExtrapolationException(ExtrapolationException):
-    """The requested time is older than the oldest data of a link."""
-
-    def _describe(self) -> str:
-        gap = (self.oldest_ns - self.requested_ns) / 1e9
-        kept = (self.newest_ns - self.oldest_ns) / 1e9
-        return (
-            f"The oldest data of {self._link()} is {gap:.6g} s younger than the time asked for; "
-            f"{kept:.6g} s of it are kept."
-        )
-
-
-class ForwardExtrapolationException(ExtrapolationException):
-    """The requested time is newer than the newest data of a link."""
-
-    def _describe(self) -> str:
-        gap = (self.requested_ns - self.newest_ns) / 1e9
-        return (
-            f"The newest data of {self._link()} is {gap:.6g} s older than the time asked for. "
-            "Give the lookup a timeout to wait for it, or ask for time 0, the latest."
-        )
-
-
-class NoDataForExtrapolationException(ExtrapolationException):
-    """A link has no data at all, or a single sample of another time."""
-
-    def _describe(self) -> str:
+    def _lack_of_data(self, link: str) -> str:
         if not self._has_data:
             return (
                 f"Nothing is known of the transform of '{self.child_frame}' since the buffer was "
@@ -249,8 +233,8 @@ class NoDataForExtrapolationException(ExtrapolationException):
         gap = (self.requested_ns - self.newest_ns) / 1e9
         side = "older" if gap > 0 else "younger"
         return (
-            f"There is one sample of {self._link()}, {abs(gap):.6g} s {side} than the time asked "
-            "for; two are needed around it."
+            f"There is one sample of {link}, {abs(gap):.6g} s {side} than the time asked for; two "
+            "are needed around it."
         )
 
 

@@ -56,6 +56,7 @@ def test_attributes(buffer: turtlewire.Buffer) -> None:
     assert (
         attributes(early).items()
         >= {
+            "reason": "past",
             "target_frame": "map",
             "source_frame": "turtle1",
             "parent_frame": "map",
@@ -65,8 +66,12 @@ def test_attributes(buffer: turtlewire.Buffer) -> None:
             "newest_ns": 2 * SECOND,
         }.items()
     )
-    assert attributes(late)["requested_ns"] == 3 * SECOND
-    assert attributes(lonely)["parent_frame"] == "island"
+    assert (attributes(late)["reason"], attributes(late)["requested_ns"]) == ("future", 3 * SECOND)
+    assert (attributes(lonely)["reason"], attributes(lonely)["parent_frame"]) == (
+        "no data",
+        "island",
+    )
+    assert {type(error) for error in (early, late, lonely)} == {errors.ExtrapolationException}
 
 
 def test_copies_keep_the_hint_and_the_attributes(buffer: turtlewire.Buffer) -> None:
@@ -80,5 +85,5 @@ def test_copies_keep_the_hint_and_the_attributes(buffer: turtlewire.Buffer) -> N
 
 
 def test_an_error_that_no_buffer_raised_has_empty_attributes() -> None:
-    error = errors.ForwardExtrapolationException("late")
-    assert (error.target_frame, error.requested_ns, error.hint) == ("", 0, "")
+    error = errors.ExtrapolationException("late")
+    assert (error.reason, error.target_frame, error.requested_ns, error.hint) == ("", "", 0, "")

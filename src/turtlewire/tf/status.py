@@ -22,8 +22,8 @@ class LookupStatus(IntEnum):
     LOOP = 5
     """The tree has a loop: LookupException."""
     NO_DATA = 6
-    """A link has no data, or a single sample of another time: NoDataForExtrapolationException."""
+    """A link has no data, or a single sample of another time: ExtrapolationException."""
     FUTURE = 7
-    """The time is newer than the newest data of a link: ForwardExtrapolationException."""
+    """The time is newer than the newest data of a link: ExtrapolationException."""
     PAST = 8
-    """The time is older than the oldest data of a link: BackwardExtrapolationException."""
+    """The time is older than the oldest data of a link: ExtrapolationException."""

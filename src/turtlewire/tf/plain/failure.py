@@ -53,9 +53,16 @@ ERRORS: dict[LookupStatus, type[errors.TransformException]] = {
     LookupStatus.UNKNOWN_FRAME: errors.LookupException,
     LookupStatus.NOT_CONNECTED: errors.ConnectivityException,
     LookupStatus.LOOP: errors.LookupException,
-    LookupStatus.NO_DATA: errors.NoDataForExtrapolationException,
-    LookupStatus.FUTURE: errors.ForwardExtrapolationException,
-    LookupStatus.PAST: errors.BackwardExtrapolationException,
+    LookupStatus.NO_DATA: errors.ExtrapolationException,
+    LookupStatus.FUTURE: errors.ExtrapolationException,
+    LookupStatus.PAST: errors.ExtrapolationException,
+}
+
+#: `ExtrapolationException.reason`.
+_REASONS = {
+    LookupStatus.NO_DATA: "no data",
+    LookupStatus.FUTURE: "future",
+    LookupStatus.PAST: "past",
 }
 
 
@@ -126,6 +133,7 @@ def time_failure(
         f"{text}, when looking up transform from frame [{source}] to frame [{target}]",
         status,
         {
+            "reason": _REASONS[status],
             "target_frame": target,
             "source_frame": source,
             "parent_frame": link.parent,
