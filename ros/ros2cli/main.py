@@ -120,11 +120,10 @@ def _add_choices(
 ) -> None:
     """Add commands or verbs, and load the one on the command line."""
     title = "Verbs" if " " in prog else "Commands"
-    what = "<command>" if prog == "ros2" else "<verb>"
     chosen = next((word for word in words if not word.startswith("-")), None)
     group = parser.add_subparsers(
         title=title,
-        metavar=f"Call `{prog} {what} -h` for more detailed usage.",
+        metavar=f"Call `{prog} <command> -h` for more detailed usage.",
         parser_class=_parser_class(choices, chosen),
     )
     for name, summary in choices.items():

@@ -36,7 +36,7 @@ def errors(capsys, *words):
             ("ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: "
             "invalid choice: 'lauch'"), "launch"),
         ("topic eco",
-            ("ros2 topic: error: argument Call `ros2 topic <verb> -h` for more detailed "
+            ("ros2 topic: error: argument Call `ros2 topic <command> -h` for more detailed "
             "usage.: invalid choice: 'eco'"), "echo"),
         ("topic list --includ-hidden",
             ("ros2 topic list: error: unrecognized arguments: "

@@ -18,14 +18,9 @@ COMMANDS = json.loads((GOLDEN / "commands.json").read_text())
 EXPECTED = {
     row["command"]: row for row in json.loads((GOLDEN / "commands.expected.json").read_text())
 }
-
-#: The parser of the verb speaks, not that of `ros2`; see docs/compatibility.md.
-OTHER_PARSER = {
-    "ros2 bag record -s rocket --topics /a",
-    "ros2 bag burst p_small -n 3 --disable-keyboard-controls",
-    "ros2 bag nonsense",
-}
-#: A topic that is not in the bag is mentioned.
+#: What differs on purpose, and why; see docs/compatibility.md.
+DEVIATIONS = json.loads((GOLDEN / "deviations.json").read_text())
+ALL_DEVIATIONS = {name for reasons in DEVIATIONS.values() for name in reasons}
 WARNS = "ros2 bag play p_small --topics /unknown --disable-keyboard-controls"
 
 
@@ -79,15 +74,25 @@ def test_a_command(case, tmp_path):
     made = "convert" in command or "reindex" in command
     assert process.returncode == expected["exit"], err + rest
     assert lines_of(out, tmp_path, made) == lines_of(expected["stdout"], tmp_path, made)
+    said, told = lines_of(err + rest, tmp_path, made), lines_of(expected["stderr"], "$WS", made)
+    assert (said != told) == (f"{command} stderr" in ALL_DEVIATIONS)
     if command == WARNS:
         assert "The bag has no topic '/unknown'. Its topics are /a, /b, /latched" in err + rest
-    elif command in OTHER_PARSER:
+    elif said != told:
         assert ": error: " in err + rest
-    else:
-        assert lines_of(err + rest, tmp_path, made) == lines_of(expected["stderr"], "$WS", made)
     files = sorted(str(f.relative_to(tmp_path)) for f in tmp_path.rglob("*") if f.is_file())
     assert files == expected["files"]
 
 
 def test_all_are_here():
     assert len(COMMANDS) == len(EXPECTED) == 24
+
+
+def test_at_least_97_percent_of_the_texts_are_equal():
+    """Of each command exit code, two streams and files; of three bags three texts of three parts.
+
+    Faults of the real one that are mended here do not count.
+    """
+    named = {name.removesuffix(" stderr") for name in ALL_DEVIATIONS if name.startswith("ros2 ")}
+    assert named <= EXPECTED.keys()
+    assert len(DEVIATIONS["chosen"]) <= 0.03 * (4 * len(COMMANDS) + 3 * 3 * 3)
