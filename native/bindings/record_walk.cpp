@@ -56,7 +56,7 @@ nb::list jumps(const RecordWalk& self) {
 nb::dict steps_back(const RecordWalk& self) {
   nb::dict steps;
   for (const auto& [child, clock] : self.clocks()) {
-    if (clock.back > 0) steps[text(child)] = clock.back;
+    if (clock.back > 0) steps[text(child)] = nb::make_tuple(clock.steps_back, clock.back);
   }
   return steps;
 }
@@ -88,8 +88,8 @@ void add_record_walk_type(nb::module_& module) {
                    "Where stamps fall back by more than a second: log time, the child frame of the "
                    "message's first transform, and by how much, in nanoseconds.")
       .def_prop_ro("steps_back", &steps_back,
-                   "The largest step back of the stamps of such a frame, in nanoseconds, if there "
-                   "is one.");
+                   "How many stamps of such a frame lie before its newest, and the largest step "
+                   "back in nanoseconds, if there is one.");
 }
 
 }  // namespace turtlewire::python

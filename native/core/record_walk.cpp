@@ -95,11 +95,12 @@ void RecordWalk::take(Tree& tree, const Record& record, const TfChannel& channel
 void RecordWalk::note_stamp(std::uint64_t log_time, const ReceivedTransform& first) {
   auto known = clocks_.find(first.child);
   if (known == clocks_.end()) {
-    clocks_.emplace(first.child, Clock{first.stamp, 0});
+    clocks_.emplace(first.child, Clock{first.stamp, 0, 0});
     return;
   }
   Clock& clock = known->second;
   const Stamp back = clock.newest - first.stamp;
+  if (back > 0) ++clock.steps_back;
   clock.back = std::max(clock.back, back);
   if (back > kJump) {
     jumps_.push_back({log_time, std::string(first.child), back});

@@ -46,9 +46,11 @@ class RecordWalk {
   std::uint64_t messages() const { return messages_; }
   const std::vector<JumpBack>& jumps() const { return jumps_; }
 
-  // The newest stamp of a frame since its last jump, and the largest step back from it.
+  // The newest stamp of a frame since its last jump, how many stamps lie before it, and how far the
+  // largest step back goes.
   struct Clock {
     Stamp newest, back;
+    std::uint64_t steps_back;
   };
   // Of each frame that was the first of a message.
   const auto& clocks() const { return clocks_; }

@@ -71,6 +71,7 @@ def outcome(core, records, window=(0, FOREVER)):
         damage,
         walk.messages,
         walk.jumps,
+        walk.steps_back,
         history,
         described,
         refusals(buffer),

@@ -41,17 +41,18 @@ def test_a_window_has_the_static_transforms_from_before_it(tmp_path):
     buffer.lookup_transform("odom", "camera", start + 100_000_000)
 
 
-def test_one_file_of_a_split_bag_says_where_the_static_transforms_are(tmp_path):
+def test_one_file_of_a_split_bag_says_where_the_rest_is(tmp_path):
     path = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
     first, *_, last = sorted(path.glob("*.mcap"), key=lambda file: int(file.stem.split("_")[1]))
     buffer, report = load_transforms(last)
     assert "camera" not in buffer
-    (problem,) = report.problems
-    assert "has no static transforms" in problem
-    assert f"open {path} to have them all" in problem
-    assert load_transforms(first)[1].problems == []
+    assert (report.part_of, report.problems) == (str(path), [])
+    assert f"open {path} for all of it, static transforms too" in report.complaints()[0]
+    assert load_transforms(first)[1].part_of == str(path)
+    assert load_transforms(path)[1].part_of == ""
+    assert load_transforms(write_bag(tmp_path / "one") / "one_0.mcap")[1].part_of == ""
     (path / "metadata.yaml").write_text("[")
-    assert load_transforms(last)[1].problems == []
+    assert load_transforms(last)[1].part_of == ""
 
 
 def test_other_topic_names(tmp_path):
@@ -83,6 +84,87 @@ def test_gaps_jumps_two_parents_and_nonsense_are_reported(tmp_path):
     assert [conflict.kind for conflict in report.conflicts] == ["two parents"]
     assert report.malformed is not None
     assert report.malformed.messages == 1
+
+
+def test_a_frame_that_changes_its_parent_once_is_reported(tmp_path):
+    """It is no conflict, as when a gripper takes a part; but lookups across it differ."""
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for i in range(20):
+            parent = "table" if i < 10 else "gripper"
+            writer.write("/tf", transform(i, parent, "part"), i)
+            writer.write("/tf", transform(i, "map", "gripper"), i)
+    _, report = load_transforms(tmp_path / "made")
+    assert report.conflicts == []
+    assert report.new_parents == [("part", "table", "gripper", START + 100_000_000)]
+    assert report.two_parents == ["part"]
+    assert (
+        "new parent: 'part' leaves 'table' for 'gripper' at 1700000000.100000000"
+        in report.complaints()
+    )
+
+
+def test_small_steps_back_are_counted(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for log_time, i in enumerate([0, 1, 2, 1, 3, 4, 2, 5]):
+            writer.write("/tf", transform(i), log_time)
+    _, report = load_transforms(tmp_path / "made")
+    assert report.steps_back == {"base_link": (2, 20_000_000)}
+    assert report.complaints() == [
+        "out of order: the stamps of 'base_link' step back 2 times, by up to 20 ms"
+    ]
+
+
+def test_jumps_are_not_told_twice(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for log_time, i in enumerate([*range(300), *range(300)]):
+            writer.write("/tf", transform(i), log_time)
+    (line,) = load_transforms(tmp_path / "made")[1].complaints()
+    assert line.startswith("jump of time: ")
+
+
+@pytest.mark.parametrize("names", [{"topics": ["/tf", "/robto/tf"]}, {"static_topics": "/nothing"}])
+def test_an_unknown_topic_beside_known_ones(tmp_path, names):
+    path = write_bag(tmp_path / "made")
+    with BagWriter(tmp_path / "moving") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        writer.write("/tf", transform(0), 1)
+    wrong = "/nothing" if "static_topics" in names else "/robto/tf"
+    with pytest.raises(BagError, match=f"made has no topic {wrong}") as error:
+        load_transforms(path, **names)
+    assert error.value.hint == "Topics of type tf2_msgs/msg/TFMessage in it: /tf_static, /tf."
+    # The names that stand there by default need not be in the bag.
+    assert load_transforms(tmp_path / "moving")[1].messages == 1
+    assert load_transforms(tmp_path / "moving", topics=["/tf"])[1].messages == 1
+
+
+def test_a_window_that_ends_before_it_begins(tmp_path):
+    import turtlewire
+    from turtlewire.bag import load_trajectory, open_bag
+
+    path = write_bag(tmp_path / "made")
+    reason = "ends before it begins: start_ns=5, end_ns=4"
+    with pytest.raises(ValueError, match=reason):
+        turtlewire.Buffer.from_bag(path, start_ns=5, end_ns=4)
+    with open_bag(path) as bag, pytest.raises(ValueError, match=reason):
+        next(bag.messages(start_ns=5, end_ns=4))
+    with pytest.raises(ValueError, match=reason):
+        load_trajectory(path, "/tf", start_ns=5, end_ns=4)
+
+
+def test_a_pickled_buffer_keeps_its_report(tmp_path):
+    import copy
+    import pickle
+
+    import turtlewire
+
+    buffer = turtlewire.Buffer.from_bag(write_bag(tmp_path / "made"))
+    for again in (pickle.loads(pickle.dumps(buffer)), copy.copy(buffer), copy.deepcopy(buffer)):
+        assert repr(again.bag_report) == repr(buffer.bag_report)
+        assert again.bag_report.links == buffer.bag_report.links
+    assert pickle.loads(pickle.dumps(turtlewire.Buffer())).bag_report is None
 
 
 def test_progress_is_told(tmp_path):

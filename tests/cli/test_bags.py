@@ -37,7 +37,20 @@ def test_the_tree_of_a_bag(capsys):
     assert lines[0] == "d_mcap: 198 messages of /tf (1 publisher), /tf_static (2 publishers)"
     assert "│  │  ├─ basket                   static" in done.out
     assert any(line.startswith("   ├─ nozzle") and " 6.4 Hz       64 " in line for line in lines)
-    assert "gap: 'scarecrow' pauses for 3.328 s from 1795317833.768244304" in lines
+    for line in (
+        "new parent: 'pump' leaves 'nozzle' for 'ladder' at 1795317835.381932279",
+        "out of order: the stamps of 'boom_left' step back 3 times, by up to 214.481 ms",
+        "gap: 'scarecrow' pauses for 3.328 s from 1795317833.768244304",
+    ):
+        assert line in lines
+    found = json.loads(run(capsys, "bag", "tf", GOLDEN / "d_mcap", "--json").out)
+    (change,) = found["new_parents"]
+    assert (change["child_frame"], change["before"], change["after"]) == (
+        "pump",
+        "nozzle",
+        "ladder",
+    )
+    assert found["steps_back"]["boom_left"]["times"] == 3
 
 
 def test_the_tree_as_json(capsys, bag):
@@ -57,7 +70,13 @@ def test_other_topics(capsys, tmp_path):
     done = run(capsys, "bag", "tf", tmp_path / "made")
     assert done.status == 2
     assert "Topics of type tf2_msgs/msg/TFMessage in it: /r1/tf." in done.err
-    assert "base_link" in run(capsys, "bag", "tf", tmp_path / "made", "--topic", "/r1/tf").out
+    words = ("bag", "tf", tmp_path / "made", "--topic", "/r1/tf")
+    assert "base_link" in run(capsys, *words).out
+    done = run(capsys, *words, "--topic", "/r2/tf")
+    assert (done.status, done.out) == (2, "")
+    assert "made has no topic /r2/tf. Topics of type tf2_msgs/msg/TFMessage in it: /r1/tf." in (
+        done.err
+    )
 
 
 def test_a_trajectory_is_shown_written_and_drawn(capsys, bag, tmp_path):
@@ -162,6 +181,7 @@ def test_the_doctor_finds_on_a_bag_what_it_finds_live(capsys):
         "PROBLEM: The frames form 2 separate trees, with the roots elsewhere, world.",
         "PROBLEM: The stamps of 'boom_left' jump back, by up to 0.214 s.",
         "PROBLEM: Transforms of 'nozzle' are refused: 1 nan_value.",
+        "note: 'pump' leaves its parent 'nozzle' for 'ladder' at 1795317835.382 s.",
         "note: 'scarecrow' pauses once, for up to 3.328 s.",
         "note: The newest transform of 'weathercock' is 3.1 s old.",
         "note: The frame 'drone' leaps by up to 0.5 m between transforms.",
@@ -180,6 +200,17 @@ def test_the_doctor_finds_faults_of_the_bag(capsys, bag):
     done = run(capsys, "doctor", bag, "--json")
     assert done.status == 1
     assert "made_0.mcap" in json.loads(done.out)["findings"][0]["text"]
+
+
+def test_a_file_of_a_split_bag_is_a_part(capsys):
+    folder = GOLDEN / "real" / "g_mcap_split"
+    done = run(capsys, "doctor", folder / "g_mcap_split_2.mcap")
+    assert done.status == 0
+    assert f"note: g_mcap_split_2.mcap is one of several files of the bag {folder}." in done.out
+    assert f"turtlewire doctor {folder}\n" in done.out
+    assert "Copy the file again" not in done.out
+    done = run(capsys, "bag", "tf", folder / "g_mcap_split_2.mcap")
+    assert f"open {folder} for all of it" in done.out
 
 
 def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):

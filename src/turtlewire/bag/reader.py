@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from turtlewire.bag.message import BagMessage
 
-__all__ = ["Bag", "open_bag", "reindex"]
+__all__ = ["Bag", "open_bag", "reindex", "window"]
 
 _FOREVER = (1 << 64) - 1
 #: What a decompressed copy leaves free on its disk.
@@ -113,6 +113,18 @@ class Bag:
             self._scratch = None
 
     @property
+    def part_of(self) -> str:
+        """The folder of the bag, if this is one of its several files; else an empty text."""
+        if os.path.isdir(self.path):
+            return ""
+        folder, name = os.path.split(os.path.abspath(self.path))
+        try:
+            whole = read_metadata(folder)
+        except (BagError, OSError):  # of the folder, which this file does not need
+            return ""
+        return folder if whole and name in whole.paths and len(whole.paths) > 1 else ""
+
+    @property
     def topics(self) -> dict[str, TopicInfo]:
         """The topics by name."""
         return {topic.name: topic for topic in self.metadata.topics}
@@ -175,9 +187,9 @@ class Bag:
         Raises:
             BagError: A topic does not exist; or, after all messages that can be read, a part of the
                 bag is damaged.
+            ValueError: ``end_ns`` lies before ``start_ns``.
         """
-        start_ns = as_nanoseconds(start_ns, "start_ns")
-        end_ns = as_nanoseconds(end_ns, "end_ns")
+        start_ns, end_ns = window(start_ns, end_ns)
         wanted = self._wanted(_names(topics), _names(types))
         damage: list[BagError] = []
         for group in _overlapping(self.metadata):
@@ -248,6 +260,18 @@ class Bag:
         if not paths:
             raise BagError(f"{self.path} is no bag: it holds no .mcap or .db3 file")
         return _joined(paths, [self.file(path).summary() for path in paths])
+
+
+def window(start_ns: int, end_ns: int) -> tuple[int, int]:
+    """The two times of a window in nanoseconds; ``datetime64`` is taken, too.
+
+    Raises:
+        ValueError: It ends before it begins.
+    """
+    start, end = as_nanoseconds(start_ns, "start_ns"), as_nanoseconds(end_ns, "end_ns")
+    if end < start:
+        raise ValueError(f"the window ends before it begins: start_ns={start}, end_ns={end}")
+    return start, end
 
 
 def open_bag(path: str | os.PathLike[str]) -> Bag:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.bag.progress import progress_line
-from turtlewire.bag.reader import Bag
+from turtlewire.bag.reader import Bag, window
 from turtlewire.errors import BagError
 from turtlewire.suggestion import did_you_mean
 from turtlewire.trajectory import Trajectory, find_gaps
@@ -52,8 +52,9 @@ def load_trajectory(
     Raises:
         FileNotFoundError: There is nothing at ``path``.
         BagError: It is no bag, has no such topic, or one of another type.
-        ValueError: A quaternion is none.
+        ValueError: A quaternion is none, or the window ends before it begins.
     """
+    start_ns, end_ns = window(start_ns, end_ns)
     with Bag(path) as bag:
         kind = _type_of(bag, topic)
         count = bag.topics[topic].message_count or 1
@@ -90,11 +91,11 @@ def _rows(
     topic: str,
     place: str,
     has_child: bool,
-    window: tuple[int, int, int],
+    wanted: tuple[int, int, int],
     tell: Callable[[float], None],
 ) -> Iterator[tuple[int, str, str, tuple[float, ...]]]:
     """Stamp, frames and pose of each message."""
-    start_ns, end_ns, count = window
+    start_ns, end_ns, count = wanted
     for number, message in enumerate(bag.messages(topic, start_ns=start_ns, end_ns=end_ns)):
         decoded: Any = message.decode()
         pose: Any = decoded

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from turtlewire.tf.inspection import Conflict, LinkInfo, Malformed, Refused
     from turtlewire.trajectory import Gap
 
-__all__ = ["Jump", "TransformReport", "describe", "group_jumps"]
+__all__ = ["Jump", "NewParent", "StepsBack", "TransformReport", "describe", "group_jumps"]
 
 _MOST_SHOWN = 5
 
@@ -33,6 +34,34 @@ class Jump(NamedTuple):
     frames: tuple[str, ...]
 
 
+class StepsBack(NamedTuple):
+    """Stamps of a frame that lie before one that came earlier, jumps included.
+
+    Attributes:
+        times: How many.
+        largest_ns: How far the largest step goes.
+    """
+
+    times: int
+    largest_ns: int
+
+
+class NewParent(NamedTuple):
+    """A frame that leaves its parent for another one.
+
+    Attributes:
+        child_frame: The frame.
+        before: Its parent up to then.
+        after: Its parent from then on.
+        stamp_ns: The stamp of the first sample with the new parent.
+    """
+
+    child_frame: str
+    before: str
+    after: str
+    stamp_ns: int
+
+
 @dataclass(repr=False)
 class TransformReport:
     """What was found in a bag; printed, it is a table of links and a list of what looks wrong.
@@ -44,11 +73,13 @@ class TransformReport:
         links: Each link with its rate, times and senders (the topics).
         gaps: Pauses in the samples of links, by child frame.
         jumps: Where stamps fall back by more than a second.
-        steps_back: By child frame, the largest step back of its stamps, in nanoseconds.
-        conflicts: Frames with two parents, or on two topics.
+        steps_back: Stamps that step back, by child frame.
+        new_parents: Frames that change their parent once, as when a gripper takes a part.
+        conflicts: Frames that go back and forth between parents, or come on two topics.
         refused: Transforms that tf2 refuses, by child frame.
         malformed: Messages that are no ``TFMessage``.
         problems: Damaged or missing parts of the bag.
+        part_of: The folder of the bag, if one of its several files was opened alone.
     """
 
     name: str = ""
@@ -57,27 +88,42 @@ class TransformReport:
     links: list[LinkInfo] = field(default_factory=list)
     gaps: dict[str, list[Gap]] = field(default_factory=dict)
     jumps: list[Jump] = field(default_factory=list)
-    steps_back: dict[str, int] = field(default_factory=dict)
+    steps_back: dict[str, StepsBack] = field(default_factory=dict)
+    new_parents: list[NewParent] = field(default_factory=list)
     conflicts: list[Conflict] = field(default_factory=list)
     refused: dict[str, Refused] = field(default_factory=dict)
     malformed: Malformed | None = None
     problems: list[str] = field(default_factory=list)
+    part_of: str = ""
 
     @property
     def two_parents(self) -> list[str]:
-        """The frames that go back and forth between parents."""
-        return [each.child_frame for each in self.conflicts if each.kind == "two parents"]
+        """The frames with more than one parent, whether they change it once or often."""
+        often = [each.child_frame for each in self.conflicts if each.kind == "two parents"]
+        return often + [each.child_frame for each in self.new_parents]
 
     def complaints(self) -> list[str]:
         """What looks wrong, one line each."""
         lines = [f"problem: {text}" for text in self.problems]
+        if self.part_of:
+            lines.append(
+                f"part: {self.name} is one of several files of a bag; open {self.part_of} for all "
+                "of it, static transforms too"
+            )
         if self.malformed is not None and self.malformed.messages:
             lines.append(f"no TFMessage: {self.malformed.messages} messages: {self.malformed.last}")
         lines += [f"{each.kind}: {each.text}" for each in self.conflicts]
+        lines += [_parent_line(each) for each in self.new_parents]
         lines += [_jump_line(jump) for jump in self.jumps]
+        lines += [_steps_line(child, steps) for child, steps in self._steps_without_jumps()]
         lines += [_gap_line(child, gaps) for child, gaps in self.gaps.items()]
         lines += [_refused_line(child, refused) for child, refused in self.refused.items()]
         return [printable(line) for line in lines]
+
+    def _steps_without_jumps(self) -> list[tuple[str, StepsBack]]:
+        """The frames that step back otherwise than by their jumps."""
+        jumps = Counter(child for jump in self.jumps for child in jump.frames)
+        return [each for each in self.steps_back.items() if each[1].times > jumps[each[0]]]
 
     def headline(self) -> str:
         """What was read, in one line."""
@@ -92,9 +138,14 @@ def describe(buffer: Buffer, report: TransformReport) -> None:
     """Add to the report what the filled buffer tells."""
     report.links = links(buffer)
     report.conflicts = conflicts(buffer)
+    often = set(report.two_parents)
     report.refused = refusals(buffer)
     report.malformed = malformed(buffer)
     for link in report.links:
+        if link.parent_changes == 1 and link.child_frame not in often:
+            before, after = buffer.samples(link.child_frame)
+            change = NewParent(link.child_frame, before[0], after[0], int(after[1][0]))
+            report.new_parents.append(change)
         if link.static or link.samples < 3:
             continue
         if found := find_gaps(buffer.stamps(link.child_frame)):
@@ -151,6 +202,19 @@ def _jump_line(jump: Jump) -> str:
         f"jump of time: at {_seconds(jump.log_time_ns)} the stamps of {frames} fall back by "
         f"{jump.back_ns / 1e9:.3f} s"
     )
+
+
+def _parent_line(change: NewParent) -> str:
+    return (
+        f"new parent: '{change.child_frame}' leaves '{change.before}' for '{change.after}' at "
+        f"{_seconds(change.stamp_ns)}"
+    )
+
+
+def _steps_line(child: str, steps: StepsBack) -> str:
+    times = "once" if steps.times == 1 else f"{steps.times:,} times"
+    largest = steps.largest_ns / 1e6
+    return f"out of order: the stamps of '{child}' step back {times}, by up to {largest:.6g} ms"
 
 
 def _gap_line(child: str, gaps: list[Gap]) -> str:

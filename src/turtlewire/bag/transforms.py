@@ -12,14 +12,12 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.metadata import read_metadata
 from turtlewire.bag.progress import progress_line
-from turtlewire.bag.reader import Bag
+from turtlewire.bag.reader import Bag, window
 from turtlewire.bag.storage import McapStorage
-from turtlewire.bag.transform_report import TransformReport, describe, group_jumps
+from turtlewire.bag.transform_report import StepsBack, TransformReport, describe, group_jumps
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer, RecordWalk
-from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -65,7 +63,9 @@ def load_transforms(
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, or none of the topics is in it.
+        BagError: It is no bag, none of the topics is in it, or one is missing that is not the
+            default.
+        ValueError: The window ends before it begins.
     """
     buffer = Buffer(cache_time_ns)
     report = fill_buffer(
@@ -91,13 +91,16 @@ def fill_buffer(
     progress: Callable[[float], None] | None = None,
 ) -> TransformReport:
     """Read the transforms of a bag into a buffer; see `load_transforms`."""
-    start_ns = as_nanoseconds(start_ns, "start_ns")
-    end_ns = as_nanoseconds(end_ns, "end_ns")
+    start_ns, end_ns = window(start_ns, end_ns)
     moving, fixed = _names(topics), _names(static_topics)
     name = os.path.basename(os.path.abspath(path))
     report = TransformReport(name)
     with Bag(path) as bag:
-        _check_topics(bag, moving | fixed)
+        # The names that stand there by default need not be in the bag.
+        chosen = (set() if topics == "/tf" else moving) | (
+            set() if static_topics == "/tf_static" else fixed
+        )
+        _check_topics(bag, moving | fixed, chosen)
         known = bag.topics
         report.publishers = {
             topic: len(known[topic].qos) for topic in sorted((moving | fixed) & known.keys())
@@ -109,48 +112,32 @@ def fill_buffer(
             reader.read(names & known.keys(), start_ns, end_ns, static=static)
             report.messages += walk.messages
             report.jumps += group_jumps(walk.jumps)
-            report.steps_back.update(walk.steps_back)
+            for child, steps in walk.steps_back.items():
+                report.steps_back[child] = StepsBack(*steps)
         tell(1.0)
-        report.problems = bag.problems + _lonely_file(bag, fixed)
+        report.problems = bag.problems
+        report.part_of = bag.part_of
     describe(buffer, report)
     return report
-
-
-def _lonely_file(bag: Bag, static: set[str]) -> list[str]:
-    """A complaint if one file of several was opened, and the static transforms are in another."""
-    folder, name = os.path.split(bag.path)
-    if os.path.isdir(bag.path) or any(bag.topics[t].message_count for t in static & {*bag.topics}):
-        return []
-    try:
-        whole = read_metadata(folder or ".")
-    except BagError:  # of the folder; the file was read without it
-        return []
-    if whole is None or name not in whole.paths or len(whole.paths) == 1:
-        return []
-    if not any(topic.name in static and topic.message_count for topic in whole.topics):
-        return []
-    return [
-        (
-            f"{bag.path} is one of {len(whole.paths)} files of a bag and has no static transforms: "
-            f"open {folder or 'the folder'} to have them all"
-        )
-    ]
 
 
 def _names(topics: str | Iterable[str]) -> set[str]:
     return {topics} if isinstance(topics, str) else set(topics)
 
 
-def _check_topics(bag: Bag, wanted: set[str]) -> None:
-    if wanted & bag.topics.keys():
+def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
+    """Refuse a bag without any of the wanted topics, or without one of those chosen by name."""
+    missing = sorted(chosen - bag.topics.keys())
+    if wanted & bag.topics.keys() and not missing:
         return
     similar = [name for name, topic in bag.topics.items() if topic.type == _TF_TYPE]
-    names = ", ".join(sorted(wanted))
     hint = f"Topics of type {_TF_TYPE} in it: {', '.join(similar)}." if similar else "It has no TF."
     damage = [f"Damaged: {text}." for text in bag.problems]
-    raise BagError(f"{bag.path} has none of the topics {names}").with_hint(
-        " ".join((hint, *damage))
-    )
+    if wanted & bag.topics.keys():
+        text = f"{bag.path} has no topic {' and no topic '.join(missing)}"
+    else:
+        text = f"{bag.path} has none of the topics {', '.join(sorted(wanted))}"
+    raise BagError(text).with_hint(" ".join((hint, *damage)))
 
 
 class _Reader:

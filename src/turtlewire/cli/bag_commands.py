@@ -237,7 +237,7 @@ def _text_of(error: Exception) -> str:
 def _bag_tf(args: argparse.Namespace) -> int:
     from turtlewire.cli.bag_tf import show_transforms
 
-    topics, static = args.topic or ["/tf"], args.static_topic or ["/tf_static"]
+    topics, static = args.topic or "/tf", args.static_topic or "/tf_static"
     print(show_transforms(args.file, topics, static, as_json=args.json))
     return 0
 

@@ -30,6 +30,8 @@ _LATCH = (
 _ONE_TOPIC = "A frame must have one publisher: stop the others."
 _ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename one of the frames."
 _REFUSED = "Mend the node that publishes it; listeners ignore such transforms."
+_NEW_PARENT = "That is right if the frame is handed over, as a part to a gripper; else rename one."
+_PART = "Examine the whole of it, static transforms too: turtlewire doctor {}"
 _GAP = "Lookups within a gap interpolate across it; trajectories leave it out."
 _FOREIGN = "Another type is published on the topic, or the recorder was cut off."
 
@@ -71,6 +73,9 @@ def _bag_findings(bag: Bag, path: str) -> list[Finding]:
     found = []
     if os.path.isdir(path) and not os.path.exists(os.path.join(path, "metadata.yaml")):
         found.append(note("The bag has no metadata.yaml.", _REINDEX.format(path)))
+    if bag.part_of:
+        text = f"{os.path.basename(path)} is one of several files of the bag {bag.part_of}."
+        found.append(note(text, _PART.format(bag.part_of)))
     static = bag.topics.get("/tf_static")
     volatile = (
         [qos for qos in static.qos if qos.durability == Durability.VOLATILE] if static else []
@@ -88,6 +93,9 @@ def _report_findings(report: TransformReport) -> list[Finding]:
     for conflict in report.conflicts:
         remedy = _ONE_PARENT if conflict.kind == "two parents" else _ONE_TOPIC
         found.append(problem(conflict.text, remedy))
+    for child, before, after, stamp_ns in report.new_parents:
+        text = f"'{child}' leaves its parent '{before}' for '{after}' at {stamp_ns / 1e9:.3f} s."
+        found.append(note(text, _NEW_PARENT))
     for child, refused in report.refused.items():
         counts = ", ".join(f"{count} {reason}" for reason, count in refused.counts.items())
         found.append(problem(f"Transforms of '{child}' are refused: {counts}.", _REFUSED))
@@ -110,7 +118,11 @@ def _traffic(buffer: Buffer, report: TransformReport, end_ns: int) -> TfTraffic:
             leap = _largest_leap(buffer, link.child_frame)
             if leap:
                 traffic.leaps_m[link.child_frame] = leap
-    traffic.back_ns = {child: back for child, back in report.steps_back.items() if back > JITTER_NS}
+    traffic.back_ns = {
+        child: steps.largest_ns
+        for child, steps in report.steps_back.items()
+        if steps.largest_ns > JITTER_NS
+    }
     return traffic
 
 

@@ -17,7 +17,7 @@ __all__ = ["show_transforms"]
 
 
 def show_transforms(
-    path: str, topics: list[str], static_topics: list[str], *, as_json: bool
+    path: str, topics: str | list[str], static_topics: str | list[str], *, as_json: bool
 ) -> str:
     """The transforms of a bag, as text or as one JSON object.
 
@@ -80,9 +80,12 @@ def _json(picture: Picture, report: TransformReport) -> str:
         "publishers": report.publishers,
         "frames": frames,
         "loops": picture.loops,
+        "new_parents": [change._asdict() for change in report.new_parents],
+        "steps_back": {child: steps._asdict() for child, steps in report.steps_back.items()},
         "jumps": [jump._asdict() for jump in report.jumps],
         "conflicts": [conflict._asdict() for conflict in report.conflicts],
         "refused": {child: refused.counts for child, refused in report.refused.items()},
         "problems": report.problems,
+        "part_of": report.part_of or None,
     }
     return json.dumps(found)

@@ -70,7 +70,9 @@ def from_bag(  # noqa: D417 - cls is the class
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, or none of the topics is in it.
+        BagError: It is no bag, none of the topics is in it, or one is missing that is not the
+            default.
+        ValueError: The window ends before it begins.
     """
     buffer = cls(cache_time_ns)
     _REPORTS[buffer] = import_module("turtlewire.bag.transforms").fill_buffer(
@@ -157,12 +159,20 @@ def _describe(self: Buffer) -> str:
     return f"<{type(self).__name__}: {text}>"
 
 
-def _reduce(self: Buffer) -> tuple[Callable[[bytes], Buffer], tuple[bytes]]:
-    """Pickles samples and static transforms; listeners, and a subclass's own state, are not."""
+def _reduce(self: Buffer) -> tuple[Callable[[bytes, Any], Buffer], tuple[bytes, Any]]:
+    """Pickles samples, static transforms and `bag_report`, not listeners or a subclass's state."""
     if "__reduce__" not in vars(type(self)):
         raise TypeError(f"cannot pickle {type(self).__name__}, a subclass of turtlewire.Buffer")
     inspection = import_module("turtlewire.tf.inspection")  # which makes buffers, unlike this
-    return inspection.loads, (inspection.dumps(self),)
+    return _restore, (inspection.dumps(self), bag_report(self))
+
+
+def _restore(data: bytes, report: Any) -> Buffer:
+    """A pickled buffer."""
+    buffer: Buffer = import_module("turtlewire.tf.inspection").loads(data)
+    if report is not None:
+        _REPORTS[buffer] = report
+    return buffer
 
 
 def _compose(self: Transform, other: Transform) -> Transform:

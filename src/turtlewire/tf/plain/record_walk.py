@@ -46,7 +46,8 @@ class RecordWalk:
         messages: How many messages were taken.
         jumps: Where stamps fall back by more than a second: log time, the child frame of the
             message's first transform, and by how much, in nanoseconds.
-        steps_back: The largest step back of the stamps of such a frame, if there is one.
+        steps_back: How many stamps of such a frame lie before its newest, and the largest step back
+            in nanoseconds, if there is one.
     """
 
     def __init__(self, start_ns: int, end_ns: int) -> None:
@@ -55,7 +56,7 @@ class RecordWalk:
         self._children: dict[bytes, bytes] = {}  # by the names of a message with one transform
         self.messages = 0
         self.jumps: list[tuple[int, str, int]] = []
-        self.steps_back: dict[str, int] = {}
+        self.steps_back: dict[str, tuple[int, int]] = {}
 
     def walk(
         self,
@@ -125,7 +126,8 @@ class RecordWalk:
 
     def _note_step_back(self, log_time: int, child: bytes, stamp: int, back: int) -> None:
         name = child.decode(errors="replace")
-        self.steps_back[name] = max(back, self.steps_back.get(name, 0))
+        count, largest = self.steps_back.get(name, (0, 0))
+        self.steps_back[name] = count + 1, max(back, largest)
         if back > _JUMP_NS:
             self.jumps.append((log_time, name, back))
             self._newest[child] = stamp
