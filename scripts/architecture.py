@@ -132,7 +132,7 @@ def _excused(root: Path) -> set[tuple[str, str]]:
 
 
 def _import_nodes(node: ast.AST, kind: str) -> Iterator[tuple[ast.Import | ast.ImportFrom, str]]:
-    for child in ast.iter_child_nodes(node):
+    for child in _statements(node):
         if isinstance(child, (ast.Import, ast.ImportFrom)):
             yield child, kind
         elif isinstance(child, ast.If) and ast.unparse(child.test).endswith("TYPE_CHECKING"):
@@ -142,6 +142,14 @@ def _import_nodes(node: ast.AST, kind: str) -> Iterator[tuple[ast.Import | ast.I
             yield from _import_nodes(child, "late" if kind == "run" else kind)
         else:
             yield from _import_nodes(child, kind)
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """The statements right below a node, and what else holds statements; no expressions."""
+    for name in ("body", "handlers", "orelse", "finalbody", "cases"):
+        found = getattr(node, name, ())
+        if isinstance(found, list):  # of a lambda and of `a if b else c` they are expressions
+            yield from found
 
 
 def strong_components(nodes: Iterable[str], arrows: dict[str, set[str]]) -> list[list[str]]:

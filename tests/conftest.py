@@ -8,6 +8,7 @@ with launch files, ``launch`` runs entities of launch files in the test's proces
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import re
 import shutil
@@ -37,6 +38,12 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def pytest_collection_finish():
+    """Spare the garbage collector what stays to the end: all test modules and what they import."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_unconfigure():

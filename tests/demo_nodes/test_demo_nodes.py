@@ -101,6 +101,19 @@ def test_minimal_action(start):
     cancelling.wait_for(r"\[minimal_action_client\]: Goal successfully canceled$")
     assert cancelling.wait() == 0
     server.wait_for(r"\[minimal_action_server\]: Goal canceled$")
+    end(server)
+
+
+HURRIED = """
+import time
+time.sleep = lambda _: None  # the server waits a second before each number
+from examples_rclpy_minimal_action_server.server import main
+main()
+"""
+
+
+def test_minimal_action_result(start, run):
+    server = run(sys.executable, "-c", HURRIED)
     asking = start("examples_rclpy_minimal_action_client", "client")
     asking.wait_for(rf"\[minimal_action_client\]: Goal succeeded! Result: {FIBONACCI}$")
     assert asking.wait() == 0
