@@ -56,7 +56,7 @@ def log_of(program):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=[] if name in ("plain", "remap") else pytest.mark.slow)
+        pytest.param(name, marks=[] if name == "plain" else pytest.mark.slow)
         for name in SCENES
         if name not in ("services", "loop")
     ],

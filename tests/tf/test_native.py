@@ -38,6 +38,8 @@ def test_core(sanitizer: str) -> None:
     options = ["-DTURTLEWIRE_MODULE=OFF", "-DTURTLEWIRE_TESTS=ON", f"-DCMAKE_CXX_FLAGS={flags}"]
     if sanitizer != "plain":
         options.append("-DCMAKE_BUILD_TYPE=None")
+    else:  # the core as one translation unit: half the time of compilation
+        options += ["-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0"]
     folder = NATIVE.parent / "build" / "core-tests" / sanitizer  # kept: only changes are compiled
     for command in (
         ["cmake", "-S", str(NATIVE), "-B", str(folder), *options],

@@ -69,7 +69,7 @@ def test_the_fixed_carrot(lesson, turtles):
     lesson("turtle_tf2_fixed_frame_demo.launch.py", processes=5)
     assert carrot_seen_from_turtle1(turtles) == (0.0, 2.0, 0.0)
     middle = 499 / 90
-    turtles.wait_for(lambda: away(turtles, middle, middle + 2.0) < 1.0)
+    turtles.wait_for(lambda: away(turtles, middle, middle + 2.0) < 1.8)  # nearer than turtle1 is
 
 
 @pytest.mark.slow
@@ -84,7 +84,7 @@ def test_the_swinging_carrot(lesson, turtles):
 @pytest.mark.parametrize("waiting", ["blocking", pytest.param("async", marks=pytest.mark.slow)])
 def test_a_listener_that_waits(lesson, turtles, waiting):
     launch = lesson("turtle_tf2_waiting_demo.launch.py", f"waiting:={waiting}", processes=4)
-    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
+    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 2.0)
     assert f"turtle_tf2_{waiting}_listener-4" in launch.text
     assert (
         "extrapolation into the future" not in launch.text

@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 HERE = Path(__file__).parent
 MORE = HERE.parent / "cli2"
@@ -103,9 +103,9 @@ def _parse(path: Path) -> Case:
     )
 
 
-def run(case: Case, timeout: float = 30.0) -> Result:
+def run(case: Case, timeout: float = 30.0, environment: Mapping[str, str] | None = None) -> Result:
     """Run the command as the capture did: no input, pipes, a process group of its own, Ctrl-C after the same time."""
-    env = os.environ | {"LANG": "C.UTF-8", "COLUMNS": "80", "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    env = os.environ | (environment or {}) | {"LANG": "C.UTF-8", "COLUMNS": "80", "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     env.pop("PYTHONDONTWRITEBYTECODE", None)
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     words = ["bash", "-c", case.command] if "|" in case.command else shlex.split(case.command)
@@ -161,7 +161,7 @@ class _Reader:
         return (b"".join(self._parts) + suffix).decode(errors="replace")
 
 
-def replay(case: Case) -> Result:
+def replay(case: Case, environment: Mapping[str, str] | None = None) -> Result:
     """Run the command in the situation of its capture."""
     if case.number == 298:  # a command before it, which is not among the captures here, had set it
         subprocess.run(_ros2("param", "set", "/sim", "background_r", "150"), check=True, stdout=subprocess.DEVNULL)
@@ -171,7 +171,7 @@ def replay(case: Case) -> Result:
         with process([sys.executable, "-c", _DAEMON]):
             _wait_for("node", "/_ros2cli_daemon_0_0")
             return run(case)
-    return _run_disturbed(case) if case.number == 338 else run(case)
+    return _run_disturbed(case) if case.number == 338 else run(case, environment=environment)
 
 
 def _run_disturbed(case: Case) -> Result:
