@@ -174,11 +174,11 @@ def test_it_runs_in_another_thread_too():
     statuses = []
     thread = threading.Thread(target=lambda: statuses.append(service.run()))
     thread.start()
-    assert started.wait(30)
+    assert started.wait(60)
     with pytest.raises(RuntimeError, match="cannot be run multiple times concurrently"):
         service.run()
     service.shutdown()
-    thread.join(30)
+    thread.join(60)
     assert statuses == [0]
     assert ended.is_set()
 
@@ -192,8 +192,8 @@ def test_it_can_stay_though_idle():
     service.include_launch_description(
         LaunchDescription([RegisterEventHandler(handler), EmitEvent(event=Ping())])
     )
-    assert seen.wait(30)
+    assert seen.wait(60)
     assert thread.is_alive()
     service.shutdown()
-    thread.join(30)
+    thread.join(60)
     assert not thread.is_alive()

@@ -253,7 +253,7 @@ def test_subscribers_on_topics(monkeypatch, collected):
     for topic in ("left", "right"):
         node.create_publisher(PointStamped, topic, 1).publish(at(5))
     while not collected:
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert collected.stamps() == [(5, 5)]
     left.unsubscribe()
     assert node.count_subscribers("left") == 0

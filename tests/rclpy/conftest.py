@@ -75,7 +75,7 @@ class Program:
 
     def finish(self) -> tuple[int, str, str]:
         """Exit status, what is left of its output, and its errors."""
-        output, errors = self.process.communicate(timeout=30)
+        output, errors = self.process.communicate(timeout=60)
         return self.process.returncode, output, errors
 
 

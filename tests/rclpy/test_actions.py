@@ -64,7 +64,7 @@ def finish(executor):
     """Spins until a future is done, and gives its result."""
 
     def finish(future):
-        executor.spin_until_future_complete(future, timeout_sec=20)
+        executor.spin_until_future_complete(future, timeout_sec=60)
         assert future.done()
         return future.result()
 
@@ -80,7 +80,7 @@ def count(goal_handle):
 
 
 def send(client, finish, order=3, **arguments):
-    assert client.wait_for_server(timeout_sec=20)
+    assert client.wait_for_server(timeout_sec=60)
     return finish(client.send_goal_async(Fibonacci.Goal(order=order), **arguments))
 
 
@@ -292,7 +292,7 @@ def test_a_goal_can_be_executed_later_or_be_cancelled_before(serve, client, fini
 
 def test_the_result_of_an_unknown_goal(serve, client, finish):
     serve(count)
-    assert client.wait_for_server(timeout_sec=20)
+    assert client.wait_for_server(timeout_sec=60)
     request = Fibonacci.Impl.GetResultService.Request(goal_id=UUID(uuid=[7] * 16))
     assert finish(client._result_client.call_async(request)).status == GoalStatus.STATUS_UNKNOWN
 
@@ -303,7 +303,7 @@ def test_results_are_forgotten_after_their_time(serve, client, finish, executor)
     finish(handle.get_result_async())
     assert len(server._goals) == 1
     while server._goals:
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert finish(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
 
 
@@ -327,7 +327,7 @@ def test_blocking_calls(node, serve, client):
         pool.add_node(node)
         spinning = threading.Thread(target=pool.spin)
         spinning.start()
-        assert client.wait_for_server(timeout_sec=20)
+        assert client.wait_for_server(timeout_sec=60)
         response = client.send_goal(Fibonacci.Goal(order=3))
         assert list(response.result.sequence) == [0, 1, 2]
     spinning.join(60)
@@ -351,7 +351,7 @@ def test_coming_and_going(serve, client, node, context):
     assert not client.server_is_ready()
     assert not client.wait_for_server(timeout_sec=0.05)
     server = serve(count)
-    assert client.wait_for_server(timeout_sec=20)
+    assert client.wait_for_server(timeout_sec=60)
     assert set(node.waitables) == {client, server}
     server.destroy()
     assert context.wait_for_graph(lambda: not client.server_is_ready(), 20_000_000_000)

@@ -88,7 +88,7 @@ def test_one_cycle_runs_in_ros_2s_order(node, executor):
     guard.trigger()
     publisher.publish(Int32())
     for _ in range(6):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert order == ["newer task", "older task", "timer", "subscription", "guard", "service"]
 
 
@@ -98,8 +98,8 @@ def test_nodes_are_served_in_the_order_in_which_they_were_added(context, node, e
     executor.add_node(second)
     for owner in (second, node):
         owner.create_guard_condition(partial(order.append, owner.get_name())).trigger()
-    executor.spin_once(timeout_sec=10)
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
+    executor.spin_once(timeout_sec=60)
     assert order == ["tested", "second"]
     second.destroy_node()
 
@@ -112,7 +112,7 @@ def test_spin_once_runs_one_callback(node, executor):
     ]
     for guard in guards:
         guard.trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert calls == [0]
 
 
@@ -139,7 +139,7 @@ def test_messages_come_one_by_one_and_in_order(node, executor, spin_until):
     publisher = node.create_publisher(Int32, "number", 100)
     for number in range(20):
         publisher.publish(Int32(data=number))
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert got == [0]
     spin_until(lambda: len(got) == 20)
     assert got == list(range(20))
@@ -152,7 +152,7 @@ def test_a_trigger_without_an_executor_is_not_lost(context, node):
     guard.trigger()
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     executor.spin_once(timeout_sec=0)
     assert calls == [1]
     executor.shutdown()
@@ -175,7 +175,7 @@ def test_a_destroyed_entity_is_not_served_although_it_was_ready(node, executor):
     second = node.create_guard_condition(lambda: calls.append("never"))
     first.trigger()
     second.trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     executor.spin_once(timeout_sec=0)
     assert calls == []
 
@@ -190,7 +190,7 @@ def test_a_node_leaves_the_executor_it_was_in(context, node, executor):
     node.create_guard_condition(lambda: calls.append(1)).trigger()
     executor.spin_once(timeout_sec=0)
     assert calls == []
-    other.spin_once(timeout_sec=10)
+    other.spin_once(timeout_sec=60)
     assert calls == [1]
     node.executor = executor
     assert other.get_nodes() == []
@@ -206,7 +206,7 @@ def test_an_exception_leaves_spin_and_the_group_is_free_again(node, executor):
         executor.spin()
     calls = []
     node.create_guard_condition(lambda: calls.append(1)).trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert calls == [1]
 
 
@@ -218,10 +218,10 @@ def test_an_exception_of_an_async_callback_leaves_spin(node, executor):
         raise LookupError("after waiting")
 
     node.create_guard_condition(fail).trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     gate.set_result(None)
     with pytest.raises(LookupError, match="after waiting"):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
 
 
 def test_an_exception_in_a_pool_thread_leaves_spin_in_the_spinning_one(node, pool):
@@ -264,7 +264,7 @@ def test_a_blocked_subscription_costs_no_cpu(node, executor):
     publisher = node.create_publisher(Int32, "number", 10)
     publisher.publish(Int32())
     publisher.publish(Int32())
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     waits = []
     wait_once = executor._rclpy_scheduler.wait._wait_set.wait
     executor._rclpy_scheduler.wait._wait_set.wait = lambda timeout: (
@@ -283,7 +283,7 @@ def test_awaiting_a_service_in_the_same_group(node, executor):
         answer.set_result(await client.call_async(AddTwoInts.Request(a=2, b=3)))
 
     node.create_guard_condition(ask).trigger()
-    executor.spin_until_future_complete(answer, timeout_sec=10)
+    executor.spin_until_future_complete(answer, timeout_sec=60)
     assert answer.result().sum == 5
 
 
@@ -296,10 +296,10 @@ def test_an_async_service_answers_when_it_is_done(node, executor):
 
     node.create_service(AddTwoInts, "add", serve)
     answer = node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request(a=1, b=1))
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert not answer.done()
     gate.set_result(None)
-    executor.spin_until_future_complete(answer, timeout_sec=10)
+    executor.spin_until_future_complete(answer, timeout_sec=60)
     assert answer.result().sum == 2
 
 
@@ -322,10 +322,10 @@ def test_call_in_a_callback_of_a_single_thread(context, node, executor, spinning
     node.create_timer(
         0.001, lambda: order.append("timer"), ReentrantCallbackGroup()
     ).timer_period_ns = 3_600_000_000_000
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert order in ([3], ["timer"])
     for _ in range(2):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert sorted(order, key=str) == [3, "after", "timer"]
 
 
@@ -334,7 +334,7 @@ def test_call_to_a_service_of_the_blocked_executor_raises(node, executor):
     client = node.create_client(AddTwoInts, "add")
     node.create_guard_condition(lambda: client.call(AddTwoInts.Request())).trigger()
     with pytest.raises(RuntimeError, match="it would never answer"):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
 
 
 def test_call_in_a_callback_respects_its_timeout(node, executor):
@@ -343,7 +343,7 @@ def test_call_in_a_callback_respects_its_timeout(node, executor):
         lambda: client.call(AddTwoInts.Request(), timeout_sec=0.05)
     ).trigger()
     with pytest.raises(TimeoutError):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert client._pending == {}
 
 
@@ -354,7 +354,7 @@ def test_call_in_a_pool_thread_while_all_threads_are_busy(node, pool, spinning):
     done = threading.Semaphore(0)
 
     def ask(number):
-        sums.append(client.call(AddTwoInts.Request(a=number, b=1), timeout_sec=10).sum)
+        sums.append(client.call(AddTwoInts.Request(a=number, b=1), timeout_sec=60).sum)
         done.release()
 
     group = ReentrantCallbackGroup()
@@ -380,7 +380,7 @@ def test_call_ends_when_the_executor_is_shut_down(node, pool):
             raise
 
     node.create_guard_condition(ask).trigger()
-    pool.spin_once(timeout_sec=10)
+    pool.spin_once(timeout_sec=60)
     assert entered.wait(60)
     assert pool.shutdown(10)
     assert ended == ["shut down"]
@@ -479,13 +479,13 @@ def test_spin_until_future_complete(any_executor):
     future = Future()
     setting = threading.Timer(0.05, future.set_result, args=(7,))
     setting.start()
-    any_executor.spin_until_future_complete(future, timeout_sec=10)
+    any_executor.spin_until_future_complete(future, timeout_sec=60)
     assert future.result() == 7
     setting.join()
     start = time.monotonic()
     any_executor.spin_until_future_complete(Future(), timeout_sec=0.05)
     assert 0.05 <= time.monotonic() - start < 30
-    any_executor.spin_once_until_future_complete(future, timeout_sec=10)
+    any_executor.spin_once_until_future_complete(future, timeout_sec=60)
 
 
 def test_spinning_within_a_callback(node, executor):
@@ -499,11 +499,11 @@ def test_spinning_within_a_callback(node, executor):
 
     def ask():
         answer = client.call_async(AddTwoInts.Request(a=4, b=4))
-        executor.spin_until_future_complete(answer, timeout_sec=10)
+        executor.spin_until_future_complete(answer, timeout_sec=60)
         sums.append(answer.result().sum)
 
     node.create_guard_condition(ask).trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert sums == [8]
 
 
@@ -530,7 +530,7 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
         helping.join()
 
     node.create_guard_condition(wait).trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert done.result() == "after the warning"
     assert (
         "A callback spins the executor that runs it, and nothing happens: what is ready "
@@ -590,7 +590,7 @@ def test_an_async_callback_that_waits_for_others_is_not(node, any_executor, capf
 def test_spinning_until_a_future_of_another_library_is_done(any_executor):
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(threading.get_ident)
-        any_executor.spin_until_future_complete(future, timeout_sec=10)
+        any_executor.spin_until_future_complete(future, timeout_sec=60)
     assert future.done()
 
 
@@ -610,11 +610,11 @@ def test_shutdown_waits_for_callbacks_of_other_threads(node, pool):
         leave.wait(60)
 
     node.create_guard_condition(work).trigger()
-    pool.spin_once(timeout_sec=10)
+    pool.spin_once(timeout_sec=60)
     assert entered.wait(60)
     assert not pool.shutdown(timeout_sec=0.05)
     leave.set()
-    assert pool.shutdown(timeout_sec=10)
+    assert pool.shutdown(timeout_sec=60)
 
 
 def test_shutdown_in_a_callback_ends_spin(node, any_executor):
@@ -753,6 +753,6 @@ def test_a_group_that_becomes_free_while_an_entity_is_paused_is_noticed(node, ex
     ran = Future()
     group = FreeOnSecondLook()
     node.create_guard_condition(lambda: ran.set_result(True), callback_group=group).trigger()
-    executor.spin_until_future_complete(ran, timeout_sec=5)
+    executor.spin_until_future_complete(ran, timeout_sec=60)
     assert ran.done()
     assert group.looks >= 2

@@ -166,10 +166,10 @@ def test_spin_once_and_spin_until_future_complete():
     node = rclpy.create_node("spinning")
     future = rclpy.task.Future()
     node.create_guard_condition(lambda: future.set_result(5)).trigger()
-    rclpy.spin_once(node, timeout_sec=10)
+    rclpy.spin_once(node, timeout_sec=60)
     assert future.result() == 5
     assert node.executor is None
-    rclpy.spin_until_future_complete(node, future, timeout_sec=10)
+    rclpy.spin_until_future_complete(node, future, timeout_sec=60)
 
 
 def test_a_spin_within_a_callback_leaves_the_node_where_it_was():

@@ -152,7 +152,7 @@ def test_when_enabled():
 def call(node, executor, srv_type, name, request=None):
     client = node.create_client(srv_type, f"managed/{name}")
     future = client.call_async(request or srv_type.Request())
-    executor.spin_until_future_complete(future, timeout_sec=10)
+    executor.spin_until_future_complete(future, timeout_sec=60)
     return future.result()
 
 

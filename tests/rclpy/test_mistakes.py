@@ -108,7 +108,7 @@ def test_a_service_that_forgets_to_return_its_response(node, executor):
     node.create_service(AddTwoInts, "add", lambda _request, response: setattr(response, "sum", 1))
     response = node.create_client(AddTwoInts, "add").call_async(AddTwoInts.Request())
     with pytest.raises(TypeError) as caught:
-        executor.spin_until_future_complete(response, timeout_sec=10)
+        executor.spin_until_future_complete(response, timeout_sec=60)
     text = str(caught.value)
     assert text.startswith("The callback of service '/add' has to return its second argument")
     assert text.endswith("it returned None")

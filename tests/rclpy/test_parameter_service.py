@@ -41,7 +41,7 @@ class World:
         self.executor, self.server, self.asker = executor, server, asker
 
     def result(self, future):
-        self.executor.spin_until_future_complete(future, timeout_sec=20)
+        self.executor.spin_until_future_complete(future, timeout_sec=60)
         assert future.done()
         return future.result()
 
@@ -54,14 +54,14 @@ class World:
 
     def ask(self, service_type, name, request):
         client = self.asker.create_client(service_type, name)
-        assert client.wait_for_service(timeout_sec=20)
+        assert client.wait_for_service(timeout_sec=60)
         return self.result(client.call_async(request))
 
 
 @pytest.fixture
 def client(world):
     client = AsyncParameterClient(world.asker, "server")
-    assert client.wait_for_services(timeout_sec=20)
+    assert client.wait_for_services(timeout_sec=60)
     assert client.services_are_ready()
     return client
 

@@ -35,7 +35,7 @@ def add(request, response):
 
 def ask(executor, client, a, b):
     future = client.call_async(AddTwoInts.Request(a=a, b=b))
-    executor.spin_until_future_complete(future, timeout_sec=10)
+    executor.spin_until_future_complete(future, timeout_sec=60)
     assert future.done()
     return future.result().sum
 
@@ -43,7 +43,7 @@ def ask(executor, client, a, b):
 def test_request_and_response(node, executor):
     service = node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     assert client.service_is_ready()
     assert ask(executor, client, 2, 3) == 5
     assert (service.service_name, client.service_name) == ("/add", "/add")
@@ -59,13 +59,13 @@ def test_responses_find_their_requests(node, executor, context):
     node.create_service(AddTwoInts, "add", add)
     clients = [node.create_client(AddTwoInts, "add") for _ in range(2)]
     for client in clients:
-        assert client.wait_for_service(timeout_sec=10)
+        assert client.wait_for_service(timeout_sec=60)
     futures = [
         (number, clients[number % 2].call_async(AddTwoInts.Request(a=number, b=100)))
         for number in range(8)
     ]
     for number, future in futures:
-        executor.spin_until_future_complete(future, timeout_sec=10)
+        executor.spin_until_future_complete(future, timeout_sec=60)
         assert future.result().sum == number + 100
     assert [client._pending for client in clients] == [{}, {}]
 
@@ -77,7 +77,7 @@ def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, 
     assert not client.wait_for_service(timeout_sec=0.05)
     offering = threading.Timer(0.1, node.create_service, args=(AddTwoInts, "add", add))
     offering.start()
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     offering.join()
     assert ask(executor, client, 1, 1) == 2
 
@@ -85,7 +85,7 @@ def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, 
 def test_a_service_that_goes_is_not_ready(node, context):
     service = node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     assert node.destroy_service(service)
     assert context.wait_for_graph(lambda: not client.service_is_ready(), 10_000_000_000)
 
@@ -93,7 +93,7 @@ def test_a_service_that_goes_is_not_ready(node, context):
 def test_done_callbacks_of_a_response_run_on_the_executor(node, executor, spin_until):
     node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     sums = []
     client.call_async(AddTwoInts.Request(a=1, b=2)).add_done_callback(
         lambda future: sums.append(future.result().sum)
@@ -107,7 +107,7 @@ def test_blocking_call_from_another_thread(node, executor):
     client = node.create_client(AddTwoInts, "add")
     spinning = threading.Thread(target=executor.spin)
     spinning.start()
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     assert client.call(AddTwoInts.Request(a=3, b=4)).sum == 7
     with pytest.raises(TimeoutError):
         node.create_client(AddTwoInts, "nobody").call(AddTwoInts.Request(), timeout_sec=0.05)
@@ -143,19 +143,19 @@ def test_wrong_types(node, executor):
     service = node.create_service(AddTwoInts, "add", lambda request, response: None)
     with pytest.raises(TypeError):
         service.send_response(AddTwoInts.Request(), RequestId(1, 1))
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     client.call_async(AddTwoInts.Request())
     with pytest.raises(TypeError):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
 
 
 def test_an_exception_of_a_service_leaves_spin_and_the_client_gets_no_answer(node, executor):
     node.create_service(AddTwoInts, "add", lambda request, response: 1 / 0)
     client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     future = client.call_async(AddTwoInts.Request())
     with pytest.raises(ZeroDivisionError):
-        executor.spin_until_future_complete(future, timeout_sec=10)
+        executor.spin_until_future_complete(future, timeout_sec=60)
     executor.spin_once(timeout_sec=0.05)
     assert not future.done()
 
@@ -188,7 +188,7 @@ def test_quality_of_service_and_destruction(node):
 def test_a_malformed_request_is_told_once_and_the_service_lives(node, executor, capfd):
     node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     for _ in range(3):
         client._wire.send_request(b"\x00\x01\x00\x00\x01")
     assert ask(executor, client, 1, 2) == 3
@@ -210,7 +210,7 @@ def test_introspection(node, executor, context, spin_until):
         clock, qos_profile_system_default, ServiceIntrospectionState.CONTENTS
     )
     assert context.wait_for_graph(lambda: subscription.get_publisher_count() == 2, 10_000_000_000)
-    assert client.wait_for_service(timeout_sec=10)
+    assert client.wait_for_service(timeout_sec=60)
     assert context.wait_for_graph(
         lambda: all(each._events.wire.subscription_count() for each in (client, service)),
         10_000_000_000,
@@ -244,7 +244,7 @@ def test_a_client_in_another_context(context, node, executor):
         asker = Node("asker", context=other)
         client = asker.create_client(AddTwoInts, "add")
         assert isinstance(client, Client)
-        assert client.wait_for_service(timeout_sec=10)
+        assert client.wait_for_service(timeout_sec=60)
         spinning = threading.Thread(target=executor.spin)
         spinning.start()
         from rclpy.executors import SingleThreadedExecutor

@@ -147,7 +147,7 @@ def test_tasks_wait_for_each_other_without_polling(executor):
     assert steps == ["first waits"]
     assert executor._rclpy_scheduler._tasks == []
     gate.set_result("gate open")
-    executor.spin_until_future_complete(task, timeout_sec=10)
+    executor.spin_until_future_complete(task, timeout_sec=60)
     assert task.result() == "done"
     assert steps == ["first waits", "gate open"]
 
@@ -163,7 +163,7 @@ def test_a_bare_yield_runs_again_in_the_next_cycle(executor):
         return "end"
 
     task = executor.create_task(three_steps)
-    executor.spin_until_future_complete(task, timeout_sec=10)
+    executor.spin_until_future_complete(task, timeout_sec=60)
     assert task.result() == "end"
 
 
@@ -175,14 +175,14 @@ def test_done_callbacks_run_as_tasks_of_the_executor(executor):
     setter.start()
     setter.join()
     assert threads == []
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert threads == [threading.current_thread()]
 
 
 def test_an_exception_in_a_task_leaves_spin(executor):
     executor.create_task(lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
 
 
 def test_a_future_can_be_awaited_in_asyncio():

@@ -373,7 +373,7 @@ def test_wait_for_message_in_a_callback(context, node):
     ).trigger()
     with SingleThreadedExecutor(context=context) as executor:
         executor.add_node(node)
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert results == [(True, Int32(data=6))]
 
 

@@ -75,9 +75,9 @@ def test_waitables_come_before_the_other_entities(node, composed, executor):
     order = []
     node.create_guard_condition(lambda: order.append("guard")).trigger()
     composed.guard.trigger()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert (order, len(composed.executed)) == ([], 1)
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert order == ["guard"]
 
 
@@ -92,7 +92,7 @@ def test_its_group_is_respected(node, executor):
     assert composed.executed == []
     group.ending_execution(other)
     executor._rclpy_scheduler.resume_paused()
-    executor.spin_once(timeout_sec=10)
+    executor.spin_once(timeout_sec=60)
     assert composed.executed == [("guard_condition", None)]
     composed.destroy()
 

@@ -83,7 +83,7 @@ def call(manager):
 
     def ask(kind, name, **fields):
         client = node.create_client(kind, f"/container/_container/{name}")
-        assert client.wait_for_service(30)
+        assert client.wait_for_service(60)
         future = client.call_async(kind.Request(**fields))
         executor.spin_until_future_complete(future, 30)
         return future.result()
@@ -126,14 +126,14 @@ def test_a_component_has_its_own_name_and_defaults(call):
 def test_components_run_in_threads_of_their_own(call):
     load(call, node_name="a")
     load(call, node_name="b")
-    assert all(node.ran.wait(30) for node in CREATED)
+    assert all(node.ran.wait(60) for node in CREATED)
     assert [node.thread.name for node in CREATED] == ["a", "b"]
 
 
 def test_one_that_crashes_leaves_the_others(call):
     load(call, "Crashes", node_name="a")
     load(call, node_name="b")
-    assert all(node.ran.wait(30) for node in CREATED)
+    assert all(node.ran.wait(60) for node in CREATED)
     listed = call(ListNodes, "list_nodes")
     assert listed.full_node_names == ["/a", "/b"]
 

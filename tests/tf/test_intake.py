@@ -111,7 +111,7 @@ def test_what_comes_while_python_is_busy_with_the_name_does_not_need_it(flow, mo
 
     def slow(feed, publisher, gid_of):
         busy.set()
-        assert go.wait(30)
+        assert go.wait(60)
         return identify(feed, publisher, gid_of)
 
     monkeypatch.setattr(listener._Feed, "_identify", slow)
@@ -119,7 +119,7 @@ def test_what_comes_while_python_is_busy_with_the_name_does_not_need_it(flow, mo
         flow.wait_for_match()
         for stamp_s in range(1, 51):
             flow.publisher.publish(tf_bytes(stamp_s))
-            assert busy.wait(30)
+            assert busy.wait(60)
         go.set()
         buffer.lookup_transform("world", "robot", 50_000_000_000, LONG_NS)
         [(_, stamps, _)] = buffer.samples("robot")
@@ -197,7 +197,7 @@ def test_change_listeners_are_called_on_the_reader_thread(flow):
         for _ in range(5):
             called.clear()
             flow.send(buffer)
-            assert called.wait(30)
+            assert called.wait(60)
         assert flow.by_python == seen
         assert set(threads) == {"turtlewire-reader"}
         stop()

@@ -156,7 +156,7 @@ def test_a_callback_of_a_single_threaded_executor_may_wait(context, make_node, s
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while not results:
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert results[0].transform.translation.x == 1.0
 
 
@@ -229,7 +229,7 @@ def test_awaiting_in_a_callback_leaves_the_executor_free(context, make_node, sta
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while not results:
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert results[0].transform.translation.x == 8.0
 
 
@@ -243,7 +243,7 @@ def test_a_node_offers_its_frames(context, make_node, stamped):
     future = client.call_async(FrameGraph.Request())
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    executor.spin_until_future_complete(future, timeout_sec=10)
+    executor.spin_until_future_complete(future, timeout_sec=60)
     assert future.result().frame_yaml == buffer.all_frames_as_yaml()
     assert "wall:" in future.result().frame_yaml
 
@@ -460,7 +460,7 @@ def test_waiting_in_callbacks_always_ends(delays, timeout, shut_down):
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while len(ended) < len(timers):
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     if shut_down:
         context.shutdown()
     for feeder in feeders:

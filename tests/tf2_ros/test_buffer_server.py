@@ -146,7 +146,7 @@ def test_a_callback_of_the_user_s_node_may_ask(context, buffer, make_node, stamp
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     while not results:
-        executor.spin_once(timeout_sec=10)
+        executor.spin_once(timeout_sec=60)
     assert results[0].transform.translation.x == 4.0
     client.destroy()
 
@@ -162,7 +162,7 @@ def test_a_goal_that_waits_can_be_cancelled(context, buffer, make_node):
     action = ActionClient(node, LookupTransform, "lookup")
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    assert action.wait_for_server(10)
+    assert action.wait_for_server(60)
     goal = LookupTransform.Goal(
         target_frame="world", source_frame="robot", timeout=Duration(seconds=60).to_msg()
     )
@@ -218,7 +218,7 @@ def test_a_server_that_does_not_answer(make_node, strange_server):
 
     strange_server(execute)
     client = BufferClient(make_node("impatient"), "lookup", timeout_padding=0.1)
-    client.action_client.wait_for_server(10)
+    client.action_client.wait_for_server(60)
     with pytest.raises(TimeoutException, match="did not come back in the specified time"):
         client.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))
     release.set()
@@ -243,7 +243,7 @@ def test_what_the_client_does_not_wait_for_any_more_is_cancelled(make_node, stra
     client = BufferClient(
         make_node("impatient"), "lookup", timeout_padding=3.0
     )  # time for a busy machine to accept the goal
-    client.action_client.wait_for_server(10)
+    client.action_client.wait_for_server(60)
     with pytest.raises(TimeoutException, match="did not come back in the specified time"):
         client.lookup_transform("world", "robot", Time(), Duration(seconds=0.1))
     assert over.wait(60)

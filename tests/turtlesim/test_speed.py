@@ -50,7 +50,7 @@ def chase():
     for process in processes:
         process.send_signal(signal.SIGINT)
     for process in processes:
-        process.communicate(timeout=20)
+        process.communicate(timeout=60)
 
 
 def test_the_chase_ends_where_it_does_in_lock_step(chase):
@@ -71,7 +71,7 @@ def test_the_chase_ends_where_it_does_in_lock_step(chase):
             Pose, f"/{name}/pose", lambda pose, name=name: poses.__setitem__(name, pose), 1
         )
     spawner = node.create_client(Spawn, "/spawn")
-    assert spawner.wait_for_service(timeout_sec=30)
+    assert spawner.wait_for_service(timeout_sec=60)
     spawner.call_async(Spawn.Request(x=4.0, y=2.0, theta=0.0, name="turtle2"))
 
     def spin_until(is_done) -> None:

@@ -62,7 +62,7 @@ def view(context):
 
 
 def wait_until(is_done) -> None:
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     while not is_done():
         assert time.monotonic() < deadline
         threading.Event().wait(0.01)

@@ -300,7 +300,7 @@ def test_the_page_shows_the_background_live(make_world, monkeypatch):
     monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
     world = make_world(headless=False)
     with connect(world.sim._screen.url.replace("http", "ws") + "live", close_timeout=0.2) as page:
-        assert json.loads(page.recv(timeout=20))["background"] == [69, 86, 255]
+        assert json.loads(page.recv(timeout=60))["background"] == [69, 86, 255]
         world.sim.set_parameters([Parameter("background_r", value=200)])
         scenes: list[str] = []
 

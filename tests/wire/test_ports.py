@@ -38,7 +38,7 @@ def participant():
 
     yield start
     for process in processes:
-        process.communicate(timeout=30)
+        process.communicate(timeout=60)
 
 
 def test_processes_are_counted_while_they_are_there(participant):
@@ -48,7 +48,7 @@ def test_processes_are_counted_while_they_are_there(participant):
     assert processes_on_host(domain) == before + 1
     participant("two")
     assert processes_on_host(domain) == before + 2
-    process.communicate(timeout=30)
+    process.communicate(timeout=60)
     assert processes_on_host(domain) == before + 1
 
 

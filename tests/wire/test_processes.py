@@ -161,7 +161,7 @@ def test_a_process_that_forgets_to_close_ends_and_says_goodbye(context: Context)
         [sys.executable, "-c", code], stdin=subprocess.PIPE, text=True
     ) as process:
         assert graph.wait_for(lambda: len(graph.nodes()) == 1, LONG)
-        process.communicate("\n", timeout=20)
+        process.communicate("\n", timeout=60)
     assert process.returncode == 0
     assert graph.wait_for(lambda: graph.nodes() == [], SOONER_THAN_A_LEASE)
 
@@ -180,7 +180,7 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
         "    os.wait()\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
     )
     assert (
         done.stdout == "create node child: the context was opened before this process was forked\n"
