@@ -84,11 +84,9 @@ def test_the_swinging_carrot(lesson, turtles):
 @pytest.mark.parametrize("waiting", ["blocking", pytest.param("async", marks=pytest.mark.slow)])
 def test_a_listener_that_waits(lesson, turtles, waiting):
     launch = lesson("turtle_tf2_waiting_demo.launch.py", f"waiting:={waiting}", processes=4)
+    # The present is newer than the latest transform: a lookup that does not wait never succeeds.
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 2.0)
     assert f"turtle_tf2_{waiting}_listener-4" in launch.text
-    assert (
-        "extrapolation into the future" not in launch.text
-    )  # the present is newer than the latest transform: it did wait
 
 
 @pytest.mark.slow
