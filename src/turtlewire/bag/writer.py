@@ -225,9 +225,10 @@ class BagWriter:
             publish_time_ns = _stamp(publish_time_ns, "publish_time_ns")
         if self._compresses_messages:
             data = compress("zstd", data)
-        self._file.write(number, log_time_ns, publish_time_ns or log_time_ns, data)
         if self._splits:
             self._split_if_due(self._file, log_time_ns)
+            number = self._ids[topic]
+        self._file.write(number, log_time_ns, publish_time_ns or log_time_ns, data)
 
     def flush(self) -> None:
         """Hand all messages to the operating system: they survive this process."""
@@ -291,6 +292,7 @@ class BagWriter:
         return file.add_channel(schema, topic.name, metadata)
 
     def _split_if_due(self, file: McapWriter | SqliteWriter, log_time_ns: int) -> None:
+        """Begin a new file with the message of this time if the current one is full."""
         if self._file_start_ns is None:
             self._file_start_ns = log_time_ns
         lasts = log_time_ns - self._file_start_ns
@@ -298,6 +300,7 @@ class BagWriter:
             self._max_file_ns and lasts > self._max_file_ns
         ):
             paths = self.split()
+            self._file_start_ns = log_time_ns
             if self.on_split is not None:
                 self.on_split(*paths)
 
