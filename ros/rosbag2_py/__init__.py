@@ -7,6 +7,7 @@ module                              what it holds
 `_info`                             reads metadata; counts requests and responses
 `_recorder`, `_player`              recording and playing as scripts start it
 `_rewrite`                          converting bags as a YAML file asks
+`_transport`                        these three under the name that scripts import
 `_open_writer`                      a bag to write, by storage options
 `_log_level`                        the level of the logs of recorder and player
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass
+
+from rosbag2_transport.options import NumberedEnum
 
 __all__ = [
     "CompressionMode",
@@ -13,7 +14,7 @@ __all__ = [
 ]
 
 
-class CompressionMode(enum.Enum):
+class CompressionMode(NumberedEnum):
     """The unit of compression."""
 
     NONE = 0
@@ -21,7 +22,7 @@ class CompressionMode(enum.Enum):
     MESSAGE = 2
 
 
-@dataclass
+@dataclass(slots=True)
 class CompressionOptions:
     """Compression of a writer.
 

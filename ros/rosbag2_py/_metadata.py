@@ -23,7 +23,7 @@ _UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 
 
-@dataclass
+@dataclass(slots=True)
 class TopicMetadata:
     """A topic.
 
@@ -53,7 +53,7 @@ class TopicMetadata:
         )
 
 
-@dataclass
+@dataclass(slots=True)
 class TopicInformation:
     """A topic and how many messages of it a bag holds."""
 
@@ -61,7 +61,7 @@ class TopicInformation:
     message_count: int
 
 
-@dataclass
+@dataclass(slots=True)
 class FileInformation:
     """A file of a bag.
 
@@ -78,7 +78,7 @@ class FileInformation:
     message_count: int
 
 
-@dataclass
+@dataclass(slots=True)
 class BagMetadata:
     """Topics, times and files of a bag; ``str()`` gives the text of ``ros2 bag info``."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 import os
 from dataclasses import dataclass, field
 from datetime import timedelta
@@ -17,6 +16,7 @@ from rosbag2_py._metadata import (
     TopicInformation,
     TopicMetadata,
 )
+from rosbag2_transport.options import NumberedEnum
 from turtlewire.bag import metadata as engine
 from turtlewire.bag.qos_yaml import profiles_from_yaml
 from turtlewire.errors import BagError
@@ -48,7 +48,7 @@ def get_default_storage_id() -> str:
     return "mcap"
 
 
-@dataclass
+@dataclass(slots=True)
 class StorageOptions:
     """Which bag, and how it is written.
 
@@ -79,7 +79,7 @@ class StorageOptions:
     custom_data: dict[str, str] = field(default_factory=dict)
 
 
-@dataclass
+@dataclass(slots=True)
 class ConverterOptions:
     """Serialization formats; only ``cdr`` exists, and an empty text means it."""
 
@@ -87,7 +87,7 @@ class ConverterOptions:
     output_serialization_format: str = ""
 
 
-@dataclass
+@dataclass(slots=True)
 class StorageFilter:
     """Which messages a reader returns; an empty field does not restrict.
 
@@ -108,7 +108,7 @@ class StorageFilter:
     regex_to_exclude: str = ""
 
 
-class ReadOrderSortBy(enum.Enum):
+class ReadOrderSortBy(NumberedEnum):
     """The time that orders messages."""
 
     ReceivedTimestamp = 0
@@ -116,7 +116,7 @@ class ReadOrderSortBy(enum.Enum):
     File = 2
 
 
-@dataclass
+@dataclass(slots=True)
 class ReadOrder:
     """In which order a reader returns messages."""
 
@@ -124,7 +124,7 @@ class ReadOrder:
     reverse: bool = False
 
 
-@dataclass
+@dataclass(slots=True)
 class MessageDefinition:
     """The definition of a type, as a bag carries it."""
 

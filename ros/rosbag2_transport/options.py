@@ -1,4 +1,7 @@
-"""What recorder and player are asked to do."""
+"""What recorder and player are asked to do.
+
+As ROS 2's classes, the options refuse attributes that they do not have.
+"""
 
 from __future__ import annotations
 
@@ -10,17 +13,24 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-__all__ = ["PlayOptions", "RecordOptions", "ServiceRequestsSource"]
+__all__ = ["NumberedEnum", "PlayOptions", "RecordOptions", "ServiceRequestsSource"]
 
 
-class ServiceRequestsSource(enum.Enum):
+class NumberedEnum(enum.Enum):
+    """An enum that ``int()`` takes, as the classes of C++ are in ROS 2."""
+
+    def __int__(self) -> int:
+        return int(self.value)
+
+
+class ServiceRequestsSource(NumberedEnum):
     """Whose record of a service request is played."""
 
     SERVICE_INTROSPECTION = 0
     CLIENT_INTROSPECTION = 1
 
 
-@dataclass
+@dataclass(slots=True)
 class RecordOptions:
     """What is recorded, and how.
 
@@ -81,7 +91,7 @@ class RecordOptions:
     disable_keyboard_controls: bool = False
 
 
-@dataclass
+@dataclass(slots=True)
 class PlayOptions:
     """What is played, and how. Times are seconds; negative means "without".
 

@@ -1,0 +1,17 @@
+"""Recorder, player and their options under the name of rosbag2's compiled module."""
+
+from __future__ import annotations
+
+from rosbag2_py._player import Player
+from rosbag2_py._recorder import Recorder
+from rosbag2_py._rewrite import bag_rewrite
+from rosbag2_transport.options import PlayOptions, RecordOptions, ServiceRequestsSource
+
+__all__ = [
+    "PlayOptions",
+    "Player",
+    "RecordOptions",
+    "Recorder",
+    "ServiceRequestsSource",
+    "bag_rewrite",
+]
