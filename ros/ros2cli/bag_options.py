@@ -22,6 +22,7 @@ __all__ = [
     "STORAGE",
     "STORAGES",
     "STORAGE_CONFIG",
+    "absolute",
     "bag_path",
     "bag_topics",
     "custom_data",
@@ -119,8 +120,13 @@ def bag_topics(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 
 def event_topics(services: list[str]) -> list[str]:
-    """The topics on which the events of services are."""
-    return [f"{name}/_service_event" for name in services]
+    """The topics on which the events of services are; ROS 2 needs the slash in front."""
+    return [f"{absolute(name)}/_service_event" for name in services]
+
+
+def absolute(name: str) -> str:
+    """The name of a topic or service as the graph and bags know it."""
+    return name if name.startswith("/") else f"/{name}"
 
 
 def remap_words(rules: list[str]) -> list[str]:

@@ -70,6 +70,8 @@ def main(argv: list[str] | None = None) -> int:
     try:
         return _run(words)
     except KeyboardInterrupt:
+        if argv is None:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a second one ends it without a word
         return _EXIT_INTERRUPTED
 
 

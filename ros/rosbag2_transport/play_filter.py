@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.topic_filter import is_service_event, pattern
+from rosbag2_transport.topic_filter import EVENT_TOPIC, is_service_event, pattern
+from turtlewire.suggestion import did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from rosbag2_transport.options import PlayOptions
     from turtlewire.bag import Bag
 
-__all__ = ["played_topics"]
+__all__ = ["mistakes", "played_topics"]
+
+_SECOND = 1_000_000_000
 
 
 def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
@@ -40,3 +45,50 @@ def played_topics(bag: Bag, options: PlayOptions) -> list[str]:
         elif not listed or name in listed:
             names.append(name)
     return names
+
+
+def mistakes(bag: Bag, options: PlayOptions) -> list[str]:
+    """What the options name and the bag does not have; rosbag2 passes over it in silence."""
+    return [*_unknown_topics(bag, options), *_unknown_services(bag, options)] or [
+        f"Nothing is played: {why}" for why in _emptiness(bag, options)
+    ]
+
+
+def _unknown_topics(bag: Bag, options: PlayOptions) -> Iterator[str]:
+    named = (
+        *options.topics_to_filter,
+        *options.exclude_topics_to_filter,
+        *options.clock_trigger_topics,
+        *options.topic_qos_profile_overrides,
+    )
+    for name in dict.fromkeys(named):
+        if name not in bag.topics:
+            known = f"Its topics are {', '.join(sorted(bag.topics))}."
+            yield f"The bag has no topic '{name}'. {did_you_mean(name, bag.topics) or known}"
+
+
+def _unknown_services(bag: Bag, options: PlayOptions) -> Iterator[str]:
+    services = [
+        name.removesuffix(EVENT_TOPIC)
+        for name, topic in sorted(bag.topics.items())
+        if is_service_event(name, topic.type)
+    ]
+    named = (*options.services_to_filter, *options.exclude_service_events_to_filter)
+    for name in (each.removesuffix(EVENT_TOPIC) for each in dict.fromkeys(named)):
+        if name not in services:
+            known = f"It has those of {', '.join(services)}." if services else "It has none at all."
+            hint = did_you_mean(name, services) or known
+            yield f"The bag has no events of a service '{name}'. {hint}"
+
+
+def _emptiness(bag: Bag, options: PlayOptions) -> Iterator[str]:
+    """Why nothing is played of a bag, if that is so."""
+    lasts_ns = bag.end_ns - bag.start_ns
+    if not bag.topics:
+        yield "the bag is empty."
+    elif not played_topics(bag, options):
+        yield f"the options leave out all topics, which are {', '.join(sorted(bag.topics))}."
+    elif options.start_offset * _SECOND > lasts_ns:
+        yield f"the bag ends after {lasts_ns / _SECOND:g} s, before the start offset."
+    elif 0 <= options.playback_until_timestamp < bag.start_ns and options.playback_duration < 0:
+        yield f"the bag begins at {bag.start_ns} ns, behind the time at which to end."

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.latched import Latched
-from rosbag2_transport.play_filter import played_topics
+from rosbag2_transport.play_filter import mistakes, played_topics
 from rosbag2_transport.player_outputs import PlayerOutputs
 from turtlewire.bag import Bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
-from turtlewire.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,9 +27,10 @@ if TYPE_CHECKING:
 __all__ = ["Player"]
 
 _SECOND = 1_000_000_000
-_FOREVER = (1 << 63) - 1
+_FOREVER = 1 << 62
 #: How long the end waits for reliable subscriptions, unless the options say otherwise.
 _LAST_MESSAGES_NS = _SECOND
+_ACKNOWLEDGED_NS = _SECOND // 10
 
 
 class Player:
@@ -44,7 +45,7 @@ class Player:
         changed: Guards everything; notified after each command.
         clock: The time of the bag.
         start_ns: Log time of the bag's first message.
-        end_ns: Log time of its last message.
+        end_ns: Log time of its last message, or the time at which the options end the playback.
         on_publish: Called with each message before it is published.
 
     Raises:
@@ -60,17 +61,15 @@ class Player:
         self._side_bag = Bag(path)
         self.start_ns, self.end_ns = self._bag.start_ns, self._bag.end_ns
         self._topics = played_topics(self._bag, options)
-        for name in options.topics_to_filter:
-            if name not in self._bag.topics:
-                hint = did_you_mean(name, self._bag.topics) or (
-                    f"Its topics are {', '.join(sorted(self._bag.topics))}."
-                )
-                self._logger.warning(f"The bag has no topic '{name}'. {hint}")
+        for mistake in mistakes(self._bag, options):
+            self._logger.warning(mistake)
         self._outputs = PlayerOutputs(node, self._bag, self._topics, options)
         self._latched = Latched(self._side_bag, self._outputs.latched)
         self.changed = threading.Condition()
         self._first_ns = self._clamped(self.start_ns + int(options.start_offset * _SECOND))
         self._until_ns = self._play_until()
+        if self._until_ns >= 0:
+            self.end_ns = max(self.start_ns, min(self._until_ns, self.end_ns))
         self.clock = PlayClock(self._first_ns, options.rate, is_paused=options.start_paused)
         self.on_publish: list[Callable[[BagMessage], None]] = []
         self._source: ReadAhead | None = None
@@ -202,11 +201,18 @@ class Player:
             self._source = None
 
     def _wait_for_acknowledgments(self) -> None:
+        """Wait for what the option asks, or a moment; `stop` ends it."""
         asked = self._options.wait_acked_timeout
-        if self._stopped:
-            return
-        timeout = _LAST_MESSAGES_NS if asked < 0 else asked * 1_000_000 or None
-        if not self._outputs.wait_for_acknowledgments(timeout) and asked >= 0:
+        timeout_ns = _LAST_MESSAGES_NS if asked < 0 else asked * 1_000_000 or _FOREVER
+        end_ns = time.monotonic_ns() + timeout_ns
+        while not self._stopped:
+            left_ns = end_ns - time.monotonic_ns()
+            # In pieces: the middleware's wait cannot be interrupted.
+            if self._outputs.wait_for_acknowledgments(max(0, min(left_ns, _ACKNOWLEDGED_NS))):
+                return
+            if left_ns <= 0:
+                break
+        if asked >= 0 and not self._stopped:
             self._logger.error(
                 "Timed out while waiting for all published messages to be acknowledged"
             )

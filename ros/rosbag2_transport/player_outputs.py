@@ -102,17 +102,16 @@ class PlayerOutputs:
                 self._refused.add(message.topic)
                 self._logger.error(f"A message was not played: {error}")  # noqa: TRY400
 
-    def wait_for_acknowledgments(self, timeout_ns: int | None) -> bool:
+    def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
         """Wait until all reliable subscriptions have everything; False after the timeout.
 
         Args:
-            timeout_ns: For all publishers together; None waits without a limit.
+            timeout_ns: For all publishers together.
         """
-        end = None if timeout_ns is None else time.monotonic_ns() + timeout_ns
+        end = time.monotonic_ns() + timeout_ns
         done = True
         for publisher in self._publishers.values():
-            left = (1 << 62) if end is None else max(0, end - time.monotonic_ns())
-            done &= publisher.wait_for_acknowledgments(left)
+            done &= publisher.wait_for_acknowledgments(max(0, end - time.monotonic_ns()))
         return done
 
     def close(self) -> None:

@@ -84,7 +84,10 @@ class PlayerServices:
         return response
 
     def _play(self, _request: Any, response: Any) -> Any:
-        response.success = False  # it plays; when it has ended, so has its node
+        # It plays: when it has ended, so has its node.
+        warning = "Trying to play() while in playback, dismissing request."
+        self._node.get_logger().warning(warning)
+        response.success = False
         return response
 
     def _play_next(self, _request: Any, response: Any) -> Any:

@@ -12,14 +12,15 @@ if TYPE_CHECKING:
 
     from rosbag2_transport.options import RecordOptions
 
-__all__ = ["TopicFilter", "check_patterns", "is_service_event", "pattern"]
+__all__ = ["EVENT_TOPIC", "TopicFilter", "check_patterns", "is_service_event", "pattern"]
 
-_EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
+#: How the topics of service introspection end.
+EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 
 
 def is_service_event(topic: str, type_name: str) -> bool:
     """Whether a topic carries the introspection events of a service."""
-    return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
+    return topic.endswith(EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
 
 
 def pattern(text: str) -> re.Pattern[str] | None:
@@ -96,7 +97,7 @@ class TopicFilter:
         if is_service_event(topic, types[0]):
             everything, listed = options.all_services, topic in options.services
             excluded = topic in options.exclude_service_events
-            name = topic.removesuffix(_EVENT_TOPIC)
+            name = topic.removesuffix(EVENT_TOPIC)
         else:
             everything = options.all_topics
             listed = topic in options.topics or types[0] in options.topic_types

@@ -25,8 +25,14 @@ LEAVES = [f"leaf{i:02d}" for i in range(13)]
 START = 1_700_000_000_000_000_000
 SECOND = 1_000_000_000
 
-#: Latched messages that the real one loses: those from before the offset.
-MENDED = {("offset", "/tf_static"): LEAVES, ("offset", "/latched"): ["early word", "late word"]}
+#: What differs on purpose, and why; see docs/compatibility.md.
+DEVIATIONS = json.loads((GOLDEN / "deviations.json").read_text())["mended faults"]
+#: All that is latched in the small bag, by the names under which it is played.
+ALL_LATCHED = {
+    "/tf_static": LEAVES,
+    "/moved_static": LEAVES,
+    "/latched": ["early word", "late word"],
+}
 
 
 def content(message):
@@ -69,13 +75,33 @@ def test_what_arrives_is_what_the_real_one_sends(peer, bag_verb, name):
     player = bag_verb("play", SMALL, *scene["options"])
     assert player.wait() == golden["exit"]
     expected = {
-        topic: MENDED.get((name, topic), [row[1] for row in golden["early"] if row[0] == topic])
+        topic: ALL_LATCHED[topic]
+        if f"play {name} {topic}" in DEVIATIONS
+        else [row[1] for row in golden["early"] if row[0] == topic]
         for topic in scene["listen"]
     }
     peer.wait_for(lambda: all(len(got[topic]) >= len(rows) for topic, rows in expected.items()))
     assert {topic: list(map(content, rows)) for topic, rows in got.items()} == expected
     assert log_of(player) == sorted(golden["log"])
     assert bool(clock) == bool(golden["clock"]["count"])
+
+
+def test_each_deviation_is_listed():
+    """Listeners get what is latched from before an offset, and late ones as much as early ones."""
+    found = set()
+    for name, scene in SCENES.items():
+        golden = json.loads((GOLDEN / "play" / f"{name}.json").read_text())
+        for topic in ALL_LATCHED.keys() & scene["listen"].keys():
+            early, late = (
+                [row[1] for row in golden[who] if row[0] == topic] for who in ("early", "late")
+            )
+            ours = ALL_LATCHED[topic] if name == "offset" else early
+            if ours != early:
+                found.add(f"play {name} {topic}")
+            expected = ours[: len(late)] if name == "loop" else ours  # which ended by itself
+            if not scene.get("calls") and late != expected:
+                found.add(f"play {name} late {topic}")
+    assert found == {each for each in DEVIATIONS if each.startswith("play ")}
 
 
 def test_services_answer_as_the_real_ones(peer, bag_verb):

@@ -11,7 +11,9 @@ from ros2cli.bag_options import (
     LOG_LEVEL,
     QOS_OVERRIDES,
     STORAGES,
+    absolute,
     custom_data,
+    event_topics,
     existing_file,
     qos_overrides,
 )
@@ -306,12 +308,12 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
         all_topics=args.all or args.all_topics,
         all_services=args.all or args.all_services,
         is_discovery_disabled=args.no_discovery,
-        topics=[_absolute(name) for name in args.topics],
+        topics=[absolute(name) for name in args.topics],
         topic_types=args.topic_types,
-        services=[_event_topic(name) for name in args.services],
-        exclude_topics=[_absolute(name) for name in args.exclude_topics],
+        services=event_topics(args.services),
+        exclude_topics=[absolute(name) for name in args.exclude_topics],
         exclude_topic_types=args.exclude_topic_types,
-        exclude_service_events=[_event_topic(name) for name in args.exclude_services],
+        exclude_service_events=event_topics(args.exclude_services),
         rmw_serialization_format=args.serialization_format,
         topic_polling_interval=timedelta(milliseconds=args.polling_interval),
         regex=args.regex,
@@ -329,12 +331,3 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
         use_sim_time=args.use_sim_time,
         disable_keyboard_controls=args.disable_keyboard_controls,
     )
-
-
-def _absolute(name: str) -> str:
-    """The name of a topic as the graph knows it; ROS 2 needs the slash."""
-    return name if name.startswith("/") else f"/{name}"
-
-
-def _event_topic(service: str) -> str:
-    return f"{_absolute(service)}/_service_event"
