@@ -251,8 +251,15 @@ a playback that begins at an offset, paused or after a seek loses the latched me
   rosbag2_transport/test_player.py test_what_arrives_is_what_the_real_one_sends test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
 one that joins a playback late gets the last ten messages of `/tf_static`
   rosbag2_transport/test_player.py test_one_that_joins_late_gets_all_static_transforms
-`ros2 bag play` says nothing of a topic in `--topics` that the bag does not have
+`ros2 bag play` says nothing of topics and services in its options that the bag does not have, nor why it plays nothing
   rosbag2_transport/test_golden_commands.py test_a_command
+  rosbag2_transport/test_play_options.py test_what_the_options_name_and_the_bag_does_not_have
+`ros2 bag record` waits in silence for topics that never appear
+  rosbag2_transport/test_record_options.py test_it_tells_once_what_it_waits_for
+a QoS override under which a recorder receives nothing is obeyed in silence
+  rosbag2_transport/test_record_options.py test_simulated_time_splits_compression_and_overrides
+Ctrl-C does not end `ros2 bag play --wait-for-all-acked 0` while a subscription stands still
+  rosbag2_transport/test_play_options.py test_a_listener_that_stands_still_does_not_hold_back_ctrl_c
 a recorder loses latched messages that come during a pause
   rosbag2_transport/test_recorder.py test_latched_messages_that_come_during_a_pause_are_kept
 a topic whose type is not installed is not recorded

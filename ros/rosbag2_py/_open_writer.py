@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 from typing import TYPE_CHECKING, Any
 
 from rclpy.logging import get_logger
@@ -17,15 +18,16 @@ __all__ = ["PRESETS", "make_writer"]
 
 _SMALLEST_SPLIT = {"mcap": 1024, "sqlite3": 86_016}
 
-#: What the presets of rosbag2's storages mean; nothing of sqlite3's is needed here.
+#: What the presets of MCAP mean.
 PRESETS: dict[str, dict[str, Any]] = {
     "": {},
     "none": {},
     "fastwrite": {"checksums": False},
     "zstd_fast": {"compression": "zstd", "level": -5, "checksums": False},
     "zstd_small": {"compression": "zstd", "level": 19, "chunk_bytes": 4 << 20},
-    "resilient": {},
 }
+#: Those of sqlite3: its files always survive a killed process.
+_SQLITE_PRESETS = ("", "none", "resilient")
 
 _MESSAGE_COMPRESSION = (
     "MCAP storage plugin does not support message compression, consider using chunk compression "
@@ -76,9 +78,16 @@ def make_writer(storage_options: StorageOptions, compression_mode: str) -> BagWr
         raise RuntimeError(
             f"Bag directory already exists ({storage_options.uri}), can't overwrite existing bag"
         ) from error
-    except (BagError, OSError) as error:
+    except OSError as error:
+        raise RuntimeError(f"cannot make the bag {storage_options.uri}: {error}") from error
+    except (BagError, sqlite3.Error) as error:
         raise RuntimeError(str(error)) from error
     if storage == "sqlite3":
+        if storage_options.storage_preset_profile not in _SQLITE_PRESETS:
+            get_logger("rosbag2_storage").warning(
+                f"sqlite3 has no preset profile '{storage_options.storage_preset_profile}', "
+                "which is ignored; it has none and resilient"
+            )
         path = os.path.join(storage_options.uri, os.path.basename(writer.file_path))
         get_logger("rosbag2_storage").info(f"Opened database '{path}' for READ_WRITE.")
     return writer
@@ -88,7 +97,7 @@ def _mcap_options(storage_options: StorageOptions) -> dict[str, Any]:
     preset = storage_options.storage_preset_profile
     if preset not in PRESETS:
         raise RuntimeError(
-            f"unknown storage preset profile '{preset}'; there are "
+            f"unknown MCAP storage preset profile '{preset}'; there are "
             f"{', '.join(name for name in PRESETS if name)}"
         )
     options = dict(PRESETS[preset])

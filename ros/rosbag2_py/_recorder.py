@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from rosbag2_py._compression_options import CompressionMode, compression_mode_from_string
@@ -10,7 +11,6 @@ from rosbag2_py._log_level import set_log_level
 from rosbag2_py._open_writer import make_writer
 from rosbag2_py._writer import get_registered_compressors
 from rosbag2_transport.record import record
-from rosbag2_transport.topic_filter import check_patterns
 
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
@@ -43,13 +43,12 @@ class Recorder:
             RuntimeError: The bag exists, the options do not fit, or the bag could not be written
                 any more.
         """
-        check_patterns(record_options)  # before there is a folder
-        writer = make_writer(storage_options, compression_mode_of(record_options))
+        mode = compression_mode_of(record_options)
         stop: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._running.add(stop)
         try:
             record(
-                writer,
+                partial(make_writer, storage_options, mode),
                 record_options,
                 stop,
                 node_name=node_name,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import sqlite3
 from dataclasses import fields
 from datetime import timedelta
 from typing import TYPE_CHECKING, Any
@@ -57,8 +58,12 @@ def bag_rewrite(input_options: Iterable[StorageOptions], output_config_file: str
     try:
         with contextlib.ExitStack() as stack:
             bags = [stack.enter_context(open_bag(options.uri)) for options in input_options]
-            rewrite(bags, [_output(options) for options in configurations])
-    except (BagError, OSError) as error:
+            outputs = []
+            for options in configurations:
+                outputs.append(_output(options))
+                stack.callback(outputs[-1].writer.close)  # also if the next one cannot be made
+            rewrite(bags, outputs)
+    except (BagError, OSError, sqlite3.Error) as error:
         raise RuntimeError(str(error)) from error
 
 

@@ -10,6 +10,7 @@ module                 what it holds
 `play`                 `ros2 bag play` from beginning to end, and its keys
 `recorder`             `Recorder`: subscribes, takes, pauses
 `recorder_services`    its services and its topic
+`recorder_notices`     what was asked for and is not there
 `recorder_qos`         which QoS receives from all publishers of a topic
 `topic_filter`         which topics are recorded or converted
 `player`               `Player`: time, order, and what pauses, seeks or ends it

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 from typing import TYPE_CHECKING
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["ProgressLine", "bytes_text", "time_text"]
 
 _REDRAW_SECONDS = 0.5
+_COLUMNS = 80
 _UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 
 
@@ -50,7 +52,8 @@ class ProgressLine:
 
     def _draw(self) -> None:
         while not self._ended.wait(_REDRAW_SECONDS):
-            self._print(self._text())
+            columns = os.get_terminal_size(sys.stderr.fileno()).columns or _COLUMNS
+            self._print(self._text()[: columns - 1])  # a line that wraps could not be replaced
 
     def _print(self, text: str) -> None:
         print(f"\r{text}\033[K\r", end="", file=sys.stderr, flush=True)  # noqa: T201

@@ -11,10 +11,13 @@ from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
 from rosbag2_transport.recorder import Recorder
 from rosbag2_transport.recorder_services import RecorderServices
 from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
+from rosbag2_transport.topic_filter import check_patterns
 from turtlewire.bag.recording import Recording
+from turtlewire.wire.names import validate_node_name
 
 if TYPE_CHECKING:
     import queue
+    from collections.abc import Callable
 
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag.writer import BagWriter
@@ -23,7 +26,7 @@ __all__ = ["record"]
 
 
 def record(
-    writer: BagWriter,
+    make_writer: Callable[[], BagWriter],
     options: RecordOptions,
     stop: queue.SimpleQueue[None],
     *,
@@ -34,7 +37,7 @@ def record(
     """Record until ``stop`` holds an item, SIGINT or SIGTERM comes, or the disk is full.
 
     Args:
-        writer: The bag; it is closed at the end.
+        make_writer: Makes the bag, which is closed at the end; called when all else is there.
         options: What is recorded.
         stop: Ends the recording.
         node_name: Name of the recorder's node.
@@ -42,25 +45,31 @@ def record(
         snapshot: Whether only snapshots are written.
 
     Raises:
-        RuntimeError: A pattern is no regular expression, or the bag could not be written any more.
+        RuntimeError: An option is wrong, or the bag could not be written any more.
     """
-    recording = Recording(
-        writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
-    )
-    failure: Exception | None = None
-    try:
-        name = options.node_prefix + node_name
-        with (
-            stopped_by_signals(stop),
-            Session(name, use_sim_time=options.use_sim_time) as session,
-        ):
-            _run(session, recording, writer, options, stop, snapshot)
-    finally:
+    check_patterns(options)
+    if snapshot and not cache_bytes:
+        raise RuntimeError("Max cache size must be greater than 0 when snapshot mode is enabled")
+    name = options.node_prefix + node_name
+    if fault := validate_node_name(name):
+        raise RuntimeError(f"'{name}' cannot be the name of a node: {fault.message}")
+    with (
+        stopped_by_signals(stop),  # first: an interrupt never leaves a bag without metadata
+        Session(name, use_sim_time=options.use_sim_time) as session,
+    ):
+        writer = make_writer()
+        recording = Recording(
+            writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
+        )
+        failure: Exception | None = None
         try:
-            recording.close()
-        except (OSError, sqlite3.Error) as error:
-            failure = error
-        _report_lost(recording)
+            _run(session, recording, writer, options, stop, snapshot)
+        finally:
+            try:
+                recording.close()
+            except (OSError, sqlite3.Error) as error:
+                failure = error
+            _report_lost(recording)
     failure = recording.failure or failure
     if failure is not None:
         raise RuntimeError(

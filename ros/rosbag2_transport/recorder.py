@@ -6,10 +6,13 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+from rclpy.clock import JumpThreshold
+from rclpy.duration import Duration
 from rclpy.logging import get_logger
-from rosbag2_transport.recorder_qos import misses, subscription_qos
+from rosbag2_transport.recorder_notices import missing
+from rosbag2_transport.recorder_qos import misses, refusal, subscription_qos
 from rosbag2_transport.topic_filter import TopicFilter
-from turtlewire.errors import InterfaceError
+from turtlewire.errors import InterfaceError, WireError
 from turtlewire.msg import type_hash
 from turtlewire.wire.base import Subscription, TypeId
 from turtlewire.wire.qos import Durability
@@ -17,6 +20,7 @@ from turtlewire.wire.qos import Durability
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from rclpy.clock import TimeJump
     from rclpy.node import Node
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag.recording import Recording
@@ -55,6 +59,7 @@ class Recorder:
         self._wait_set = node.context.wire.create_wait_set()
         self._subscriptions: dict[str, Subscription] = {}
         self._requested: dict[str, QoS] = {}
+        self._refused: set[str] = set()
         self._known_publishers: set[bytes] = set()
         self._latched: list[tuple[str, bytes, int]] = []
         self._lock = threading.Lock()  # guards the pause and what waits for its end
@@ -76,10 +81,22 @@ class Recorder:
 
     def start(self) -> None:
         """Begin to look for topics and to take their messages."""
+        if self._options.use_sim_time:
+            self._logger.info("use_sim_time set, waiting for /clock before starting recording...")
+            self._clock_start = self._node.get_clock().create_jump_callback(
+                JumpThreshold(
+                    min_forward=Duration(nanoseconds=1), min_backward=None, on_clock_change=False
+                ),
+                post_callback=self._say_that_the_clock_runs,
+            )
         self._remove_listener = self._graph.add_listener(self._graph_changed.set)
         self._graph_changed.set()
         self._seeker.start()
         self._taker.start()
+
+    def _say_that_the_clock_runs(self, _jump: TimeJump) -> None:
+        self._clock_start.unregister()
+        self._logger.info("Sim time /clock found, starting recording.")
 
     def stop(self) -> None:
         """Stop recording; what has arrived is handed to the bag first."""
@@ -119,6 +136,9 @@ class Recorder:
 
     def _seek(self) -> None:
         self._graph.wait_for(self._is_settled, _DISCOVERY_NS)
+        self._subscribe_to_new()
+        for text in missing(self._options, self._graph, self._subscriptions.keys()):
+            self._logger.warning(text)
         while not self._stopped.is_set():
             self._graph_changed.clear()
             self._subscribe_to_new()
@@ -155,7 +175,9 @@ class Recorder:
             there = publishers.get(topic, [])
             if topic in self._subscriptions:
                 self._look_at_new_publishers(topic, there)
-            elif self._filter.takes(topic, types, published=bool(there), heard=topic in heard):
+            elif topic not in self._refused and self._filter.takes(
+                topic, types, published=bool(there), heard=topic in heard
+            ):
                 self._subscribe(topic, types[0], there)
 
     def _look_at_new_publishers(self, topic: str, publishers: list[EndpointInfo]) -> None:
@@ -167,24 +189,43 @@ class Recorder:
 
     def _subscribe(self, topic: str, type_name: str, publishers: list[EndpointInfo]) -> None:
         offered = [publisher.qos for publisher in publishers]
-        override = self._options.topic_qos_profile_overrides.get(topic)
-        if override is not None:
-            self._logger.info(f"Overriding subscription profile for {topic}")
-            qos = override.to_wire()
-        else:
-            qos, warnings = subscription_qos(topic, offered)
-            for warning in warnings:
-                get_logger("rosbag2_storage").warning(warning)
+        qos = self._qos(topic, offered)
         their_hash = next((each.type_hash for each in publishers if each.type_hash), "")
-        hash_of_type = their_hash or _known_hash(type_name)
-        self._recording.add_topic(topic, type_name, qos=offered, hash_of_type=hash_of_type)
+        known_hash = _known_hash(type_name)
+        type_id = TypeId(type_name, their_hash or known_hash)
+        try:
+            subscription = self._node._rclpy_wire.create_subscription(topic, type_id, qos)
+        except WireError as error:
+            self._refused.add(topic)
+            self._logger.error(f"Topic '{topic}' cannot be recorded: {error}")  # noqa: TRY400
+            return
+        self._recording.add_topic(topic, type_name, qos=offered, hash_of_type=type_id.type_hash)
         self._known_publishers.update(publisher.gid for publisher in publishers)
         self._requested[topic] = qos
-        wire = self._node._rclpy_wire
-        subscription = wire.create_subscription(topic, TypeId(type_name, hash_of_type), qos)
         self._subscriptions[topic] = subscription
         self._wait_set.attach(subscription)
         self._logger.info(f"Subscribed to topic '{topic}'")
+        if not known_hash:
+            self._logger.warning(
+                f"The type {type_name} of topic '{topic}' is not installed: its messages are "
+                "recorded without a definition"
+            )
+
+    def _qos(self, topic: str, offered: list[QoS]) -> QoS:
+        """With which QoS to subscribe; warns of messages that are lost by it."""
+        override = self._options.topic_qos_profile_overrides.get(topic)
+        if override is None:
+            qos, warnings = subscription_qos(topic, offered)
+            for warning in warnings:
+                get_logger("rosbag2_storage").warning(warning)
+            return qos
+        self._logger.info(f"Overriding subscription profile for {topic}")
+        if why := refusal(override, offered):
+            self._logger.warning(
+                f"The QoS override for '{topic}' does not fit a publisher, of which nothing is "
+                f"recorded. {why}"
+            )
+        return override.to_wire()
 
     def _complain(self, severity: str, text: str) -> None:
         logger = self._logger

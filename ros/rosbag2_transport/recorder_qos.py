@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 from turtlewire.wire.qos import Durability, History, QoS, Reliability
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-__all__ = ["misses", "subscription_qos"]
+__all__ = ["misses", "refusal", "subscription_qos"]
 
 #: How many messages of a topic may wait for the recorder. rosbag2 takes rmw's default of 10, which
 #: loses messages of a fast topic when the computer is busy for a moment; peers do not see it.
@@ -79,3 +80,12 @@ def misses(topic: str, requested: QoS, offered: QoS) -> str | None:
     ):
         return _NEW.format(topic=topic, **_RELIABLE)
     return None
+
+
+def refusal(requested: QoSProfile, offered: Iterable[QoS]) -> str:
+    """Why a publisher does not send to a subscription; empty if all do."""
+    for qos in offered:
+        found = qos_check_compatible(QoSProfile.from_wire(qos), requested)
+        if found.compatibility == QoSCompatibility.ERROR:
+            return found.reason
+    return ""

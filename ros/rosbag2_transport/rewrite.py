@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import heapq
+import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
-from rosbag2_transport.progress import ProgressLine
+from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
 
 if TYPE_CHECKING:
@@ -48,14 +49,15 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
         BagError: A topic has different types, or a bag is damaged; what can be read is written.
         OSError: The disk is full, for example.
     """
-    chosen = [_add_topics(inputs, output) for output in outputs]
-    wanted = set().union(*chosen)
-    streams = [bag.messages([name for name in bag.topics if name in wanted]) for bag in inputs]
-    recorded = (topic for bag in inputs for topic in bag.metadata.topics)
-    expected = sum(topic.message_count for topic in recorded if topic.name in wanted)
     done = 0
+    started = time.monotonic()
     try:
-        with ProgressLine(lambda: f"converting: {done / (expected or 1):4.0%}"):
+        chosen = [_add_topics(inputs, output) for output in outputs]
+        wanted = set().union(*chosen)
+        streams = [bag.messages([name for name in bag.topics if name in wanted]) for bag in inputs]
+        recorded = (topic for bag in inputs for topic in bag.metadata.topics)
+        expected = sum(topic.message_count for topic in recorded if topic.name in wanted)
+        with ProgressLine(lambda: _progress(done, expected, time.monotonic() - started)):
             for message in heapq.merge(*streams, key=_log_time):
                 for output, topics in zip(outputs, chosen, strict=True):
                     if message.topic in topics and _is_in_time(output, message.log_time_ns):
@@ -64,6 +66,13 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
     finally:
         for output in outputs:
             output.writer.close()
+
+
+def _progress(done: int, expected: int, seconds: float) -> str:
+    if not done or not expected:
+        return "converting"
+    share = min(1.0, done / expected)
+    return f"converting: {share:4.0%}, {time_text(seconds * (1 - share) / share)} left"
 
 
 def _add_topics(inputs: Sequence[Bag], output: Output) -> set[str]:

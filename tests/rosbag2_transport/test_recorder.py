@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import signal
 import sys
 import threading
@@ -63,17 +64,47 @@ def test_everything_is_recorded_in_order(peer, bag_verb, tmp_path, storage):
         assert recorder.text.count(line) == 1
 
 
-def test_after_kill_9_reindex_makes_a_bag(peer, bag_verb, tmp_path):
+def test_after_kill_9_at_any_moment_reindex_makes_a_bag(peer, bag_verb, tmp_path):
     publisher = peer.publisher("/numbers")
-    recorder = bag_verb("record", "-o", "out", "-a", "--disable-keyboard-controls")
-    publish(peer.heard(publisher))
-    wait_until_written(tmp_path / "out", "/numbers", len(NAMES))
-    recorder.signal_group(signal.SIGKILL)
-    recorder.wait()
-    assert not (tmp_path / "out" / "metadata.yaml").exists()
-    reindex(tmp_path / "out")
-    assert (tmp_path / "out" / "metadata.yaml").exists()
-    assert texts(tmp_path / "out", "/numbers") == NAMES
+    storages = ("mcap", "sqlite3")
+    recorders = [
+        bag_verb(
+            *("record", "-o", storage, "-s", storage, "-b", "90000", "--topics", "/numbers"),
+            *("--disable-keyboard-controls", "--node-name", f"recorder_{storage}"),
+        )
+        for storage in storages
+    ]
+    peer.heard(publisher, by=2)
+    ended = threading.Event()
+    stream = threading.Thread(target=count_until, args=(publisher, ended))
+    stream.start()
+    try:
+        for storage, recorder in zip(storages, recorders, strict=True):
+            moment = random.randrange(1, 1000)
+            wait_until_written(tmp_path / storage, "/numbers", moment)
+            before = texts(tmp_path / storage, "/numbers")
+            recorder.signal_group(signal.SIGKILL)
+            recorder.wait()
+            assert not (tmp_path / storage / "metadata.yaml").exists()
+            reindex(tmp_path / storage)
+            assert (tmp_path / storage / "metadata.yaml").exists()
+            found = texts(tmp_path / storage, "/numbers")
+            assert found[: len(before)] == before
+            first = int(before[0].split()[0])
+            assert [int(text.split()[0]) for text in found] == [
+                first + i for i in range(len(found))
+            ]
+    finally:
+        ended.set()
+        stream.join()
+
+
+def count_until(publisher, ended):
+    """Publish a thousand messages of different sizes in a second."""
+    number = 0
+    while not ended.wait(0.001):
+        publish(publisher, [f"{number} {'x' * (number % 7 * 50)}"])
+        number += 1
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there a file's size cannot be limited")

@@ -122,7 +122,10 @@ class Recording:
     def add_topic(self, *args: Any, **options: Any) -> None:
         """Add a topic; see `BagWriter.add_topic`."""
         with self._disk:
-            self._writer.add_topic(*args, **options)
+            try:
+                self._writer.add_topic(*args, **options)
+            except (OSError, sqlite3.Error) as error:
+                self._fail(error)
 
     def take_snapshot(self) -> bool:
         """Write what is kept now; returns whether it is in the file."""
