@@ -22,7 +22,7 @@ module                                      what it holds
 `publisher`, `subscription`                 endpoints of topics
 `client`, `service`                         endpoints of services
 `timer`, `guard_condition`                  timers; wake-ups by hand
-`waitable`, `handle`                        entities of programs; handles of all entities
+`waitable`, `handle`, `destroyable`         entities of programs; handles of all entities
 `action`, `lifecycle`                       action clients and servers; lifecycle nodes
 `callback_groups`, `task`                   which callbacks may run together; futures and coroutines
 `clock`, `clock_type`, `time`, `duration`   clocks, times and durations
@@ -35,6 +35,7 @@ module                                      what it holds
 `qos_compatibility`                         whether two profiles match
 `qos_overriding_options`                    QoS set by parameters
 `event_handler`                             events: incompatible QoS, deadlines, matches
+`qos_event`                                 the former name of `event_handler`
 `topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
 `logging`, `impl`                           loggers; their outputs, formats and filters
 `logging_service`                           the services of a node's log levels
@@ -77,17 +78,24 @@ if TYPE_CHECKING:
     from .task import Future
 
 __all__ = [
+    "Context",
+    "Future",
     "InitContextManager",
+    "Parameter",
+    "SignalHandlerOptions",
     "create_node",
     "get_default_context",
     "get_global_executor",
+    "get_rmw_implementation_identifier",
     "init",
+    "install_signal_handlers",
     "ok",
     "shutdown",
     "spin",
     "spin_once",
     "spin_until_future_complete",
     "try_shutdown",
+    "uninstall_signal_handlers",
 ]
 
 _global_executor: Executor | None = None

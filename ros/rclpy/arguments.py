@@ -148,7 +148,10 @@ class Arguments:
         Raises:
             RCLError: A rule is malformed.
             UnknownROSArgsError: A block holds something that is no flag.
+            UnicodeEncodeError: An argument holds bytes that are not UTF-8.
         """
+        for argument in argv:
+            argument.encode()
         try:
             return cls.parse(argv)
         except RCLInvalidROSArgsError as error:

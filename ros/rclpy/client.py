@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Generic
+from typing import TYPE_CHECKING, Any, Generic, overload
 
 from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
@@ -101,35 +101,57 @@ class Client(IntrospectedEndpoint, Generic[SrvT_co]):
                 raise
             raise RCLError("failed to send request: client's context is invalid") from None
 
+    @overload
+    def call(
+        self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT, timeout_sec: None = ...
+    ) -> ResponseT: ...
+
+    @overload
+    def call(
+        self: Client[ServiceClass[RequestT, ResponseT]], request: RequestT, timeout_sec: float
+    ) -> ResponseT | None: ...
+
     def call(
         self: Client[ServiceClass[RequestT, ResponseT]],
         request: RequestT,
         timeout_sec: float | None = None,
-    ) -> ResponseT:
+    ) -> ResponseT | None:
         """Send a request and block until its response is here.
 
         Another thread may spin the node; in a callback of the executor itself only responses are
         served meanwhile, nothing else.
 
+        Returns:
+            The response; None if none came within ``timeout_sec``.
+
         Raises:
             TypeError: ``request`` is not a ``srv_type.Request``.
-            TimeoutError: No response came within ``timeout_sec``.
             RuntimeError: The service is in the executor that is blocked by this call: it could
                 never answer.
             ExternalShutdownException, ShutdownException: The context or the executor was shut down.
         """
         return self._block_for(self.call_async(request), timeout_sec)
 
-    def _block_for(self, future: Future[T], timeout_sec: float | None) -> T:
-        """Block until ``future``, which follows from a request of this client, is done."""
+    def _block_for(self, future: Future[T], timeout_sec: float | None) -> T | None:
+        """Block until ``future``, which follows from a request of this client, is done.
+
+        Returns:
+            Its result; None when the time was over before.
+        """
         try:
             call = Call(self._wire.service, self._context, self._logger, self._serving_host())
-            return wait_for_response(future, call, timeout_sec)
+            wait_for_response(future, call, timeout_sec)
         finally:
             self.remove_pending_request(future)
+        return future.result() if future.done() else None
 
     def _awaits(self, service: str) -> bool:
         return bool(self._pending) and self._wire.service == service
+
+    def get_pending_request(self, sequence_number: int) -> Future[Any]:
+        """The future of a request that is not answered yet; KeyError if there is none."""
+        with self._lock:
+            return self._pending[sequence_number]
 
     def remove_pending_request(self, future: Future) -> None:
         """Forget a request: its response will be ignored."""

@@ -154,9 +154,9 @@ class JumpHandle:
 
     def __exit__(
         self,
-        exc_type: type[BaseException] | None,
-        exc: BaseException | None,
-        traceback: TracebackType | None,
+        t: type[BaseException] | None,
+        v: BaseException | None,
+        tb: TracebackType | None,
     ) -> None:
         self.unregister()
 

@@ -39,7 +39,7 @@ class _Scheduler(Protocol):
 class Context:
     """Participates in a domain between :meth:`init` and :meth:`shutdown`.
 
-    Thread-safe; also a context manager.
+    Thread-safe. ``with Context() as context:`` calls :meth:`init`, and shuts down at the end.
 
     A signal shuts a context down as well, but leaves the middleware open until :meth:`shutdown` or
     the end of the process, so that the program can still say goodbye; the one :meth:`shutdown` that
@@ -74,6 +74,7 @@ class Context:
         Raises:
             RuntimeError: It was initialized before, or the domain id is negative.
             UnknownROSArgsError, RCLInvalidROSArgsError: The command line is wrong.
+            UnicodeEncodeError: It is not UTF-8.
         """
         from turtlewire.wire import open_context
 
@@ -248,7 +249,12 @@ class Context:
                 return
         callback()
 
+    def destroy(self) -> None:
+        """Shut it down unless that has happened, and close the middleware. Idempotent."""
+        self.try_shutdown()
+
     def __enter__(self) -> Self:
+        self.init()
         return self
 
     def __exit__(

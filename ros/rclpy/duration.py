@@ -9,7 +9,7 @@ from .constants import S_TO_NS
 if TYPE_CHECKING:
     import builtin_interfaces.msg
 
-__all__ = ["Duration", "Infinite"]
+__all__ = ["S_TO_NS", "Duration", "Infinite"]
 
 
 class Duration:

@@ -6,14 +6,16 @@ What a program can be told of, and ROS 2's default warnings about endpoints that
 from __future__ import annotations
 
 from enum import IntEnum
+from types import CoroutineType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import WireError
 from turtlewire.wire.base import EventKind, EventStatus
 
-from ._execution.entity import Entity, Host, Work
+from ._execution.entity import Entity, Host
 from ._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
 from .qos import qos_policy_name_from_kind
+from .waitable import NumberOfEntities, Waitable, WaitSet
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,6 +31,7 @@ __all__ = [
     "PublisherEventCallbacks",
     "QoSDeadlineOfferedInfo",
     "QoSDeadlineRequestedInfo",
+    "QoSEventHandler",
     "QoSLivelinessChangedInfo",
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
@@ -142,30 +145,12 @@ _INFOS: dict[EventKind, Callable[[EventStatus], Any]] = {
 }
 
 
-class EventHandler(Entity):
-    """Calls ``callback(info)`` on the executor when the event happened.
+class _Event(Entity):
+    """An event of the middleware, as the part of a waitable."""
 
-    Raises:
-        UnsupportedEventTypeError: The middleware cannot report it.
-    """
-
-    _ORDER = -1
-
-    def __init__(
-        self,
-        *,
-        callback_group: CallbackGroup,
-        callback: Callable[[Any], Any],
-        event_type: EventKind,
-        endpoint: base.Publisher | base.Subscription,
-    ) -> None:
-        super().__init__(callback_group)
-        self.callback = callback
-        self.event_type = event_type
-        try:
-            self._wire = endpoint.create_event(event_type)
-        except WireError as error:
-            raise UnsupportedEventTypeError(str(error)) from error
+    def __init__(self, wire: base.Event) -> None:
+        super().__init__(None)
+        self._wire = wire
 
     def _attach(self, host: Host) -> None:
         host.wait.watch(self._wire, self)
@@ -173,12 +158,85 @@ class EventHandler(Entity):
     def _detach(self, host: Host) -> None:
         host.wait.unwatch(self._wire)
 
-    def _take(self) -> Work | None:
-        status = self._wire.take()
-        return None if status is None else (self.callback, (_INFOS[self.event_type](status),))
+    def _take(self) -> None:
+        """The handler takes it."""
 
     def _close(self) -> None:
         self._wire.close()
+
+
+class EventHandler(Waitable):
+    """Calls ``callback(info)`` on the executor when the event happened.
+
+    Args:
+        callback_group: Of the callback.
+        callback: What to call.
+        event_type: Which event.
+        parent_impl: The middleware's side of the publisher or subscription.
+
+    Raises:
+        UnsupportedEventTypeError: The middleware cannot report it.
+    """
+
+    def __init__(
+        self,
+        *,
+        callback_group: CallbackGroup,
+        callback: Callable[[Any], Any],
+        event_type: EventKind,
+        parent_impl: base.Publisher | base.Subscription,
+    ) -> None:
+        super().__init__(callback_group)
+        self.callback = callback
+        self.event_type = event_type
+        try:
+            self._event = parent_impl.create_event(event_type)
+        except WireError as error:
+            raise UnsupportedEventTypeError(str(error)) from error
+        self._part = _Event(self._event)
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """One event."""
+        return NumberOfEntities(num_events=1)
+
+    def add_to_wait_set(self, wait_set: WaitSet) -> None:
+        """Wait for the event."""
+        self._index = wait_set.add_event(self._part)
+
+    def is_ready(self, wait_set: WaitSet) -> bool:
+        """Whether the event has happened."""
+        return wait_set.is_ready("event", self._index)
+
+    def take_data(self) -> Any:
+        """What is known of the event; None if there was none after all."""
+        status = self._event.take()
+        return None if status is None else _INFOS[self.event_type](status)
+
+    async def execute(self, taken_data: Any) -> None:
+        """Call the callback."""
+        if taken_data is None:
+            return
+        outcome = self.callback(taken_data)
+        if isinstance(outcome, CoroutineType):
+            await outcome
+
+    def _close(self) -> None:
+        self._part.destroy()
+        super()._close()
+
+
+class QoSEventHandler(EventHandler):
+    """The former name of :class:`EventHandler`, of which making one warns."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        import warnings
+
+        warnings.warn(
+            "QoSEventHandler is deprecated, use EventHandler instead",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        super().__init__(*args, **kwargs)
 
 
 class _EventCallbacks:
@@ -215,7 +273,10 @@ class _EventCallbacks:
             wanted[EventKind.INCOMPATIBLE_QOS] = self._warn_of_incompatible_qos(topic_name, logger)
         return [
             EventHandler(
-                callback_group=callback_group, callback=callback, event_type=kind, endpoint=endpoint
+                callback_group=callback_group,
+                callback=callback,
+                event_type=kind,
+                parent_impl=endpoint,
             )
             for kind, callback in wanted.items()
             if callback is not None

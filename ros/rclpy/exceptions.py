@@ -41,9 +41,9 @@ __all__ = [
 class NotInitializedException(Exception):
     """Something needs ``rclpy.init()`` first."""
 
-    def __init__(self, msg: str | None = None) -> None:
+    def __init__(self, message: str | None = None) -> None:
         text = "rclpy.init() has not been called"
-        super().__init__(f"{text}. msg:{msg}" if msg else text)
+        super().__init__(f"{text}. msg:{message}" if message else text)
 
 
 class NoTypeSupportImportedException(Exception):
@@ -132,8 +132,8 @@ class ParameterAlreadyDeclaredException(ParameterException):
 class InvalidParameterException(ParameterException):
     """A parameter has an impossible name."""
 
-    def __init__(self, parameter: Any, *args: object) -> None:
-        super().__init__("Invalid parameter name", parameter, *args)
+    def __init__(self, parameter_name: Any, *args: object) -> None:
+        super().__init__("Invalid parameter name", parameter_name, *args)
 
 
 class InvalidParameterTypeException(ParameterException):
@@ -166,15 +166,15 @@ class InvalidParameterValueException(ParameterException):
 class ParameterImmutableException(ParameterException):
     """A read-only parameter is to be changed."""
 
-    def __init__(self, parameter: Any, *args: object) -> None:
-        super().__init__("Attempted to modify read-only parameter", parameter, *args)
+    def __init__(self, parameter_name: Any, *args: object) -> None:
+        super().__init__("Attempted to modify read-only parameter", parameter_name, *args)
 
 
 class ParameterUninitializedException(ParameterException):
     """A parameter that was declared with a type alone is read before it has a value."""
 
-    def __init__(self, parameter: Any, *args: object) -> None:
-        super().__init__("The parameter is not initialized", parameter, *args)
+    def __init__(self, parameter_name: Any, *args: object) -> None:
+        super().__init__("The parameter is not initialized", parameter_name, *args)
 
 
 class ROSInterruptException(Exception):

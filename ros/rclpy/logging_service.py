@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from . import logging
 from .qos import qos_profile_services_default
+from .validate_topic_name import TOPIC_SEPARATOR_STRING
 
 if TYPE_CHECKING:
     from ._node.views import ServiceOwner
 
-__all__ = ["LoggingService"]
+__all__ = ["TOPIC_SEPARATOR_STRING", "LoggingService"]
 
 
 class LoggingService:
@@ -25,7 +26,7 @@ class LoggingService:
         ):
             node.create_service(
                 service_type,
-                f"{node.get_name()}/{name}",
+                TOPIC_SEPARATOR_STRING.join((node.get_name(), name)),
                 callback,
                 qos_profile=qos_profile_services_default,
             )
@@ -46,7 +47,8 @@ class LoggingService:
             result = SetLoggerLevelsResult(successful=True)
             try:
                 logging.set_logger_level(level.name, level.level)
-            except ValueError as error:
-                result = SetLoggerLevelsResult(successful=False, reason=str(error))
+            except ValueError:
+                reason = "Failed reason: Invalid logger level."
+                result = SetLoggerLevelsResult(successful=False, reason=reason)
             response.results.append(result)
         return response

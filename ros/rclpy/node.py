@@ -28,6 +28,7 @@ from .exceptions import InvalidNamespaceException, InvalidNodeNameException, Not
 from .guard_condition import GuardCondition
 from .handle import Handle
 from .hints import with_hint
+from .parameter import PARAMETER_SEPARATOR_STRING
 from .parameter_service import ParameterService
 from .publisher import Publisher
 from .qos import qos_profile_parameter_events, qos_profile_services_default
@@ -59,8 +60,13 @@ if TYPE_CHECKING:
     from .topic_endpoint_info import TopicEndpointInfo
     from .waitable import Waitable
 
-__all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError", "component_arguments"]
-
+__all__ = [
+    "HIDDEN_NODE_PREFIX",
+    "PARAMETER_SEPARATOR_STRING",
+    "Node",
+    "NodeNameNonExistentError",
+    "component_arguments",
+]
 
 #: Command line for the next node of this thread, whose class need not know that it is loaded as a
 #: component.
@@ -138,7 +144,7 @@ class Node:
         self._logger = core.logger
         self._clock = ROSClock()
         self._rclpy_endpoints = NodeEndpoints(core)
-        self.__graph = NodeGraph(core, self._rclpy_endpoints)
+        self.__graph = NodeGraph(core)
         self._parameters = NodeParameters(
             node_fqn=core.full_name,
             overrides=arguments.parameter_overrides(core.full_name),
@@ -738,7 +744,7 @@ class Node:
         return self.__graph.services_by_node("client", node_name, node_namespace)
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many publishers a topic has."""
+        """How many publishers a topic has; ValueError for an impossible name, as below."""
         return self.__graph.count_topic("publisher", topic_name)
 
     def count_subscribers(self, topic_name: str) -> int:

@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from .parameter import Parameter, parameter_dict_from_yaml_file
-from .qos import QoSProfile, qos_profile_services_default
+from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
     from .callback_groups import CallbackGroup
     from .client import Client
+    from .event_handler import SubscriptionEventCallbacks
     from .node import Node
+    from .qos_overriding_options import QoSOverridingOptions
+    from .subscription import Subscription
     from .task import Future
 
 __all__ = ["AsyncParameterClient"]
@@ -192,6 +195,34 @@ class AsyncParameterClient:
         """Set all of what a YAML file says or nothing."""
         return self.set_parameters_atomically(
             list(parameter_dict_from_yaml_file(parameter_file, use_wildcard).values()), callback
+        )
+
+    def on_parameter_event(
+        self,
+        callback: Callable[[rcl_interfaces.msg.ParameterEvent], None],
+        qos_profile: QoSProfile | int = qos_profile_parameter_events,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
+    ) -> Subscription[rcl_interfaces.msg.ParameterEvent]:
+        """Have ``callback`` called with the parameter events of all nodes.
+
+        The arguments are those of :meth:`rclpy.node.Node.create_subscription`, and so is what is
+        returned; the events of other nodes than ``remote_node_name`` come, too.
+        """
+        from rcl_interfaces.msg import ParameterEvent
+
+        return self.node.create_subscription(
+            ParameterEvent,
+            "/parameter_events",
+            callback,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
         )
 
 

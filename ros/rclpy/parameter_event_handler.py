@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
 
@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     import rcl_interfaces.msg
     from rcl_interfaces.msg import ParameterEvent
 
+    from .callback_groups import CallbackGroup
+    from .event_handler import SubscriptionEventCallbacks
     from .node import Node
+    from .qos_overriding_options import QoSOverridingOptions
 
 __all__ = ["ParameterCallbackHandle", "ParameterEventCallbackHandle", "ParameterEventHandler"]
 
@@ -53,10 +56,23 @@ class ParameterEventHandler:
 
     Args:
         node: The node that subscribes.
-        qos_profile: Of the subscription.
+        qos_profile: Of the subscription, as the others.
+        callback_group: See :meth:`rclpy.node.Node.create_subscription`, as for the others.
+        event_callbacks: Called on events of the quality of service.
+        qos_overriding_options: Which policies parameters may override.
+        raw: Whether event callbacks get the serialized bytes; then there are no parameter
+            callbacks.
     """
 
-    def __init__(self, node: Node, qos_profile: QoSProfile = qos_profile_parameter_events) -> None:
+    def __init__(
+        self,
+        node: Node,
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
+        raw: bool = False,
+    ) -> None:
         from rcl_interfaces.msg import ParameterEvent
 
         self.node = node
@@ -64,7 +80,14 @@ class ParameterEventHandler:
         self._parameter_callbacks: list[ParameterCallbackHandle] = []
         self._event_callbacks: list[ParameterEventCallbackHandle] = []
         self.parameter_event_subscription = node.create_subscription(
-            ParameterEvent, "/parameter_events", self._on_event, qos_profile
+            ParameterEvent,
+            "/parameter_events",
+            self._on_event,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
         )
 
     def destroy(self) -> None:
@@ -146,8 +169,9 @@ class ParameterEventHandler:
             else names.fully_qualified_node_name(node_name, self.node.get_namespace())
         )
 
-    def _on_event(self, event: ParameterEvent) -> None:
-        for handle in list(self._parameter_callbacks):
+    def _on_event(self, event: Any) -> None:  # bytes if they are raw
+        parameter_callbacks = () if isinstance(event, bytes) else tuple(self._parameter_callbacks)
+        for handle in parameter_callbacks:
             parameter = self.get_parameter_from_event(
                 event, handle.parameter_name, handle.node_name
             )

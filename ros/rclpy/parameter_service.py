@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from .parameter import Parameter
 from .qos import qos_profile_parameters
+from .validate_topic_name import TOPIC_SEPARATOR_STRING
 
 if TYPE_CHECKING:
     import rcl_interfaces.msg
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from ._node.views import ParameterOwner
 
-__all__ = ["ParameterService"]
+__all__ = ["TOPIC_SEPARATOR_STRING", "ParameterService"]
 
 
 class ParameterService:
@@ -39,7 +40,7 @@ class ParameterService:
         ):
             node.create_service(
                 service_type,
-                f"{node.get_name()}/{name}",
+                TOPIC_SEPARATOR_STRING.join((node.get_name(), name)),
                 callback,
                 qos_profile=qos_profile_parameters,
             )

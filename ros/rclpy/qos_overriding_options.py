@@ -79,8 +79,8 @@ class QoSOverridingOptions:
 
 
 def __getattr__(name: str) -> Any:
-    """``QoSCallbackResult`` names a message class, which is made when it is asked for."""
-    if name != "QoSCallbackResult":
+    """``QosCallbackResult`` names a message class, which is made when it is asked for."""
+    if name != "QosCallbackResult":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from rcl_interfaces.msg import SetParametersResult
 

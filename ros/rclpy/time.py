@@ -11,7 +11,7 @@ from .duration import Duration
 if TYPE_CHECKING:
     import builtin_interfaces.msg
 
-__all__ = ["Time"]
+__all__ = ["S_TO_NS", "Time"]
 
 
 class Time:

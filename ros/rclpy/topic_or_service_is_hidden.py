@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-__all__ = ["topic_or_service_is_hidden"]
+from .validate_topic_name import TOPIC_SEPARATOR_STRING
 
-_HIDDEN_PREFIX = "_"
+__all__ = ["HIDDEN_TOPIC_PREFIX", "topic_or_service_is_hidden"]
+
+#: A part of a hidden name begins so.
+HIDDEN_TOPIC_PREFIX = "_"
 
 
 def topic_or_service_is_hidden(name: str) -> bool:
     """Whether a part of the name begins with an underscore, as in ``/fibonacci/_action/status``."""
-    return any(token.startswith(_HIDDEN_PREFIX) for token in name.split("/"))
+    return any(
+        token.startswith(HIDDEN_TOPIC_PREFIX) for token in name.split(TOPIC_SEPARATOR_STRING)
+    )

@@ -8,13 +8,19 @@ from turtlewire import msg
 from turtlewire.errors import InterfaceError
 
 from .qos import qos_profile_services_default
+from .validate_topic_name import TOPIC_SEPARATOR_STRING
 
 if TYPE_CHECKING:
     from type_description_interfaces.msg import IndividualTypeDescription, TypeSource
 
     from ._node.views import ParameterOwner
+    from .service import Service
 
-__all__ = ["START_TYPE_DESCRIPTION_SERVICE_PARAM", "TypeDescriptionService"]
+__all__ = [
+    "START_TYPE_DESCRIPTION_SERVICE_PARAM",
+    "TOPIC_SEPARATOR_STRING",
+    "TypeDescriptionService",
+]
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
@@ -23,6 +29,7 @@ class TypeDescriptionService:
     """Serves ``~/get_type_description``, unless the parameter that it declares is false."""
 
     def __init__(self, node: ParameterOwner) -> None:
+        self._service: Service[Any] | None = None
         if not node.has_parameter(START_TYPE_DESCRIPTION_SERVICE_PARAM):
             from rcl_interfaces.msg import ParameterDescriptor
 
@@ -34,13 +41,17 @@ class TypeDescriptionService:
             return
         from type_description_interfaces.srv import GetTypeDescription
 
-        name = f"{node.get_name()}/get_type_description"
-        node.create_service(
+        self._service = node.create_service(
             GetTypeDescription,
-            name,
+            TOPIC_SEPARATOR_STRING.join((node.get_name(), "get_type_description")),
             self._get_type_description,
             qos_profile=qos_profile_services_default,
         )
+
+    def destroy(self) -> None:
+        """Serve it no longer. Idempotent."""
+        if self._service is not None:
+            self._service.destroy()
 
     def _get_type_description(self, request: Any, response: Any) -> Any:
         from turtlewire.msg.type_hash import referenced_types

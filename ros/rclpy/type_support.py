@@ -7,6 +7,7 @@ from typing import Any
 from turtlewire import msg
 from turtlewire.wire.base import TypeId
 
+from .exceptions import NoTypeSupportImportedException
 from .hints import described, with_hint
 
 __all__ = [
@@ -28,10 +29,17 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
 
     Raises:
         AttributeError: It is not; the text is ROS 2's.
+        NoTypeSupportImportedException: ROS 2's own code generator made it, for its C libraries.
     """
     if not isinstance(msg_or_srv_type, type) or not issubclass(
         msg_or_srv_type, (msg.Message, msg.Service, msg.Action)
     ):
+        if hasattr(type(msg_or_srv_type), "_TYPE_SUPPORT"):
+            raise with_hint(
+                NoTypeSupportImportedException(),
+                f"{described(msg_or_srv_type)} comes from another ROS 2 installation; take that "
+                "path out of PYTHONPATH, or build the package of its definition here",
+            )
         kind = type(msg_or_srv_type).__name__
         error = AttributeError(
             f"type object '{kind}' has no attribute '_TYPE_SUPPORT'{_ROS_1_HINT}"

@@ -5,10 +5,14 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
+from .constants import S_TO_NS
+
 if TYPE_CHECKING:
     from .context import Context
 
 __all__ = [
+    "S_TO_NS",
+    "g_default_context",
     "get_available_rmw_implementations",
     "get_default_context",
     "get_rmw_implementation_identifier",
@@ -19,7 +23,7 @@ __all__ = [
     "try_shutdown",
 ]
 
-_default_context: Context | None = None
+g_default_context: Context | None = None
 _lock = threading.Lock()
 
 
@@ -30,12 +34,12 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
         shutting_down: Return it for the last time: the next call makes a new one, so that ``init``
             can follow ``shutdown``.
     """
-    global _default_context  # noqa: PLW0603 - there is one for the process
+    global g_default_context  # noqa: PLW0603 - there is one for the process
     from .context import Context
 
     with _lock:
-        context = Context() if _default_context is None else _default_context
-        _default_context = None if shutting_down else context
+        context = Context() if g_default_context is None else g_default_context
+        g_default_context = None if shutting_down else context
         return context
 
 
@@ -77,12 +81,12 @@ def get_rmw_implementation_identifier() -> str:
 
 
 def get_available_rmw_implementations() -> set[str]:
-    """The middlewares that ``RMW_IMPLEMENTATION`` may name."""
+    """The middlewares that ``RMW_IMPLEMENTATION`` may name to talk to other processes."""
     from turtlewire.wire.environment import MIDDLEWARES
 
-    return set(MIDDLEWARES)
+    return {name for name in MIDDLEWARES if name.startswith("rmw_")}
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
     """Seconds to nanoseconds; None and negative values, which mean "no limit", to -1."""
-    return -1 if timeout_sec is None or timeout_sec < 0 else int(float(timeout_sec) * 1_000_000_000)
+    return -1 if timeout_sec is None or timeout_sec < 0 else int(float(timeout_sec) * S_TO_NS)

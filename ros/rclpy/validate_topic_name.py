@@ -9,7 +9,10 @@ from turtlewire.wire import names
 
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 
-__all__ = ["validate_topic_name"]
+__all__ = ["TOPIC_SEPARATOR_STRING", "validate_topic_name"]
+
+#: Between the parts of a name.
+TOPIC_SEPARATOR_STRING = "/"
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:

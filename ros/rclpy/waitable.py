@@ -72,6 +72,7 @@ class WaitSet:
             "guard_condition": [],
             "subscription": [],
             "timer": [],
+            "event": [],
         }
         self._ready: set[Entity] = set()
 
@@ -87,6 +88,10 @@ class WaitSet:
         """Wait for a timer, too; its index for :meth:`is_ready`."""
         return self._add("timer", timer)
 
+    def add_event(self, event: Entity) -> int:
+        """Wait for an event of the middleware, too; its index for :meth:`is_ready`."""
+        return self._add("event", event)
+
     def _add(self, entity_type: str, entity: Entity) -> int:
         self._entities[entity_type].append(entity)
         return len(self._entities[entity_type]) - 1
@@ -95,7 +100,7 @@ class WaitSet:
         """Whether an entity is ready.
 
         Args:
-            entity_type: ``guard_condition``, ``subscription`` or ``timer``.
+            entity_type: ``guard_condition``, ``subscription``, ``timer`` or ``event``.
             index: What :meth:`add_guard_condition` and its like returned.
         """
         return self._entities[entity_type][index] in self._ready
@@ -134,8 +139,8 @@ class Waitable(Entity):
         """Take what made it ready; :meth:`execute` gets it."""
         raise NotImplementedError
 
-    def execute(self, taken_data: Any) -> Any:
-        """Run; may be ``async``."""
+    async def execute(self, taken_data: Any) -> Any:
+        """Run; a function that is not ``async`` does as well."""
         raise NotImplementedError
 
     def get_num_entities(self) -> NumberOfEntities:
@@ -162,6 +167,10 @@ class Waitable(Entity):
     def add_future(self, future: Future) -> None:
         """Have the done-callbacks of ``future`` run on the executor that serves this waitable."""
         run_callbacks_on(self._serving_host(), future)
+
+    def remove_future(self, future: Future) -> None:
+        """Undo :meth:`add_future`: the done-callbacks run in the thread that finishes it."""
+        run_callbacks_on(None, future)
 
     def _attach(self, host: Host) -> None:
         if self._wait_set is None:

@@ -160,7 +160,6 @@ def test_nodes_live_on_when_simulated_time_jumps(python, ends_well):
     program.wait_for("^up")
     drawn = random.Random(11)
     with rclpy.Context() as context:
-        context.init()
         node = rclpy.create_node("world", context=context)
         clock = node.create_publisher(Clock, "/clock", 1000)
         end = node.create_publisher(String, "/end", 10)

@@ -22,7 +22,6 @@ from rclpy.node import Node
 def context(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     with Context() as context:
-        context.init(args=[])
         yield context
 
 

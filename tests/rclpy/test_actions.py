@@ -6,6 +6,7 @@ import threading
 
 import pytest
 
+import rclpy
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
 from builtin_interfaces.msg import Time as TimeMsg
@@ -23,7 +24,8 @@ from rclpy.action import (
 from rclpy.action.client import ClientGoalHandle
 from rclpy.action.server import ServerGoalHandle
 from rclpy.context import Context
-from rclpy.executors import MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.qos import qos_profile_action_status_default
 from rclpy.task import Future
 from std_msgs.msg import Int32
@@ -34,7 +36,6 @@ from unique_identifier_msgs.msg import UUID
 def context(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         yield context
 
 
@@ -369,3 +370,63 @@ def test_the_graph_knows_actions(serve, client, node, context):
         20_000_000_000,
     )
     assert get_action_client_names_and_types_by_node(node, "tested", "/") == expected
+
+
+def test_a_goal_can_be_executed_between_two_spins(context):
+    accepted = []
+    node = Node("between", context=context)
+    server = ActionServer(
+        node, Fibonacci, "fibonacci", count, handle_accepted_callback=accepted.append
+    )
+    client = ActionClient(node, Fibonacci, "fibonacci")
+    with SingleThreadedExecutor(context=context) as executor:
+
+        def finish(future):
+            rclpy.spin_until_future_complete(node, future, executor, timeout_sec=60)
+            return future.result()
+
+        handle = send(client, finish)
+        while not accepted:
+            rclpy.spin_once(node, executor=executor, timeout_sec=60)
+        assert node.executor is None
+        accepted[0].execute()
+        assert finish(handle.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
+    client.destroy()
+    server.destroy()
+    node.destroy_node()
+
+
+def test_the_response_comes_before_the_feedback_that_waits_with_it(serve, executor, context):
+    """The client's node is spun when the server has answered and sent feedback."""
+    served = []
+    serve(lambda goal_handle: (count(goal_handle), served.append(goal_handle))[0])
+    elsewhere = Node("client", context=context)
+    client = ActionClient(elsewhere, Fibonacci, "fibonacci")
+    assert client.wait_for_server(timeout_sec=20)
+    accepted = []
+    future = client.send_goal_async(
+        Fibonacci.Goal(order=3), feedback_callback=lambda _: accepted.append(future.done())
+    )
+    while not served:  # a writer hands over to the readers of its own process at once
+        executor.spin_once(timeout_sec=60)
+    with SingleThreadedExecutor(context=context) as late:
+        late.add_node(elsewhere)
+        while len(accepted) < 2:
+            late.spin_once(timeout_sec=60)
+    assert accepted == [True, True]
+    client.destroy()
+    elsewhere.destroy_node()
+
+
+def test_no_feedback_that_was_sent_after_the_result(serve, client, finish, spin_until):
+    goals, feedback = [], []
+    serve(lambda goal_handle: (goals.append(goal_handle), count(goal_handle))[1])
+    handle = send(client, finish, order=3, feedback_callback=feedback.append)
+    finish(handle.get_result_async())
+    spin_until(lambda: len(feedback) == 2)
+    goals[0].publish_feedback(Fibonacci.Feedback(sequence=[7]))
+    other = []
+    second = send(client, finish, order=2, feedback_callback=other.append)
+    finish(second.get_result_async())
+    spin_until(lambda: other)  # it was sent after the one that must not come
+    assert [list(each.feedback.sequence) for each in feedback] == [[0], [0, 1]]

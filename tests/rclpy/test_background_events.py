@@ -20,7 +20,6 @@ LIMIT_S = 60
 def context(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         yield context
 
 

@@ -55,3 +55,12 @@ def test_a_bare_node_announces_what_a_real_one_does(context):
     assert sorted(ours(context.wire.graph)) == golden
     node.destroy_node()
     assert context.wire.graph.endpoints() == []
+
+
+def test_the_type_description_service_can_be_destroyed(context):
+    node = Node("described", context=context, start_parameter_services=False)
+    service = node._type_description_service
+    assert len(list(node.services)) == 1
+    service.destroy()
+    service.destroy()
+    assert list(node.services) == []

@@ -24,7 +24,6 @@ ROUNDS = 60
 def context(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         yield context
 
 

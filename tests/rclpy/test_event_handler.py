@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
+import sys
+
 import pytest
 
 import rclpy
@@ -16,9 +19,10 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import (
     InvalidQosOverridesError,
-    QoSCallbackResult,
+    QosCallbackResult,
     QoSOverridingOptions,
 )
+from rclpy.waitable import Waitable
 from std_msgs.msg import String
 from turtlewire.wire.base import EventKind, EventStatus
 
@@ -42,7 +46,6 @@ class World:
 def world(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         node = Node("eventful", context=context, start_parameter_services=False)
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(node)
@@ -235,7 +238,7 @@ def test_wrong_overrides(context):
     with pytest.raises(InvalidParameterTypeException):
         node.create_publisher(String, "b", 1, qos_overriding_options=options)
     refusing = QoSOverridingOptions.with_default_policies(
-        callback=lambda qos: QoSCallbackResult(successful=False, reason=f"{qos.depth}")
+        callback=lambda qos: QosCallbackResult(successful=False, reason=f"{qos.depth}")
     )
     with pytest.raises(
         InvalidQosOverridesError,
@@ -248,7 +251,6 @@ def test_wrong_overrides(context):
 def test_a_publisher_misses_its_deadline_without_a_subscription(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     with Context() as context:
-        context.init(args=[])
         node = Node("alone", context=context)
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(node)
@@ -275,3 +277,45 @@ def test_a_liveliness_change_tells_the_living_from_the_others():
     info = event_handler._INFOS[EventKind.LIVELINESS_CHANGED](status)
     assert (info.alive_count, info.alive_count_change) == (3, 4)
     assert (info.not_alive_count, info.not_alive_count_change) == (1, -2)
+
+
+def test_a_handler_is_a_waitable(world):
+    seen = []
+    publisher = world.node.create_publisher(
+        String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append)
+    )
+    handler = next(
+        each for each in publisher.event_handlers if each.event_type is EventKind.MATCHED
+    )
+    assert isinstance(handler, Waitable)
+    assert repr(handler.get_num_entities()) == "<NumberOfEntities(0, 0, 0, 0, 0, 1)>"
+    assert handler.take_data() is None
+    with pytest.warns(DeprecationWarning, match="use EventHandler"):
+        former = event_handler.QoSEventHandler(
+            callback_group=handler.callback_group,
+            callback=seen.append,
+            event_type=EventKind.MATCHED,
+            parent_impl=publisher._wire,
+        )
+    former.destroy()
+
+
+def test_an_event_callback_may_be_async(world):
+    seen = []
+
+    async def matched(info):
+        seen.append(info.current_count)
+
+    callbacks = SubscriptionEventCallbacks(matched=matched)
+    world.node.create_subscription(String, "a", print, 1, event_callbacks=callbacks)
+    world.node.create_publisher(String, "a", 1)
+    world.spin_until(lambda: seen)
+    assert seen == [1]
+
+
+def test_the_former_module_of_events(monkeypatch):
+    monkeypatch.delitem(sys.modules, "rclpy.qos_event", raising=False)
+    with pytest.warns(DeprecationWarning, match=r"import from rclpy\.event_handler"):
+        qos_event = importlib.import_module("rclpy.qos_event")
+    for name in qos_event.__all__:
+        assert getattr(qos_event, name) is getattr(event_handler, name)

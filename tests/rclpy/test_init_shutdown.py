@@ -71,9 +71,28 @@ def test_with_statement():
     with rclpy.init(args=[]):
         rclpy.shutdown()
     with Context() as context:
-        context.init(args=[])
         assert context.ok()
     assert not context.ok()
+    with pytest.raises(RuntimeError, match="must only be called once"), context:
+        pass
+
+
+def test_a_destroyed_context_is_shut_down():
+    context = Context()
+    context.destroy()
+    context.init(args=[])
+    ended = []
+    context.on_shutdown(lambda: ended.append(True))
+    context.destroy()
+    context.destroy()
+    assert ended == [True]
+    assert not context.ok()
+
+
+def test_arguments_that_are_not_utf_8():
+    with pytest.raises(UnicodeEncodeError):
+        rclpy.init(args=["program", "Ragnar\udcc3\udcb6k"])
+    assert not rclpy.ok()
 
 
 def test_a_node_needs_init():
@@ -90,8 +109,7 @@ def test_a_node_needs_init():
 def test_domain_ids(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "17")
     for asked, expected in ((None, 17), (4, 4)):
-        with Context() as context:
-            context.init(args=[], domain_id=asked)
+        with rclpy.init(context=Context(), args=[], domain_id=asked) as context:
             assert context.get_domain_id() == expected
     with pytest.raises(RuntimeError, match=r"^Domain id \(-1\) should not be lower than zero.$"):
         Context().init(args=[], domain_id=-1)
@@ -282,7 +300,7 @@ def test_helpers():
         "b",
     ]
     assert rclpy.utilities.get_rmw_implementation_identifier() == "local"
-    assert "rmw_cyclonedds_cpp" in rclpy.utilities.get_available_rmw_implementations()
+    assert rclpy.utilities.get_available_rmw_implementations() == {"rmw_cyclonedds_cpp"}
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])

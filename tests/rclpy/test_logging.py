@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import ClassVar
 
 import pytest
 
@@ -13,7 +14,7 @@ import rclpy.logging
 from rclpy.arguments import Arguments
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
-from rclpy.impl import log_levels, log_output
+from rclpy.impl import log_levels, log_output, rcutils_logger
 from rclpy.impl.log_format import LineFormat
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -107,6 +108,36 @@ def test_children_inherit_levels(capfd):
     rclpy.logging.set_logger_level("", LoggingSeverity.FATAL)
     assert rclpy.logging.get_logger_effective_level("ab") is LoggingSeverity.FATAL
     assert errors(capfd) == []
+
+
+def test_the_root_logger_can_be_unset():
+    root = rclpy.logging._root_logger
+    assert rclpy.logging.get_logger_level("") is LoggingSeverity.INFO
+    for severity in LoggingSeverity:
+        root.set_level(severity)
+        assert root.get_effective_level() is severity
+        assert rclpy.logging.get_logger_effective_level("a.b") is severity
+
+
+def test_a_program_may_add_a_filter(logger, capfd, monkeypatch):
+    class EveryOther(rcutils_logger.LoggingFilter):
+        params: ClassVar = {"every_other": None}
+
+        @staticmethod
+        def should_log(context):
+            context["count"] = context.get("count", 0) + 1
+            return context["count"] % 2 == 1
+
+    monkeypatch.setitem(rcutils_logger.supported_filters, "every_other", EveryOther)
+    written = [logger.info(str(number), every_other=True) for number in range(4)]
+    assert written == [True, False, True, False]
+    assert messages(capfd) == ["0", "2"]
+
+
+def test_a_message_may_go_to_another_name(logger, capfd):
+    logger.info("a", name=None)
+    logger.info("b", name="other")
+    assert re.findall(r"\[([\w.]+)\]: \w", capfd.readouterr().err) == [logger.name, "other"]
 
 
 def test_errors_of_names_and_levels(logger):
@@ -437,11 +468,12 @@ def test_a_closed_stream_does_not_end_the_program():
 
 def test_the_first_context_decides(monkeypatch, capfd):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as first, Context() as second:
-        first.init(args=["--ros-args", "--log-level", "error"])
-        second.init(args=["--ros-args", "--log-level", "debug"])
+
+    def with_level(level):
+        return rclpy.init(context=Context(), args=["--ros-args", "--log-level", level])
+
+    with with_level("error"), with_level("debug"):
         rclpy.logging.get_logger("x").warning("hidden")
-    with Context() as later:
-        later.init(args=["--ros-args", "--log-level", "info"])
+    with with_level("info"):
         rclpy.logging.get_logger("x").warning("shown")
     assert messages(capfd) == ["shown"]

@@ -14,6 +14,7 @@ from rclpy.action import ActionClient
 from rclpy.arguments import Arguments
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
+from rclpy.exceptions import NoTypeSupportImportedException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32, String
@@ -160,7 +161,6 @@ def test_a_twin_and_another_type_in_another_process(program, capfd, monkeypatch)
     peer = program(PEER)
     assert peer.read_line() == "ready"
     with Context() as context:
-        context.init(args=[])
         node = Node("twin", context=context)
         node.create_subscription(Int32, "chatter", print, 10)
         assert context.wait_for_graph(
@@ -250,3 +250,15 @@ def test_after_a_mistake_the_executor_still_shuts_down(context):
         executor.add_node(Node)
     assert executor.get_nodes() == []
     assert executor.shutdown()
+
+
+def test_a_message_class_of_another_installation(node):
+    class FromElsewhere(type):
+        _TYPE_SUPPORT = None
+
+    class String(metaclass=FromElsewhere):
+        pass
+
+    with pytest.raises(NoTypeSupportImportedException) as caught:
+        node.create_publisher(String, "a", 1)
+    assert "comes from another ROS 2 installation" in caught.value.hint

@@ -240,7 +240,6 @@ def gone(observer, name):
 def test_a_node_that_is_dropped_leaves_the_graph(monkeypatch, middleware):
     monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     with Context() as context:
-        context.init(args=[])
         observer = Node("observer", context=context)
         client = observer.create_client(Trigger, "serve")
         executor = SingleThreadedExecutor(context=context)

@@ -8,7 +8,6 @@ import pytest
 
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
 from rclpy.context import Context
-from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
@@ -24,7 +23,6 @@ def middleware(request, monkeypatch):
 @pytest.fixture
 def context(middleware):
     with Context() as context:
-        context.init(args=[])
         yield context
 
 
@@ -32,7 +30,6 @@ def context(middleware):
 def other(middleware):
     """A node in another participant, `/ns/other`, with one endpoint of each kind."""
     with Context() as context:
-        context.init(args=[])
         other = Node("other", namespace="/ns", context=context, start_parameter_services=False)
         other.create_publisher(
             Int32, "number", QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -128,10 +125,49 @@ def test_counts(node, other, wait_for):
     wait_for(lambda: node.count_services("/ns/serve") == 1 and node.count_clients("/ns/ask") == 1)
     assert node.count_publishers("chatter") == 0
     assert node.count_services("/ns/ask") == 0
-    with pytest.raises(InvalidTopicNameException):
-        node.count_publishers("not valid")
-    with pytest.raises(InvalidServiceNameException):
-        node.count_services("not valid")
+
+
+@pytest.mark.parametrize("name", ["not valid", "42", "", "{unknown}"])
+def test_an_impossible_name_is_a_value_error(node, name):
+    for ask in (
+        node.count_publishers,
+        node.count_subscribers,
+        node.count_clients,
+        node.count_services,
+        node.get_publishers_info_by_topic,
+        node.get_subscriptions_info_by_topic,
+    ):
+        with pytest.raises(ValueError, match="is invalid"):
+            ask(name)
+
+
+def test_own_endpoints_are_counted_from_the_first_moment(node):
+    def counts(name):
+        return node.count_publishers(name), node.count_subscribers(name)
+
+    for number in range(50):
+        name = f"topic{number}"
+        publisher = node.create_publisher(String, name, 1)
+        subscription = node.create_subscription(String, name, print, 1)
+        assert counts(name) == (1, 1)
+        (info,) = node.get_publishers_info_by_topic(name)
+        assert info.node_name == node.get_name()
+        publisher.destroy()
+        subscription.destroy()
+        assert counts(name) == (0, 0)
+
+
+def test_a_thread_that_waits_hears_of_what_another_has_asked_about(node):
+    """News that a question takes from the middleware reaches the listeners, too."""
+    heard = threading.Event()
+    remove = node.context.wire.graph.add_listener(heard.set)
+    for number in range(20):
+        heard.clear()
+        publisher = node.create_publisher(String, f"topic{number}", 1)
+        assert node.count_publishers(f"topic{number}") == 1
+        assert heard.wait(60)
+        publisher.destroy()
+    remove()
 
 
 def test_endpoint_infos(node, other, wait_for):

@@ -10,12 +10,14 @@ import pytest
 from rcl_interfaces.msg import Log, LoggerLevel, ParameterDescriptor, ParameterValue
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels, SetParameters
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl import log_levels
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.parameter_event_handler import ParameterEventHandler
+from rclpy.qos import QoSProfile
 from turtlewire import msg
 from type_description_interfaces.srv import GetTypeDescription
 
@@ -188,7 +190,10 @@ def test_logger_levels(world):
             levels=[LoggerLevel(name="ns.server", level=10), LoggerLevel(name="x", level=11)]
         )
         results = world.ask(SetLoggerLevels, "server/set_logger_levels", request).results
-        assert [each.successful for each in results] == [True, False]
+        assert [(each.successful, each.reason) for each in results] == [
+            (True, ""),
+            (False, "Failed reason: Invalid logger level."),
+        ]
         response = world.ask(
             GetLoggerLevels,
             "server/get_logger_levels",
@@ -293,3 +298,26 @@ def test_every_log_text_reaches_rosout(world):
     (log,) = heard
     assert (log.level, log.name, log.msg) == (30, "ns.server.part", "name \\udce9.txt")
     assert (log.file, log.function) == (__file__, "test_every_log_text_reaches_rosout")
+
+
+def test_the_client_hears_of_parameter_events(world, client):
+    events, raw = [], []
+    group = ReentrantCallbackGroup()
+    subscription = client.on_parameter_event(events.append, callback_group=group)
+    assert subscription.callback_group is group
+    client.on_parameter_event(raw.append, QoSProfile(depth=10), raw=True)
+    world.server.declare_parameter("a", 1)
+    world.spin_until(lambda: events and raw)
+    assert [parameter.name for parameter in events[0].new_parameters] == ["a"]
+    assert isinstance(raw[0], bytes)
+
+
+def test_the_options_of_a_handlers_subscription(world):
+    group, events = ReentrantCallbackGroup(), []
+    handler = ParameterEventHandler(world.asker, QoSProfile(depth=10), group, raw=True)
+    assert handler.parameter_event_subscription.callback_group is group
+    handler.add_parameter_event_callback(events.append)
+    handler.add_parameter_callback("a", "server", events.append)
+    world.server.declare_parameter("a", 1)
+    world.spin_until(lambda: events)
+    assert [type(event) for event in events] == [bytes]

@@ -169,6 +169,24 @@ def test_bad_declarations(parameters, declarations, error, text):
     assert not parameters.has_parameter("a")
 
 
+def test_a_default_may_be_a_message(parameters):
+    value = ParameterValue(type=Type.INTEGER.value, integer_value=7)
+    parameters.declare_parameter("a", value)
+    assert values(parameters, "a") == [7]
+    assert parameters.describe_parameter("a").type == Type.INTEGER.value
+    with pytest.raises(ValueError, match=r"statically typed parameter .* PARAMETER_NOT_SET"):
+        parameters.declare_parameter("b", ParameterValue())
+    dynamic = ParameterDescriptor(dynamic_typing=True)
+    parameters.declare_parameter("c", ParameterValue(), dynamic)
+    assert parameters.get_parameter("c").type_ is Type.NOT_SET
+
+
+@pytest.mark.parametrize("setter", ["set_parameters", "set_parameters_atomically"])
+def test_what_is_set_has_to_be_a_parameter(parameters, setter):
+    with pytest.raises(TypeError, match=r"^parameter must be instance of type '<class 'rclpy.par"):
+        getattr(parameters, setter)([42])
+
+
 def test_nothing_is_declared_twice(parameters):
     parameters.declare_parameter("a", 1)
     with pytest.raises(exceptions.ParameterAlreadyDeclaredException) as caught:
@@ -263,7 +281,7 @@ def test_allowing_undeclared_parameters(loose):
     parameters = loose.parameters
     assert parameters.get_parameter("a").type_ is Type.NOT_SET
     assert parameters.get_parameter_type("a") == 0
-    assert parameters.describe_parameter("a").name == "a"
+    assert parameters.describe_parameter("a") == ParameterDescriptor()
     assert parameters.set_descriptor("a", ParameterDescriptor()).type == 0
     assert [reason(parameters, "a", value) for value in (1, "x")] == ["", ""]
     assert values(parameters, "a") == ["x"]

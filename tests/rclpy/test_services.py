@@ -24,7 +24,6 @@ from turtlewire.wire.base import RequestId
 def context(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         yield context
 
 
@@ -109,8 +108,8 @@ def test_blocking_call_from_another_thread(node, executor):
     spinning.start()
     assert client.wait_for_service(timeout_sec=60)
     assert client.call(AddTwoInts.Request(a=3, b=4)).sum == 7
-    with pytest.raises(TimeoutError):
-        node.create_client(AddTwoInts, "nobody").call(AddTwoInts.Request(), timeout_sec=0.05)
+    nobody = node.create_client(AddTwoInts, "nobody")
+    assert nobody.call(AddTwoInts.Request(), timeout_sec=0.05) is None
     executor.shutdown()
     spinning.join(60)
 
@@ -240,7 +239,6 @@ def test_a_client_in_another_context(context, node, executor):
     """Two participants: discovery, matching and the reply reach across."""
     node.create_service(AddTwoInts, "add", add)
     with Context() as other:
-        other.init(args=[])
         asker = Node("asker", context=other)
         client = asker.create_client(AddTwoInts, "add")
         assert isinstance(client, Client)
@@ -255,3 +253,15 @@ def test_a_client_in_another_context(context, node, executor):
         executor.shutdown()
         spinning.join(60)
         asker.destroy_node()
+
+
+def test_a_pending_request_has_its_future(node, executor):
+    node.create_service(AddTwoInts, "add", add)
+    client = node.create_client(AddTwoInts, "add")
+    assert client.wait_for_service(timeout_sec=10)
+    future = client.call_async(AddTwoInts.Request())
+    (number,) = client._pending
+    assert client.get_pending_request(number) is future
+    executor.spin_until_future_complete(future, timeout_sec=60)
+    with pytest.raises(KeyError):
+        client.get_pending_request(number)

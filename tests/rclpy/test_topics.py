@@ -32,7 +32,6 @@ from turtlewire.errors import CdrError
 def context(request, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
     with Context() as context:
-        context.init(args=[])
         yield context
 
 
@@ -256,7 +255,6 @@ def test_types_are_checked(node):
                 "'}':\n  'a?b'\n    ^"
             ),
         ),
-        ("{wrong}", "unknown substitution"),
     ],
 )
 def test_names_are_checked(node, name, text):
@@ -265,6 +263,17 @@ def test_names_are_checked(node, name, text):
     assert str(caught.value).startswith(f"Invalid topic name: {text}")
     with pytest.raises(InvalidTopicNameException):
         node.create_subscription(Int32, name, lambda _: None, 10)
+
+
+def test_an_unknown_substitution_is_a_value_error(node):
+    for make in (
+        lambda: node.create_publisher(Int32, "a/{wrong}", 10),
+        lambda: node.create_subscription(Int32, "a/{wrong}", lambda _: None, 10),
+        lambda: node.create_client(Trigger, "a/{wrong}"),
+        lambda: node.create_service(Trigger, "a/{wrong}", lambda _request, response: response),
+    ):
+        with pytest.raises(ValueError, match=r"unknown substitution: \{wrong\}"):
+            make()
 
 
 def test_destruction(node):
@@ -325,7 +334,6 @@ def test_two_contexts(context, node, spin_until):
     got = []
     node.create_subscription(Int32, "number", lambda message: got.append(message.data), 10)
     with Context() as other:
-        other.init(args=[])
         talker = Node("talker", context=other)
         publisher = talker.create_publisher(Int32, "number", 10)
         matched(other, publisher)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .exceptions import (
     ConditionReachedException,
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from .entity import Host
 
 __all__ = ["Call", "wait_for_response"]
-
-T = TypeVar("T")
 
 #: After this time a wait that nothing seems to end is logged.
 _PATIENCE_S = 1.0
@@ -45,14 +43,13 @@ class Call(NamedTuple):
     host: Host | None
 
 
-def wait_for_response(future: Future[T], call: Call, timeout_sec: float | None) -> T:
-    """Block until ``future`` is done.
+def wait_for_response(future: Future[Any], call: Call, timeout_sec: float | None) -> None:
+    """Block until ``future`` is done, or the time is over.
 
     Outside of the executor's thread this waits for the thread that spins, and warns if there is
     none. In a callback of a single-threaded executor it serves the responses itself.
 
     Raises:
-        TimeoutError: The time was over before.
         RuntimeError: The service is in the executor that is blocked.
         ExternalShutdownException, ShutdownException: The context or the executor was shut down.
     """
@@ -62,12 +59,9 @@ def wait_for_response(future: Future[T], call: Call, timeout_sec: float | None) 
         _serve_responses(host, future, call, deadline)
     else:
         _wait_for_other_thread(future, call, deadline)
-    if not future.done():
-        raise TimeoutError
-    return future.result()
 
 
-def _serve_responses(host: Host, future: Future[T], call: Call, deadline: float | None) -> None:
+def _serve_responses(host: Host, future: Future[Any], call: Call, deadline: float | None) -> None:
     """Hand out responses, and run nothing else, until ``future`` is done.
 
     For a callback of the executor's own thread.
@@ -100,7 +94,7 @@ def _remaining_ns(*moments: float | None) -> int | None:
     return max(0, int((min(known) - time.monotonic()) * 1_000_000_000)) if known else None
 
 
-def _wait_for_other_thread(future: Future[T], call: Call, deadline: float | None) -> None:
+def _wait_for_other_thread(future: Future[Any], call: Call, deadline: float | None) -> None:
     done = threading.Event()
     call_when_done(future, done.set)
     waits = [call.context.waits] + ([] if call.host is None else [call.host.blocked])

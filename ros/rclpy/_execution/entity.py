@@ -122,7 +122,8 @@ class Entity:
         """Belong to ``host``; False if it belongs to one already, or was destroyed."""
         if self._host is not None or self._destroyed:
             return False
-        self._rank = (node_index, self._ORDER, number)
+        # The parts of a waitable, which belong to no node, come in the order that it gives them.
+        self._rank = (node_index, self._ORDER if node_index >= 0 else 0, number)
         self._host = weakref.ref(host)
         return True
 
@@ -146,7 +147,7 @@ class Entity:
         self._check_usable()
         return self
 
-    def __exit__(self, *exception: object) -> None:
+    def __exit__(self, t: object, v: object, tb: object) -> None:
         """Nothing to release."""
 
     def _check_usable(self) -> None:

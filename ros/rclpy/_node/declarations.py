@@ -12,7 +12,7 @@ from rclpy.parameter import Parameter
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor
 
-__all__ = ["new_descriptor", "override", "read_declaration", "yaml_hint"]
+__all__ = ["default", "new_descriptor", "override", "read_declaration", "yaml_hint"]
 
 
 def new_descriptor() -> ParameterDescriptor:
@@ -52,7 +52,7 @@ def read_declaration(
         descriptor.dynamic_typing = True
     if not isinstance(value, Parameter.Type):
         if value is not None and not descriptor.dynamic_typing:
-            descriptor.type = Parameter.Type.from_parameter_value(value).value
+            descriptor.type = _type_of(value)
         return name, value, descriptor
     if value is Parameter.Type.NOT_SET:
         raise ValueError(f"Cannot declare parameter {name} statically to be of type NOT_SET")
@@ -63,6 +63,24 @@ def read_declaration(
         )
     descriptor.type = value.value
     return name, None, descriptor
+
+
+def _type_of(value: Any) -> int:
+    """The number of a default value's type.
+
+    Raises:
+        ValueError: It is a ``ParameterValue`` that is not set.
+    """
+    from rcl_interfaces.msg import ParameterType, ParameterValue
+
+    if not isinstance(value, ParameterValue):
+        return int(Parameter.Type.from_parameter_value(value).value)
+    if value.type == ParameterType.PARAMETER_NOT_SET:
+        raise ValueError(
+            "Cannot declare a statically typed parameter with default value of type "
+            "PARAMETER_NOT_SET"
+        )
+    return int(value.type)
 
 
 def _warn_of_name_alone(name: str) -> None:
@@ -77,6 +95,15 @@ def _warn_of_name_alone(name: str) -> None:
         "\t- Pass a name and a descriptor with `dynamic_typing=True",
         stacklevel=6,
     )
+
+
+def default(name: str, value: Any) -> Parameter:
+    """The parameter with its default value, which may be a ``ParameterValue``."""
+    from rcl_interfaces import msg
+
+    if isinstance(value, msg.ParameterValue):
+        return Parameter.from_parameter_msg(msg.Parameter(name=name, value=value))
+    return Parameter(name, value=value)
 
 
 def override(name: str, value: Any, descriptor: ParameterDescriptor) -> Parameter:

@@ -387,6 +387,7 @@ class NodeEndpoints:
 
         Raises:
             InvalidTopicNameException: The name breaks the rules.
+            ValueError: It has an unknown substitution.
         """
         expanded = self._expand(topic, InvalidTopicNameException)
         if only_expand:
@@ -398,6 +399,7 @@ class NodeEndpoints:
 
         Raises:
             InvalidServiceNameException: The name breaks the rules.
+            ValueError: It has an unknown substitution.
         """
         expanded = self._expand(service, InvalidServiceNameException)
         if only_expand:
@@ -412,10 +414,7 @@ class NodeEndpoints:
         fault = names.validate_topic_name(name)
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
-        try:
-            expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
-        except ValueError as unknown:
-            raise error(name, str(unknown), 0) from None
+        expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:
             raise error(expanded, fault.message, fault.invalid_index)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
-from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy._node.core import NodeCore
-    from rclpy._node.endpoints import NodeEndpoints
     from rclpy.topic_endpoint_info import TopicEndpointInfo
     from turtlewire.wire.base import EndpointInfo, Graph
 
@@ -24,9 +24,8 @@ NamesAndTypes = list[tuple[str, list[str]]]
 class NodeGraph:
     """The graph queries of one node."""
 
-    def __init__(self, core: NodeCore, endpoints: NodeEndpoints) -> None:
+    def __init__(self, core: NodeCore) -> None:
         self._core = core
-        self._endpoints = endpoints
 
     @property
     def _graph(self) -> Graph:
@@ -124,9 +123,9 @@ class NodeGraph:
         """How many publishers or subscriptions a topic has.
 
         Raises:
-            InvalidTopicNameException: The name breaks the rules.
+            ValueError: The name breaks the rules.
         """
-        name = self._full_name(topic, self._endpoints.resolve_topic, InvalidTopicNameException)
+        name = self._full_name(topic)
         return sum(
             endpoint.kind == kind and endpoint.topic == name for endpoint in self._graph.endpoints()
         )
@@ -135,37 +134,28 @@ class NodeGraph:
         """How many servers (``kind`` "service") or clients ("client") a service has.
 
         Raises:
-            InvalidServiceNameException: The name breaks the rules.
+            ValueError: The name breaks the rules.
         """
-        name = self._full_name(
-            service, self._endpoints.resolve_service, InvalidServiceNameException
-        )
+        name = self._full_name(service)
         wanted = ("subscription" if kind == "service" else "publisher", names.request_topic(name))
         return sum(
             (endpoint.kind, endpoint.topic) == wanted for endpoint in self._graph.endpoints()
         )
 
-    @staticmethod
-    def _full_name(
-        name: str,
-        resolve: Callable[..., str],
-        error: type[InvalidTopicNameException | InvalidServiceNameException],
-    ) -> str:
-        expanded = resolve(name, only_expand=True)
-        fault = names.validate_full_topic_name(expanded)
-        if fault is not None:
-            raise error(expanded, fault.message, fault.invalid_index)
+    def _full_name(self, name: str) -> str:
+        expanded = expand_topic_name(name, self._core.name, self._core.namespace)
+        validate_full_topic_name(expanded)
         return expanded
 
     def endpoint_infos(self, kind: str, topic: str, *, no_mangle: bool) -> list[TopicEndpointInfo]:
-        """What is known of each publisher or subscription of a topic."""
+        """What is known of each publisher or subscription of a topic.
+
+        Raises:
+            ValueError: The name breaks the rules.
+        """
         from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-        name = (
-            topic
-            if no_mangle
-            else self._full_name(topic, self._endpoints.resolve_topic, InvalidTopicNameException)
-        )
+        name = topic if no_mangle else self._full_name(topic)
         found = []
         for endpoint in self._graph.endpoints():
             spelled = (

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node import descriptors as rules
-from rclpy._node.declarations import new_descriptor, override, read_declaration, yaml_hint
+from rclpy._node.declarations import default, new_descriptor, override, read_declaration, yaml_hint
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -17,6 +17,7 @@ from rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
+from rclpy.hints import described, with_hint
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 
@@ -142,7 +143,7 @@ class NodeParameters:
             if not ignore_override and name in self._overrides:
                 parameter = override(name, self._overrides[name], descriptor)
             else:
-                parameter = Parameter(name, value=value)
+                parameter = default(name, value)
             declared[name] = (parameter, descriptor)
         repeated = [name for name in declared if name in self._parameters]
         if repeated:
@@ -302,6 +303,12 @@ class NodeParameters:
         return SetParametersResult(successful=not reason, reason=reason)
 
     def _check_declared(self, parameter_list: list[Parameter]) -> None:
+        for parameter in parameter_list:
+            if not isinstance(parameter, Parameter):
+                error = TypeError(f"parameter must be instance of type '{Parameter!r}'")
+                raise with_hint(
+                    error, f"Expected Parameter('name', value=…), not {described(parameter)}"
+                )
         undeclared = [
             parameter.name for parameter in parameter_list if parameter.name not in self._parameters
         ]
@@ -369,7 +376,7 @@ class NodeParameters:
     # -- describing
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """What was declared of a parameter, with its present type.
+        """What was declared of a parameter, with its present type; nothing of an undeclared one.
 
         Raises:
             ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
@@ -379,8 +386,8 @@ class NodeParameters:
         if descriptor is None:
             if not self._allow_undeclared:
                 raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
-            descriptor = new_descriptor()
-        elif descriptor.dynamic_typing:
+            return new_descriptor()
+        if descriptor.dynamic_typing:
             descriptor.type = self._parameters[name].type_.value
         descriptor.name = name
         return descriptor

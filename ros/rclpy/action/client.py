@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import threading
+import time
 import weakref
-from collections import deque
 from typing import TYPE_CHECKING, Any, Generic
 
 from rclpy._execution.futures import call_when_done
@@ -27,11 +27,13 @@ if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup
     from rclpy.client import Client
     from rclpy.node import Node
+    from rclpy.subscription import MessageInfo
     from turtlewire.msg import Action
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
-#: Feedback may come after the result: the callbacks of so many finished goals are kept.
+#: Feedback may come later than a result that was sent after it: the callbacks of so many finished
+#: goals are kept.
 _FINISHED_GOALS = 100
 _DEFAULT_FEEDBACK_QOS = QoSProfile(depth=10)
 
@@ -141,7 +143,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             weakref.WeakValueDictionary()
         )
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
-        self._finished: deque[bytes] = deque()
+        self._finished_ns: dict[bytes, int] = {}
         self._make_endpoints(
             goal_service_qos_profile,
             result_service_qos_profile,
@@ -180,6 +182,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             group,
             raw=True,
         )
+        # Of what is here at the same time, the response to the goal comes before the feedback.
         self._parts = [
             self._goal_client,
             self._cancel_client,
@@ -227,7 +230,9 @@ class ActionClient(Waitable, Generic[ActionT_co]):
 
         Args:
             goal: The goal.
-            feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``).
+            feedback_callback: Called with each feedback message (``.feedback``, ``.goal_id``), not
+                that which was sent after
+                the program got the result.
             goal_uuid: Identifies the goal; None takes a random one.
 
         Returns:
@@ -321,12 +326,18 @@ class ActionClient(Waitable, Generic[ActionT_co]):
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:
         if response.done() and not response.cancelled() and response._exception is None:
             goal_handle._status = response.result().status
-            self._finished.append(goal_key(goal_handle.goal_id))
-            if len(self._finished) > _FINISHED_GOALS:
-                self._feedback_callbacks.pop(self._finished.popleft(), None)
+            self._finished_ns[goal_key(goal_handle.goal_id)] = time.time_ns()
+            if len(self._finished_ns) > _FINISHED_GOALS:
+                oldest = next(iter(self._finished_ns))
+                del self._finished_ns[oldest]
+                self._feedback_callbacks.pop(oldest, None)
 
-    def _on_feedback(self, message: Any) -> Any:
-        callback = self._feedback_callbacks.get(goal_key(message.goal_id))
+    def _on_feedback(self, message: Any, info: MessageInfo) -> Any:
+        key = goal_key(message.goal_id)
+        sent_ns = info["source_timestamp"]
+        if sent_ns > self._finished_ns.get(key, sent_ns):
+            return None
+        callback = self._feedback_callbacks.get(key)
         return None if callback is None else callback(message)
 
     def _on_status(self, cdr: bytes) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -23,6 +24,7 @@ from .server_goal_handle import ServerGoalHandle
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy._execution.entity import Host
     from rclpy.callback_groups import CallbackGroup
     from rclpy.node import Node
     from rclpy.task import Future
@@ -130,6 +132,8 @@ class ActionServer(Waitable):
         self._action_name = action_name
         self._logger = node.get_logger().get_child("action_server")
         self._goals = Goals(self._publish_statuses, self._publish_feedback, self._now_ns)
+        self._lock = threading.Lock()
+        self._waiting_executions: list[Callable[[], Any]] = []
         self._expires_ns: int | None = None
         self._result_timeout_ns = int(result_timeout * 1_000_000_000)
         self.register_goal_callback(goal_callback)
@@ -257,16 +261,26 @@ class ActionServer(Waitable):
         goal_handle: ServerGoalHandle,
         execute_callback: Callable[[ServerGoalHandle], Any] | None,
     ) -> None:
-        """Execute a goal on the executor; None takes the execute callback of the server."""
-        executor = self._node.executor
-        if executor is None:
-            raise RuntimeError(
-                f"The node {self._node.get_name()} is in no executor that could execute the goal"
-            )
+        """Execute a goal on the executor; None takes the execute callback of the server.
+
+        Between two spins of the node, the goal waits for the next one.
+        """
         goal = self._goals.find(goal_key(goal_handle.goal_id))
-        executor.create_task(
-            self._execute_goal, execute_callback or self._execute_callback, goal_handle, goal
-        )
+        callback = execute_callback or self._execute_callback
+        execution = partial(self._execute_goal, callback, goal_handle, goal)
+        with self._lock:
+            host = self._serving_host()
+            if host is None:
+                self._waiting_executions.append(execution)
+                return
+        host.create_task(execution)
+
+    def _attach(self, host: Host) -> None:
+        super()._attach(host)
+        with self._lock:
+            waiting, self._waiting_executions = self._waiting_executions, []
+        for execution in waiting:
+            host.create_task(execution)
 
     async def _execute_goal(
         self,

@@ -14,7 +14,8 @@ from .logging_severity import LoggingSeverity
 __all__ = ["effective", "own", "reset", "set_level"]
 
 _lock = threading.Lock()
-_own: dict[str, int] = {}
+#: That of the empty name is the default of all loggers.
+_own: dict[str, int] = {"": LoggingSeverity.INFO.value}
 #: What :func:`effective` has found; emptied at every change, so that a disabled message costs one
 #: look-up.
 _effective: dict[str, int] = {}
@@ -23,10 +24,11 @@ _effective: dict[str, int] = {}
 def set_level(name: str, level: int) -> None:
     """Set the level of a logger.
 
-    An empty name means the default of all loggers, UNSET makes it inherit again.
+    An empty name means the default of all loggers, for which UNSET lets all messages through; any
+    other logger inherits again when it is UNSET.
     """
     with _lock:
-        if level == LoggingSeverity.UNSET:
+        if name and level == LoggingSeverity.UNSET:
             _own.pop(name, None)
         else:
             _own[name] = int(level)
@@ -48,14 +50,15 @@ def reset() -> None:
     """Forget all levels: INFO is the default again."""
     with _lock:
         _own.clear()
+        _own[""] = LoggingSeverity.INFO.value
         _effective.clear()
 
 
 def _find(name: str) -> int:
     with _lock:
         ancestor = name
-        while ancestor and ancestor not in _own:
+        while ancestor not in _own:
             ancestor = ancestor.rpartition(".")[0]
-        level = _own.get(ancestor, LoggingSeverity.INFO.value)
+        level = _own[ancestor]
         _effective[name] = level
         return level

@@ -5,81 +5,194 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from typing import TYPE_CHECKING, Any
+from collections import OrderedDict
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from . import log_levels, log_output
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from types import FrameType
 
-__all__ = ["RcutilsLogger"]
+    from typing_extensions import Self
+
+__all__ = [
+    "CallerId",
+    "LoggingFilter",
+    "Once",
+    "RcutilsLogger",
+    "SkipFirst",
+    "Throttle",
+    "get_filters_from_kwargs",
+    "supported_filters",
+]
 
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = 10, 20, 30, 40, 50
 
-#: The filters in the order in which they are asked, with their parameters; None marks one that has
-#: no default.
-_FILTERS: dict[str, dict[str, Any]] = {
-    "throttle": {"throttle_duration_sec": None, "throttle_time_source_type": "the system's clock"},
-    "skip_first": {"skip_first": None},
-    "once": {"once": None},
-}
-_OPTIONS = [option for options in _FILTERS.values() for option in options]
+
+class _Moment(NamedTuple):
+    nanoseconds: int
 
 
-class _Throttle:
-    """Lets a message through when enough time has passed since the last one."""
+class _SystemClock:
+    """The system's clock, with as much of :class:`rclpy.clock.Clock` as a filter needs."""
 
-    def __init__(self, options: dict[str, Any]) -> None:
-        clock = options.get("throttle_time_source_type")
-        if clock is not None and not callable(getattr(clock, "now", None)):
-            raise ValueError(
-                f'Received throttle_time_source_type of "{clock}" is not a clock instance.'
-            )
-        self._now_ns: Callable[[], int] = (
-            time.time_ns if clock is None else lambda: int(clock.now().nanoseconds)
-        )
-        self._period_ns = int(options["throttle_duration_sec"] * 1e9)
-        self._next_ns = 0
-
-    def lets_through(self) -> bool:
-        now_ns = self._now_ns()
-        # A clock that was set back (a simulation that starts again) must not silence the message
-        # until it has caught up.
-        if self._next_ns - self._period_ns <= now_ns < self._next_ns:
-            return False
-        self._next_ns = now_ns + self._period_ns
-        return True
+    @staticmethod
+    def now() -> _Moment:
+        return _Moment(time.time_ns())
 
 
-class _SkipFirst:
-    """Lets all messages through but the first."""
+class LoggingFilter:
+    """Decides which messages of a calling line are written.
 
-    def __init__(self, _options: dict[str, Any]) -> None:
-        self._skipped = False
+    A program can enter classes of its own into :data:`supported_filters`.
 
-    def lets_through(self) -> bool:
-        skipped, self._skipped = self._skipped, True
-        return skipped
+    Attributes:
+        params: The keywords that ask for it, with their defaults; None marks one that is required.
+    """
+
+    params: ClassVar[dict[str, Any]] = {}
+
+    @classmethod
+    def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
+        """Store the parameters in what is kept of a calling line.
+
+        Args:
+            context: What is kept of the line, to which a filter adds its state.
+            **kwargs: The line's keywords.
+        """
+        for name, default in cls.params.items():
+            context[name] = kwargs.get(name, default)
+
+    @staticmethod
+    def should_log(context: dict[str, Any]) -> bool:
+        """Whether the next message of the line is written; called once for each."""
+        raise NotImplementedError
 
 
-class _Once:
+class Once(LoggingFilter):
     """Lets the first message through alone."""
 
-    def __init__(self, _options: dict[str, Any]) -> None:
-        self._logged = False
+    params: ClassVar[dict[str, Any]] = {"once": None}
 
-    def lets_through(self) -> bool:
-        logged, self._logged = self._logged, True
+    @classmethod
+    def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
+        """See :meth:`LoggingFilter.initialize_context`."""
+        super().initialize_context(context, **kwargs)
+        context["has_been_logged_once"] = False
+
+    @staticmethod
+    def should_log(context: dict[str, Any]) -> bool:
+        """See :meth:`LoggingFilter.should_log`."""
+        logged, context["has_been_logged_once"] = context["has_been_logged_once"], True
         return not logged
 
 
-_FILTER_CLASSES: dict[str, type[_Throttle | _SkipFirst | _Once]] = {
-    "throttle": _Throttle,
-    "skip_first": _SkipFirst,
-    "once": _Once,
-}
+class Throttle(LoggingFilter):
+    """Lets a message through when enough time has passed since the last one."""
+
+    params: ClassVar[dict[str, Any]] = {
+        "throttle_duration_sec": None,
+        "throttle_time_source_type": _SystemClock(),
+    }
+
+    @classmethod
+    def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
+        """See :meth:`LoggingFilter.initialize_context`; ValueError for what is no clock."""
+        super().initialize_context(context, **kwargs)
+        clock = context["throttle_time_source_type"]
+        if not callable(getattr(clock, "now", None)):
+            raise ValueError(  # noqa: TRY004 - ROS 2's
+                f'Received throttle_time_source_type of "{clock}" is not a clock instance.'
+            )
+        context["throttle_last_logged"] = None
+
+    @staticmethod
+    def should_log(context: dict[str, Any]) -> bool:
+        """See :meth:`LoggingFilter.should_log`."""
+        now_ns = int(context["throttle_time_source_type"].now().nanoseconds)
+        last_ns = context["throttle_last_logged"]
+        period_ns = int(context["throttle_duration_sec"] * 1e9)
+        # A clock that was set back (a simulation that starts again) must not silence the message
+        # until it has caught up.
+        if last_ns is not None and last_ns <= now_ns < last_ns + period_ns:
+            return False
+        context["throttle_last_logged"] = now_ns
+        return True
+
+
+class SkipFirst(LoggingFilter):
+    """Lets all messages through but the first."""
+
+    params: ClassVar[dict[str, Any]] = {"skip_first": None}
+
+    @classmethod
+    def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
+        """See :meth:`LoggingFilter.initialize_context`."""
+        super().initialize_context(context, **kwargs)
+        context["first_has_been_skipped"] = False
+
+    @staticmethod
+    def should_log(context: dict[str, Any]) -> bool:
+        """See :meth:`LoggingFilter.should_log`."""
+        skipped, context["first_has_been_skipped"] = context["first_has_been_skipped"], True
+        return bool(skipped)
+
+
+#: In the order in which they are asked; a message that one holds back is unknown to the next.
+supported_filters: OrderedDict[str, type[LoggingFilter]] = OrderedDict(
+    throttle=Throttle, skip_first=SkipFirst, once=Once
+)
+
+
+def get_filters_from_kwargs(**kwargs: Any) -> list[str]:
+    """The names of the filters that keyword arguments ask for.
+
+    Raises:
+        TypeError: An argument belongs to no filter, or one that its filter needs is missing.
+    """
+    detected = [
+        name
+        for name, each in supported_filters.items()
+        if any(kwargs.get(param) for param in each.params)
+    ]
+    for name in detected:
+        for param, default in supported_filters[name].params.items():
+            if default is None and param not in kwargs:
+                raise TypeError(
+                    f'required parameter "{param}" not specified but is required for the the '
+                    f'logging filter "{name}"'
+                )
+    known = [param for each in supported_filters.values() for param in each.params]
+    for param in kwargs:
+        if param not in known:
+            raise TypeError(
+                f'parameter "{param}" is not one of the recognized logging options "{known}"'
+            )
+    return detected
+
+
+class _Place(NamedTuple):
+    function_name: str
+    file_path: str
+    line_number: int
+    last_index: int
+
+
+class CallerId(_Place):
+    """Where in a program a message is logged: the line, and the instruction in it.
+
+    Args:
+        frame: None takes the nearest frame of another file.
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, frame: FrameType | None = None) -> Self:
+        """See the class."""
+        frame = _caller() if frame is None else frame
+        code = frame.f_code
+        return super().__new__(cls, code.co_name, code.co_filename, frame.f_lineno, frame.f_lasti)
 
 
 class _CallSite:
@@ -89,8 +202,11 @@ class _CallSite:
         self.severity = severity
         self.name = name
         self.options = options
-        self.filter_names = _requested_filters(options)
-        self._filters = [_FILTER_CLASSES[name](options) for name in self.filter_names]
+        self.filter_names = get_filters_from_kwargs(**options)
+        self._filters = [supported_filters[each] for each in self.filter_names]
+        self._context: dict[str, Any] = {"name": name, "severity": severity}
+        for each in self._filters:
+            each.initialize_context(self._context, **options)
         self._lock = threading.Lock()
 
     def check(self, severity: int, name: str, options: dict[str, Any]) -> None:
@@ -100,7 +216,7 @@ class _CallSite:
             raise ValueError("Logger name cannot be changed between calls.")
         if options == self.options:
             return
-        if _requested_filters(options) != self.filter_names:
+        if get_filters_from_kwargs(**options) != self.filter_names:
             raise ValueError("Requested logging filters cannot be changed between calls.")
         if self.filter_names:
             raise ValueError("Logging filter parameters cannot be changed between calls.")
@@ -109,33 +225,7 @@ class _CallSite:
         if not self._filters:
             return True
         with self._lock:
-            return all(each.lets_through() for each in self._filters)
-
-
-def _requested_filters(options: dict[str, Any]) -> list[str]:
-    """The names of the filters that keyword arguments ask for.
-
-    Raises:
-        TypeError: An argument belongs to no filter, or one that its filter needs is missing.
-    """
-    requested = [
-        name
-        for name, defaults in _FILTERS.items()
-        if any(options.get(option) for option in defaults)
-    ]
-    for name in requested:
-        for option, default in _FILTERS[name].items():
-            if default is None and option not in options:
-                raise TypeError(
-                    f'required parameter "{option}" not specified but is required for the the '
-                    f'logging filter "{name}"'
-                )
-    for option in options:
-        if option not in _OPTIONS:
-            raise TypeError(
-                f'parameter "{option}" is not one of the recognized logging options "{_OPTIONS}"'
-            )
-    return requested
+            return all(each.should_log(self._context) for each in self._filters)
 
 
 class RcutilsLogger:
@@ -155,7 +245,7 @@ class RcutilsLogger:
 
     def __init__(self, name: str = "", namespace: str = "") -> None:
         self.name = f"{namespace}.{name}" if namespace else name
-        self._call_sites: dict[tuple[str, str, int, int], _CallSite] = {}
+        self._call_sites: dict[CallerId, _CallSite] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """The logger ``<this name>.<name>``, which inherits the level.
@@ -214,20 +304,23 @@ class RcutilsLogger:
         return log_levels.effective(self.name) <= _FATAL and self._log(message, _FATAL, kwargs)
 
     def _log(self, message: Any, severity: int, options: dict[str, Any]) -> bool:
-        name = options.pop("name", self.name)
-        frame = _caller()
-        code, line = frame.f_code, frame.f_lineno
-        key = (code.co_filename, code.co_name, line, frame.f_lasti)
-        site = self._call_sites.get(key)
+        name = options.pop("name", None) or self.name
+        caller = CallerId()
+        site = self._call_sites.get(caller)
         if site is None:
-            site = self._call_sites.setdefault(key, _CallSite(severity, name, options))
+            site = self._call_sites.setdefault(caller, _CallSite(severity, name, options))
         else:
             site.check(severity, name, options)
         if not site.lets_through():
             return False
-        text, file_name = _encodable(str(message)), _encodable(code.co_filename)
         record = log_output.LogRecord(
-            time.time_ns(), severity, name, text, file_name, code.co_name, line
+            time.time_ns(),
+            severity,
+            name,
+            _encodable(str(message)),
+            _encodable(caller.file_path),
+            caller.function_name,
+            caller.line_number,
         )
         log_output.emit(record)
         return True

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup
     from rclpy.publisher import Publisher
 
-__all__ = ["LifecycleNode", "LifecycleNodeMixin"]
+__all__ = ["LifecycleNode", "LifecycleNodeMixin", "LifecycleState"]
 
 _SUCCESS = TransitionCallbackReturn.SUCCESS
 
@@ -101,9 +101,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return self.__change_state(self._state_machine.by_label("deactivate"))
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """Go to finalized, from where no way leads on."""
-        if self._state_machine.current_state == STATES[4]:
-            return _SUCCESS
+        """Go to finalized, from where no way leads on: RCLError there."""
         return self.__change_state(self._state_machine.by_label("shutdown"))
 
     def __change_state(self, transition: Transition) -> TransitionCallbackReturn:

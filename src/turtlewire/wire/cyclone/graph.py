@@ -138,20 +138,33 @@ class CycloneGraph(GraphView):
         self._update()
         self.notify_changed()
 
-    def _update(self) -> None:
-        """Take over everything that is new.
+    def _look_first(self) -> None:
+        """Take over what Cyclone knows already, before a question is answered.
+
+        The reader thread may not have heard yet of an endpoint that the asking thread has just made
+        or closed. What is taken here does not wake it any more, so it is asked to tell the
+        listeners.
+        """
+        if self._update():
+            self._reader.call_soon(self.notify_changed)
+
+    def _update(self) -> bool:
+        """Take over everything that is new; whether there was anything.
 
         Announcements are taken first and kept only from participants that are known after that: so
         the last words of one that has gone do not bring its nodes back.
         """
         with self._lock:
             infos = self._infos.take_bytes()
-            self._update_participants()
-            self._update_endpoints("publisher", self._publications)
-            self._update_endpoints("subscription", self._subscriptions)
+            news = [
+                self._update_participants(),
+                self._update_endpoints("publisher", self._publications),
+                self._update_endpoints("subscription", self._subscriptions),
+            ]
             for cdr in infos:
                 self._update_nodes(cdr)
             self._ask_soon()
+        return bool(infos) or any(news)
 
     def hurry(self) -> None:
         """See :meth:`Graph.hurry`."""
@@ -182,8 +195,10 @@ class CycloneGraph(GraphView):
         known = self._announced.keys() | {self._participant_gid}
         return {gid for gid, enclave in self._enclaves.items() if enclave} - known
 
-    def _update_participants(self) -> None:
+    def _update_participants(self) -> bool:
+        news = False
         for alive, sample in self._participants.take(dds.BuiltinParticipant):
+            news = True
             gid = bytes(sample.key)
             if alive:
                 self._enclaves[gid] = parse_user_data(read_user_data(sample.qos)).get("enclave", "")
@@ -191,9 +206,12 @@ class CycloneGraph(GraphView):
                 self._enclaves.pop(gid, None)
                 self._announced.pop(gid, None)
                 self._node_names.gone(gid)
+        return news
 
-    def _update_endpoints(self, kind: str, source: _BuiltinReader) -> None:
+    def _update_endpoints(self, kind: str, source: _BuiltinReader) -> bool:
+        news = False
         for alive, sample in source.take(dds.BuiltinEndpoint):
+            news = True
             gid = bytes(sample.key)
             if alive and sample.topic_name.startswith(b"DCPS"):
                 continue  # Cyclone's own readers of this very information
@@ -210,6 +228,7 @@ class CycloneGraph(GraphView):
                     kind, topic, type_name, user_data.get("typehash", ""), read_qos(sample.qos)
                 )
                 self._compare_types(self._topic_types.add, gid, endpoint)
+        return news
 
     def _compare_types(self, change: Callable[..., None], gid: bytes, endpoint: _Endpoint) -> None:
         topic = names.topic_from_dds(endpoint.dds_topic)
@@ -252,6 +271,7 @@ class CycloneGraph(GraphView):
         """
         # A process that has bound a port of the domain but is not discovered yet is still to come.
         on_host = processes_on_host(self._domain_id)
+        self._look_first()
         with self._lock:
             if on_host is not None and len({process_of(gid) for gid in self._enclaves}) < on_host:
                 return False
@@ -265,11 +285,13 @@ class CycloneGraph(GraphView):
 
     def nodes(self) -> list[NodeInfo]:
         """See :meth:`Graph.nodes`."""
+        self._look_first()
         with self._lock:
             return [info for info, _ in self._all_nodes()]
 
     def endpoints(self) -> list[EndpointInfo]:
         """See :meth:`Graph.endpoints`."""
+        self._look_first()
         with self._lock:
             owners = {
                 gid: info

@@ -1,0 +1,15 @@
+"""What can be destroyed."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+__all__ = ["DestroyableType"]
+
+
+class DestroyableType(Protocol):
+    """A publisher, a subscription, a timer … or the handle of one."""
+
+    def __enter__(self) -> object: ...
+
+    def __exit__(self, t: object, v: object, tb: object, /) -> None: ...
