@@ -3,18 +3,38 @@
 from __future__ import annotations
 
 import pickle
+import sys
+import traceback
+from pathlib import Path
 
 import pytest
 
 from turtlewire import Buffer
-from turtlewire.errors import LookupException, WireError
+from turtlewire.bag import load_trajectory
+from turtlewire.errors import BagError, LookupException, WireError
 
 
-@pytest.mark.parametrize("error", [LookupException("no frame"), WireError("no network")])
+@pytest.mark.parametrize(
+    "error", [LookupException("no frame"), WireError("no network"), BagError("no bag")]
+)
 def test_a_pickled_error_keeps_the_hint_that_it_was_given(error):
     copy = pickle.loads(pickle.dumps(error.with_hint("Start a broadcaster.")))
     assert (type(copy), str(copy)) == (type(error), str(error))
     assert copy.hint == "Start a broadcaster."
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="exceptions have no notes")
+def test_a_traceback_shows_the_hint():
+    path = Path(__file__).parent / "golden" / "bag" / "d_mcap"
+    for call, hint in (
+        (lambda: Buffer.from_bag(path, topics=["/tf", "/tff"]), "Topics of type tf2_msgs"),
+        (lambda: load_trajectory(path, "/odm"), "Did you mean: /odom. Topics with poses: /goal"),
+    ):
+        with pytest.raises(BagError) as caught:
+            call()
+        assert hint in caught.value.hint
+        assert hint not in str(caught.value)
+        assert f"\n{hint}" in "".join(traceback.format_exception(caught.value))
 
 
 def test_a_pickled_error_keeps_the_hint_that_only_the_buffer_could_give():

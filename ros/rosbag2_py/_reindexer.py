@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from rclpy.logging import get_logger
 from turtlewire.bag import reindex
 from turtlewire.errors import BagError
+from turtlewire.printable import printable
 
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
@@ -20,12 +22,21 @@ class Reindexer:
     def reindex(self, storage_options: StorageOptions) -> None:
         """Write the metadata of the bag at ``storage_options.uri``.
 
+        What is damaged is logged as warnings, with what was kept.
+
         Raises:
             RuntimeError: It is no folder with files of a bag.
         """
         if not os.path.isdir(storage_options.uri):
             raise RuntimeError(f"{storage_options.uri} is not a bag directory")
+        damaged: list[str] = []
         try:
-            reindex(storage_options.uri)
+            found = reindex(storage_options.uri, damaged.append)
         except BagError as error:
             raise RuntimeError(str(error)) from error
+        if damaged:
+            logger = get_logger("rosbag2_cpp")
+            for problem in damaged:
+                logger.warning(printable(problem))
+            kept = f"{found.message_count:,} messages in {len(found.paths)} file(s)"
+            logger.warning(f"The bag is damaged; what is kept are {kept}.")

@@ -75,6 +75,25 @@ def test_reindex(capfd, tmp_path):
     assert (status, "Messages:          41\n" in out) == (0, True)
 
 
+def test_reindex_says_what_is_damaged_and_what_was_kept(capfd, tmp_path):
+    shutil.copytree(GOLDEN / "d_mcap", tmp_path / "cut")
+    with open(tmp_path / "cut" / "d_mcap_0.mcap", "r+b") as file:
+        file.truncate(60_000)
+    shutil.copytree(GOLDEN / "d_split_file_zstd", tmp_path / "split")
+    with open(tmp_path / "split" / "d_split_file_zstd_1.mcap.zstd", "r+b") as file:
+        file.truncate(15_000)
+    status, _, err = run(capfd, "reindex", str(tmp_path / "cut"))
+    assert status == 0
+    assert "d_mcap_0.mcap: the record at byte 567 is cut off or damaged" in err
+    assert "The bag is damaged; what is kept are 141 messages in 1 file(s)." in err
+    status, _, err = run(capfd, "reindex", str(tmp_path / "split"))
+    assert "d_split_file_zstd_1.mcap.zstd: the compressed file ends too early" in err
+    assert "this file is left out" in err
+    assert "what is kept are 258 messages in 1 file(s)." in err
+    _, out, _ = run(capfd, "info", str(tmp_path / "cut"))
+    assert "d_mcap_0.mcap\n" in out
+
+
 def test_wrong_words(capfd):
     status, out, err = run(capfd, "info", "nothing_here")
     assert (status, out) == (2, "")

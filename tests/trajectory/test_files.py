@@ -206,3 +206,10 @@ def test_any_format_is_written_and_recognised(tmp_path, kind):
     assert write_trajectory(walk, tmp_path / "walk.txt") == "tum"
     with pytest.raises(ValueError, match="unknown format 'xyz'; known are tum, kitti"):
         write_trajectory(walk, path, "xyz")
+
+
+@pytest.mark.parametrize("read", [read_tum, read_csv, read_euroc, read_kitti])
+def test_a_file_without_data(tmp_path, read):
+    (tmp_path / "empty").write_text("# a comment\n\n")
+    with pytest.raises(ValueError, match="empty has no data: expected lines of "):
+        read(tmp_path / "empty")

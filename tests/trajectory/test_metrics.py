@@ -190,7 +190,7 @@ def test_wrong_words(pair):
         ape(*pair, "tranz")
     with pytest.raises(ValueError, match="unknown unit 'x'"):
         rpe(*pair, unit="x")
-    with pytest.raises(ValueError, match="no two poses are 100000"):
+    with pytest.raises(ValueError, match="no two of 300 poses are 100000 m apart"):
         rpe(*pair, delta=100_000, unit="m")
     with pytest.raises(ValueError, match="unknown alignment 'SE3'"):
         compare(*pair, "SE3")
@@ -211,3 +211,11 @@ def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
     for other in (read_trajectory(tmp_path / "b.txt"), walk):
         with pytest.raises(ValueError, match="has no times"):
             compare(untimed, other)
+
+
+def test_what_cannot_be_computed_is_said():
+    standing = Trajectory([1, 2], [[0, 0, 0, 0, 0, 0, 1]] * 2)
+    with pytest.raises(ValueError, match="the reference does not move"):
+        rpe(standing, standing, "point_distance_error_ratio")
+    with pytest.raises(ValueError, match="no two of 2 poses are 3 m apart"):
+        rpe(standing, standing, delta=3, unit="m")

@@ -37,13 +37,16 @@ _ALWAYS_BYTES = 64 << 20
 _FILE_BLOCK = 1 << 20
 
 
-def decompress(compression: str, data: bytes | memoryview, size: int | None = None) -> bytes:
+def decompress(
+    compression: str, data: bytes | memoryview, size: int | None = None, *, cut: bool = False
+) -> bytes:
     """Decompress one chunk or one message.
 
     Args:
         compression: ``""`` (none), ``"zstd"`` or ``"lz4"``.
         data: The compressed bytes.
         size: The number of bytes that must come out; None if it is not known.
+        cut: Whether the data may end early; what they begin with comes out.
 
     Raises:
         BagError: The bytes are damaged, do not have that size, or need a package that is missing.
@@ -56,10 +59,10 @@ def decompress(compression: str, data: bytes | memoryview, size: int | None = No
             f"a chunk of {len(data)} bytes says that it holds {size} bytes; at most {limit} are "
             "read"
         )
-    out = _decompressor(compression)(data, limit if size is None else size)
+    out = _decompressor(compression)(data, limit if size is None else size, cut)
     if size is None and len(out) > limit:
         raise BagError(f"a message of {len(data)} bytes decompresses to more than {limit} bytes")
-    if size is not None and len(out) != size:
+    if size is not None and len(out) != size and not (cut and len(out) < size):
         raise BagError(f"a chunk decompresses to {len(out)} bytes instead of {size}")
     return out
 
@@ -112,7 +115,7 @@ def _copy(source: BinaryIO, target: zstd.ZstdFile) -> None:
         target.write(block)
 
 
-def _decompressor(compression: str) -> Callable[[bytes | memoryview, int], bytes]:
+def _decompressor(compression: str) -> Callable[[bytes | memoryview, int, bool], bytes]:
     if compression == "zstd":
         return _decompress_zstd
     if compression == "lz4":
@@ -120,19 +123,19 @@ def _decompressor(compression: str) -> Callable[[bytes | memoryview, int], bytes
     raise BagError(f"unknown compression '{compression}'").with_hint("Known are zstd and lz4.")
 
 
-def _decompress_zstd(data: bytes | memoryview, size: int) -> bytes:
+def _decompress_zstd(data: bytes | memoryview, size: int, cut: bool) -> bytes:
     decompressor = zstd.ZstdDecompressor()
     try:
         # One byte more than announced shows a chunk that holds more than it says.
         out: bytes = decompressor.decompress(data, size + 1)
     except zstd.ZstdError as error:
         raise BagError(f"damaged zstd data: {error}") from None
-    if not decompressor.eof and len(out) <= size:
+    if not decompressor.eof and len(out) <= size and not cut:
         raise BagError("the zstd data end too early")
     return out
 
 
-def _decompress_lz4(data: bytes | memoryview, size: int) -> bytes:
+def _decompress_lz4(data: bytes | memoryview, size: int, _cut: bool) -> bytes:
     frame = _lz4_frame()
     try:
         out: bytes = frame.LZ4FrameDecompressor().decompress(bytes(data), size + 1)

@@ -36,6 +36,7 @@ _MESSAGE_OPCODE, _MESSAGE_FIELDS = Op.MESSAGE, _MESSAGE.size  # names of a modul
 _DEFINITIONS = (Op.SCHEMA, Op.CHANNEL)
 _FOOTER_SIZE = OPCODE_AND_LENGTH.size + 20
 _NO_TIME = (1 << 64) - 1
+_CHUNK = bytes([Op.CHUNK])
 
 
 class McapFile:
@@ -241,8 +242,10 @@ class McapFile:
         """Find chunks, definitions and counts by reading the whole file."""
         self.chunks.clear()
         totals = _Totals()
+        reached = len(MAGIC)
         try:
-            for opcode, content, position in self._top_records(len(MAGIC), len(self._bytes)):
+            for opcode, content, position in self._top_records(reached, len(self._bytes)):
+                reached = position + OPCODE_AND_LENGTH.size + len(content)
                 if opcode in (Op.SCHEMA, Op.CHANNEL):
                     self._read_definition(opcode, content)
                 elif opcode == Op.METADATA:
@@ -256,6 +259,9 @@ class McapFile:
                     break
         except BagError as error:
             self.problems.append(f"{self.path}: {error}; what lies before it is read")
+            if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
+                rest = len(self._bytes) - reached
+                self._add_chunk(ChunkIndex(0, 0, reached, rest, None), totals)
         self.statistics = totals.statistics()
 
     def _add_chunk(self, chunk: ChunkIndex, totals: _Totals) -> None:
@@ -335,8 +341,23 @@ def _chunk_records(content: memoryview) -> bytes | memoryview:
     reader = RecordReader(content)
     reader.take(16)  # the times of the first and last message
     size, crc, compression = reader.u64(), reader.u32(), reader.string()
-    compressed = reader.take(reader.u64())
-    records = decompress(compression, compressed, size) if compression else compressed
+    length = reader.u64()
+    present = min(length, len(content) - reader.position)
+    compressed, cut = reader.take(present), present < length
+    records = decompress(compression, compressed, size, cut=cut) if compression else compressed
+    if cut:  # the file ends in it
+        return records[: _end_of_the_whole(records)]
     if crc and zlib.crc32(records) != crc:
         raise BagError("the checksum does not fit")
     return records
+
+
+def _end_of_the_whole(records: bytes | memoryview) -> int:
+    """Where the last record ends that is not cut off."""
+    end = 0
+    while end + _PREFIX <= len(records):
+        _, length = OPCODE_AND_LENGTH.unpack_from(records, end)
+        if end + _PREFIX + length > len(records):
+            break
+        end += _PREFIX + length
+    return end

@@ -11,13 +11,8 @@ from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress, read_zstd_file
 from turtlewire.bag.definitions import learn_types
-from turtlewire.bag.metadata import (
-    BagMetadata,
-    FileInfo,
-    TopicInfo,
-    read_metadata,
-    write_metadata,
-)
+from turtlewire.bag.files import joined, overlapping, storage_files
+from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata, write_metadata
 from turtlewire.bag.storage import StorageFile, open_storage
 from turtlewire.errors import BagError
 from turtlewire.tf.datetimes import as_nanoseconds
@@ -71,7 +66,7 @@ class Bag:
         if os.path.isdir(self.path):
             self._folder = self.path
             told = read_metadata(self.path) if trust_metadata else None
-            self.metadata = told or self._metadata_of(_storage_files(self.path))
+            self.metadata = told or self._metadata_of(storage_files(self.path))
         else:
             self._folder = os.path.dirname(self.path)
             self.metadata = self._metadata_of([os.path.basename(self.path)])
@@ -192,7 +187,7 @@ class Bag:
         start_ns, end_ns = window(start_ns, end_ns)
         wanted = self._wanted(_names(topics), _names(types))
         damage: list[BagError] = []
-        for group in _overlapping(self.metadata):
+        for group in overlapping(self.metadata):
             streams = [self._messages_of(path, wanted, start_ns, end_ns, damage) for path in group]
             yield from heapq.merge(*streams, key=_log_time) if len(streams) > 1 else streams[0]
         if damage:
@@ -232,10 +227,20 @@ class Bag:
         """
         file = self._files.get(path)
         if file is None:
-            file = open_storage(self._plain_file(path))
+            file = self._open(path)
             self._files[path] = file
             self.problems += file.problems
         return file
+
+    def _open(self, path: str) -> StorageFile:
+        plain = self._plain_file(path)
+        try:
+            return open_storage(plain)
+        except BagError as error:
+            if not path.endswith(".zstd"):
+                raise
+            full = os.path.join(self._folder, path)
+            raise BagError(f"{full}: what was decompressed of it cannot be read: {error}") from None
 
     def _plain_file(self, path: str) -> str:
         """The file itself, or a decompressed copy that lives as long as the bag is open."""
@@ -259,7 +264,17 @@ class Bag:
         """Metadata from the files themselves."""
         if not paths:
             raise BagError(f"{self.path} is no bag: it holds no .mcap or .db3 file")
-        return _joined(paths, [self.file(path).summary() for path in paths])
+        parts: dict[str, BagMetadata] = {}
+        for path in paths:
+            try:
+                parts[path] = self.file(path).summary()
+            except BagError as error:  # noqa: PERF203 - a bag has few files
+                if len(paths) == 1:
+                    raise
+                self.problems.append(f"{error}; this file is left out")
+        if not parts:
+            raise BagError(f"{self.path}: none of its files can be read: {self.problems[0]}")
+        return joined(list(parts), list(parts.values()))
 
 
 def window(start_ns: int, end_ns: int) -> tuple[int, int]:
@@ -289,8 +304,14 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
     return Bag(path)
 
 
-def reindex(path: str | os.PathLike[str]) -> BagMetadata:
+def reindex(
+    path: str | os.PathLike[str], damaged: Callable[[str], None] | None = None
+) -> BagMetadata:
     """Write ``metadata.yaml`` of a folder anew from the files in it.
+
+    Args:
+        path: The folder.
+        damaged: Called with a sentence for each part that cannot be read.
 
     Raises:
         FileNotFoundError: There is no such folder.
@@ -298,6 +319,9 @@ def reindex(path: str | os.PathLike[str]) -> BagMetadata:
     """
     with Bag(path, trust_metadata=False) as bag:
         write_metadata(bag.path, bag.metadata)
+        if damaged is not None:
+            for problem in bag.problems:
+                damaged(problem)
         return bag.metadata
 
 
@@ -323,64 +347,3 @@ def _nearest(name: str, known: Iterable[str]) -> str:
 
 def _log_time(message: BagMessage) -> int:
     return message.log_time_ns
-
-
-def _storage_files(folder: str) -> list[str]:
-    """The storage files of a folder without metadata, in the order of their numbers."""
-    endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
-    names = [name for name in os.listdir(folder) if name.endswith(endings)]
-    return sorted(names, key=lambda name: (_number(name), name))
-
-
-def _number(name: str) -> int:
-    """The number at the end of ``my_bag_12.mcap``; -1 without one."""
-    number = name.split(".", maxsplit=1)[0].rpartition("_")[2]
-    return int(number) if number.isdecimal() else -1
-
-
-def _overlapping(metadata: BagMetadata) -> Iterator[list[str]]:
-    """Paths of the files in order of time; those whose times overlap come together."""
-    paths, files = metadata.paths, metadata.files
-    if len(files) != len(paths):  # metadata before version 5 does not tell the times of files
-        yield paths
-        return
-    group: list[str] = []
-    end = 0
-    for file, path in sorted(zip(files, paths, strict=True), key=lambda pair: pair[0].start_ns):
-        if group and file.start_ns > end:
-            yield group
-            group = []
-        group.append(path)
-        end = max(end, file.start_ns + file.duration_ns)
-    if group:
-        yield group
-
-
-def _joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
-    """The metadata of a bag that consists of these files."""
-    files = [
-        FileInfo(path.removesuffix(".zstd"), part.start_ns, part.duration_ns, part.message_count)
-        for path, part in zip(paths, parts, strict=True)
-    ]
-    topics: dict[str, TopicInfo] = {}
-    for topic in (topic for part in parts for topic in part.topics):
-        known = topics.setdefault(topic.name, topic)
-        if known is not topic:
-            known.message_count += topic.message_count
-    whole_files = paths[0].endswith(".zstd")
-    filled = [part for part in parts if part.message_count]
-    start = min((part.start_ns for part in filled), default=0)
-    end = max((part.start_ns + part.duration_ns for part in filled), default=0)
-    return BagMetadata(
-        storage=parts[0].storage,
-        paths=paths,
-        files=files,
-        topics=list(topics.values()),
-        start_ns=start,
-        duration_ns=end - start,
-        message_count=sum(part.message_count for part in parts),
-        compression_format="zstd" if whole_files else parts[0].compression_format,
-        compression_mode="FILE" if whole_files else parts[0].compression_mode,
-        custom_data=parts[0].custom_data,
-        ros_distro=parts[0].ros_distro,
-    )

@@ -2,12 +2,17 @@
 
 Versions differ in what they lack: without the table ``schema`` it is version 2 or 1, without the
 column ``offered_qos_profiles`` version 1; definitions and embedded metadata exist since version 4.
+
+Of a file that was cut, the rows up to the first one that is lost are read: they lie in the order in
+which they were written, and sqlite3 can go through them without the index.
 """
 
 from __future__ import annotations
 
 import os
 import sqlite3
+from collections import Counter
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -51,19 +56,26 @@ class SqliteFile:
             f"file:{quote(os.path.abspath(path))}?mode={mode}", uri=True, check_same_thread=False
         )
         self._database.text_factory = _text
+        #: Log time and id of the rows that can be read, in order; None if the file is whole.
+        self._whole_rows: list[tuple[int, int, int]] | None = None
+        self._page_bytes = 0
+        missing = self._missing_bytes()
+        if missing:  # sqlite3 refuses such a file but to those who repair it
+            self._database.execute("PRAGMA writable_schema = ON")
         try:
-            self.topics = self._read_topics()
+            self.topics = self._read_topics(missing)
         except (*_DAMAGE, KeyError, TypeError, BagError) as error:
             self._database.close()
-            raise BagError(f"{path} is not a sqlite3 file of a bag: {error}") from None
+            lacks = f" (its last {missing:,} bytes are missing)" if missing else ""
+            raise BagError(f"{path} is not a sqlite3 file of a bag: {error}{lacks}") from None
 
     def close(self) -> None:
         """Release the file."""
         self._database.close()
 
-    def _read_topics(self) -> dict[int, TopicInfo]:
+    def _read_topics(self, missing: int) -> dict[int, TopicInfo]:
         rows = self._rows("SELECT * FROM topics ORDER BY id")
-        counts = dict(self._tuples("SELECT topic_id, COUNT(*) FROM messages GROUP BY topic_id"))
+        counts = self._counts(missing)
         topics = {}
         for row in rows:
             topics[row["id"]] = TopicInfo(
@@ -75,6 +87,50 @@ class SqliteFile:
                 counts.get(row["id"], 0),
             )
         return topics
+
+    def _missing_bytes(self) -> int:
+        """How many bytes the file lacks of what its header says; 0 while a log lies beside it."""
+        with open(self.path, "rb") as file:
+            header = file.read(32)
+        page = int.from_bytes(header[16:18], "big")
+        self._page_bytes = 1 << 16 if page <= 1 else page
+        told = self._page_bytes * int.from_bytes(header[28:32], "big")
+        if os.path.exists(self.path + "-wal"):
+            return 0
+        return max(0, told - os.path.getsize(self.path))
+
+    def _counts(self, missing: int) -> dict[int, int]:
+        """How many messages of each topic can be read."""
+        if not missing:
+            with suppress(sqlite3.DatabaseError):
+                query = "SELECT topic_id, COUNT(*) FROM messages GROUP BY topic_id"
+                return dict(self._tuples(query))
+        rows = self._whole_rows = self._rows_before_the_damage()
+        what = f"its last {missing:,} bytes are missing" if missing else "it is damaged"
+        self.problems.append(f"{self.path}: {what}; the first {len(rows):,} messages are read")
+        return Counter(topic for _, _, topic in rows)
+
+    def _rows_before_the_damage(self) -> list[tuple[int, int, int]]:
+        """Log time, id and topic of the messages up to the first that is lost, in order of time."""
+        found: list[tuple[int, int, int]] = []
+        sizes: list[int] = []
+        with suppress(*_DAMAGE):
+            # SUBSTR makes sqlite3 read a message to its end, which may lie on a page that is lost.
+            query = (
+                "SELECT CAST(timestamp AS INTEGER), id, topic_id, LENGTH(data), SUBSTR(data, -1) "
+                "FROM messages NOT INDEXED ORDER BY id"
+            )
+            for log_time, number, topic, size, _ in self._tuples(query):
+                if log_time is None or topic is None or size is None:
+                    break
+                found.append((log_time, number, topic))
+                sizes.append(size)
+        # sqlite3 takes zeros for what a page lacks that is cut: what may lie on it is not trusted.
+        doubtful = self._page_bytes if os.path.getsize(self.path) % self._page_bytes else 0
+        while found and doubtful > 0:
+            found.pop()
+            doubtful -= sizes.pop()
+        return sorted(found)
 
     def _tuples(self, query: str, arguments: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
         yield from self._database.execute(query, arguments)
@@ -91,6 +147,9 @@ class SqliteFile:
     def times(self) -> tuple[int, int]:
         """Log times of the oldest and newest message; zeros without messages."""
         # A damaged file may hold other types than its columns say.
+        if self._whole_rows is not None:
+            rows = self._whole_rows
+            return (rows[0][0], rows[-1][0]) if rows else (0, 0)
         query = (
             "SELECT MIN(CAST(timestamp AS INTEGER)), MAX(CAST(timestamp AS INTEGER)) FROM messages"
         )
@@ -101,32 +160,44 @@ class SqliteFile:
         return oldest or 0, newest or 0
 
     def embedded_metadata(self) -> BagMetadata | None:
-        """The metadata that the recorder wrote last; None before schema version 4."""
-        if not self._has_table("metadata"):
+        """The metadata that the recorder wrote last; None before schema version 4, or damaged."""
+        try:
+            if not self._has_table("metadata"):
+                return None
+            rows = [row[0] for row in self._tuples("SELECT metadata FROM metadata ORDER BY id")]
+            texts = [text for text in rows if isinstance(text, str)]
+            return parse_metadata(load_yaml(texts[-1], self.path), self.path) if texts else None
+        except (*_DAMAGE, BagError) as error:
+            self.problems.append(f"{self.path}: the metadata in it cannot be read: {error}")
             return None
-        texts = [str(row[0]) for row in self._tuples("SELECT metadata FROM metadata ORDER BY id")]
-        return parse_metadata(load_yaml(texts[-1], self.path), self.path) if texts else None
 
     def definitions(self) -> dict[str, tuple[str, str]]:
         """Encoding and text of each type's definition; empty before schema version 4."""
-        if not self._has_table("message_definitions"):
+        try:
+            if not self._has_table("message_definitions"):
+                return {}
+            rows = self._rows("SELECT * FROM message_definitions")
+        except _DAMAGE as error:
+            self.problems.append(f"{self.path}: its definitions cannot be read: {error}")
             return {}
         return {
             str(row["topic_type"]): (str(row["encoding"]), str(row["encoded_message_definition"]))
-            for row in self._rows("SELECT * FROM message_definitions")
+            for row in rows
         }
 
     def messages(
-        self, topic_ids: Collection[int] | None, start_ns: int, end_ns: int
+        self, topic_ids: Collection[int], start_ns: int, end_ns: int
     ) -> Iterator[tuple[int, int, bytes]]:
         """Log time, topic id and bytes of the messages in order of time.
 
         Raises:
             BagError: The file is damaged; the messages before the damage were yielded.
         """
-        where = "timestamp BETWEEN ? AND ?"
-        if topic_ids is not None:
-            where += f" AND topic_id IN ({', '.join(map(str, topic_ids))})"
+        if self._whole_rows is not None:
+            yield from self._messages_before_the_damage(topic_ids, start_ns, end_ns)
+            return
+        topics = ", ".join(map(str, topic_ids))
+        where = f"timestamp BETWEEN ? AND ? AND topic_id IN ({topics})"
         limit = (1 << 63) - 1
         try:
             rows = self._database.execute(
@@ -140,6 +211,24 @@ class SqliteFile:
                 yield row
         except _DAMAGE as error:
             raise BagError(f"{self.path}: {error}; the messages before it were read") from None
+
+    def _messages_before_the_damage(
+        self, topic_ids: Collection[int], start_ns: int, end_ns: int
+    ) -> Iterator[tuple[int, int, bytes]]:
+        query = "SELECT CAST(data AS BLOB) FROM messages WHERE id = ?"
+        lost = 0
+        for log_time, number, topic in self._whole_rows or ():
+            if not start_ns <= log_time <= end_ns or topic not in topic_ids:
+                continue
+            try:
+                rows = list(self._tuples(query, (number,)))
+            except _DAMAGE:
+                lost += 1
+                continue
+            for (data,) in rows:
+                yield log_time, topic, data
+        if lost:
+            raise BagError(f"{self.path}: {lost:,} of these messages cannot be read after all")
 
 
 def _text(data: bytes) -> str:

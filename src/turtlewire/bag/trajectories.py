@@ -83,7 +83,7 @@ def _type_of(bag: Bag, topic: str) -> str:
         wrong = bag.topics[topic].type
         raise BagError(f"{topic} is of type {wrong}, which has no poses").with_hint(has)
     hint = did_you_mean(topic, fitting)
-    raise BagError(f"{bag.path} has no topic {topic}").with_hint(f"{hint} {has}".strip())
+    raise BagError(f"{bag.path} has no topic {topic}").with_hint(f"{hint}. {has}" if hint else has)
 
 
 def _rows(

@@ -16,6 +16,7 @@ from turtlewire.trajectory import (
     plot_histogram,
     plot_path,
 )
+from turtlewire.trajectory.metrics import UNITS
 
 if TYPE_CHECKING:
     import argparse
@@ -65,13 +66,19 @@ def _ape(args: argparse.Namespace, comparison: Comparison) -> Errors:
     return comparison.ape("point_distance" if ratio else args.relation)
 
 
-def _rpe(args: argparse.Namespace, comparison: Comparison) -> Errors:
-    return comparison.rpe(
-        args.relation, delta=args.delta, unit=args.delta_unit, all_pairs=args.all_pairs
-    )
+def _rpe(args: argparse.Namespace, comparison: Comparison) -> tuple[Errors | None, str]:
+    """The relative error; or None, and why there is none."""
+    try:
+        found = comparison.rpe(
+            args.relation, delta=args.delta, unit=args.delta_unit, all_pairs=args.all_pairs
+        )
+    except ValueError as error:
+        return None, str(error)
+    return found, ""
 
 
 def _figures(args: argparse.Namespace, name: str, comparison: Comparison) -> dict[str, Any]:
+    rpe, reason = _rpe(args, comparison)
     return {
         "reference": args.reference,
         "estimate": name,
@@ -82,7 +89,8 @@ def _figures(args: argparse.Namespace, name: str, comparison: Comparison) -> dic
         "rotation": comparison.alignment.rotation.tolist(),
         "translation": comparison.alignment.translation.tolist(),
         "ape": _ape(args, comparison).statistics._asdict(),
-        "rpe": _rpe(args, comparison).statistics._asdict(),
+        "rpe": rpe.statistics._asdict() if rpe else None,
+        "rpe_missing": reason or None,
     }
 
 
@@ -92,14 +100,11 @@ def _text(args: argparse.Namespace, name: str, comparison: Comparison) -> str:
         f"{printable(name)} against {printable(args.reference)}\n"
         f"{len(comparison.reference):,} pairs of poses, aligned: {comparison.align}{scale}\n"
     )
-    ape, rpe = _ape(args, comparison), _rpe(args, comparison)
-    return (
-        f"{head}\n{_title(ape)}\n{ape.table()}\n"
-        f"{_title(rpe)} over {args.delta:g} {_UNITS[args.delta_unit]}\n{rpe.table()}"
-    )
-
-
-_UNITS = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
+    ape, (rpe, reason) = _ape(args, comparison), _rpe(args, comparison)
+    text = f"{head}\n{_title(ape)}\n{ape.table()}\n"
+    if rpe is None:
+        return f"{text}RPE {args.relation}: cannot be computed, {reason}\n"
+    return f"{text}{_title(rpe)} over {args.delta:g} {UNITS[args.delta_unit]}\n{rpe.table()}"
 
 
 def _title(errors: Errors) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
 from turtlewire.printable import printable
 from turtlewire.trajectory import write_trajectory
+from turtlewire.trajectory.files import kitti_times
 
 if TYPE_CHECKING:
     import argparse
@@ -37,6 +38,8 @@ def run_trajectory(args: argparse.Namespace) -> int:
     if args.output:
         kind = write_trajectory(trajectory, args.output, args.format)
         written.append(f"{args.output} ({kind})")
+        if kind == "kitti":
+            written.append(f"{kitti_times(args.output)} (the times)")
     if args.plot:
         trajectory.plot(args.kind).save(args.plot)
         written.append(args.plot)

@@ -152,7 +152,10 @@ def _umeyama(x: NDArray[np.float64], y: NDArray[np.float64], *, with_scale: bool
     covariance = b.T @ a / len(x)
     u, d, vt = np.linalg.svd(covariance)
     if np.count_nonzero(d > np.finfo(np.float64).eps) < 2:
-        raise ValueError("Degenerate covariance rank, Umeyama alignment is not possible")
+        raise ValueError(
+            "Degenerate covariance rank, Umeyama alignment is not possible: the positions are on a "
+            "line or in one place; 'none', 'origin' and 'yaw' align them"
+        )
     signs = np.array((1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))))
     rotation = quaternions.from_matrices(u @ np.diag(signs) @ vt)
     scale = float(np.sum(d * signs) / (np.sum(a * a) / len(x))) if with_scale else 1.0

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMATS",
+    "kitti_times",
     "read_csv",
     "read_euroc",
     "read_kitti",
@@ -40,7 +41,6 @@ __all__ = [
 FORMATS = {"tum": ".tum", "kitti": ".kitti", "euroc": ".euroc", "csv": ".csv"}
 
 _SECOND = 1_000_000_000
-_TIMES = "_times.txt"
 
 
 def read_tum(path: str | os.PathLike[str]) -> Trajectory:
@@ -131,6 +131,11 @@ def write_kitti(
         _write_lines(times, ((_seconds(stamp), ()) for stamp in stamps), " ")
 
 
+def kitti_times(path: str | os.PathLike[str]) -> str:
+    """The file beside KITTI's poses that has their times."""
+    return os.path.splitext(os.fspath(path))[0] + "_times.txt"
+
+
 def write_trajectory(
     trajectory: Trajectory, path: str | os.PathLike[str], kind: str | None = None
 ) -> str:
@@ -147,10 +152,10 @@ def write_trajectory(
     Raises:
         ValueError: There is no such format.
     """
-    root, ending = os.path.splitext(os.fspath(path))
+    _, ending = os.path.splitext(os.fspath(path))
     kind = kind or next((each for each, usual in FORMATS.items() if usual == ending), "tum")
     if kind == "kitti":
-        write_kitti(trajectory, path, root + _TIMES)
+        write_kitti(trajectory, path, kitti_times(path))
         return kind
     writers = {"tum": write_tum, "euroc": write_euroc, "csv": write_csv}
     if kind not in writers:
@@ -165,15 +170,18 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     KITTI's times are read from ``<name>_times.txt``, if there is such a file.
 
     Raises:
-        ValueError: It is none of them.
+        ValueError: It is none of them, or has no data.
     """
     with open(path, encoding="utf-8-sig") as file:
         lines = [line for line in (line.strip() for line in file) if line]
     data = next((line for line in lines if not _is_comment(line)), "")
+    if not data:
+        what = "only comments and words" if lines else "nothing"
+        raise ValueError(f"{os.fspath(path)} is no trajectory: it holds {what}, no line of numbers")
     columns = len(data.split("," if "," in data else None))
     if "," not in data:
         if columns == 12:
-            times = os.path.splitext(os.fspath(path))[0] + _TIMES
+            times = kitti_times(path)
             return read_kitti(path, times if os.path.exists(times) else None)
         return read_tum(path)
     euroc = columns > 8 or any(line.startswith("#") and "q_w" in line for line in lines[:1])
@@ -208,6 +216,8 @@ def _read_table(
                 raise ValueError(
                     f"{os.fspath(path)}, line {number}: expected {wanted}; {error}"
                 ) from None
+    if not (rows or stamps):
+        raise ValueError(f"{os.fspath(path)} has no data: expected lines of {wanted}")
     table = np.array(rows, dtype=np.float64).reshape(len(rows), columns - timed)
     infinite = np.flatnonzero(~np.isfinite(table).all(axis=1))
     if len(infinite):

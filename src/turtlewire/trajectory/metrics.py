@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from turtlewire.trajectory.trajectory import Trajectory
 
-__all__ = ["RELATIONS", "Errors", "Statistics", "ape", "pairs", "rpe"]
+__all__ = ["RELATIONS", "UNITS", "Errors", "Statistics", "ape", "pairs", "rpe"]
 
 #: What is measured, and its unit.
 RELATIONS = {
@@ -29,6 +29,9 @@ RELATIONS = {
     "point_distance": "m",
     "point_distance_error_ratio": "%",
 }
+
+#: Of `rpe`'s ``delta``, in words.
+UNITS = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
 
 
 class Statistics(NamedTuple):
@@ -144,7 +147,7 @@ def rpe(
     source = reference if pairs_from_reference else estimate
     i, j = pairs(source, delta, unit, all_pairs=all_pairs, tolerance=tolerance)
     if not len(i):
-        raise ValueError(f"no two poses are {delta} {unit} apart")
+        raise ValueError(f"no two of {len(source)} poses are {delta:g} {UNITS[unit]} apart")
     if relation.startswith("point_distance"):
         return _rpe_of_distances(reference, estimate, relation, i, j)
     distance = quaternions.lengths(_move(estimate, i, j) - _move(reference, i, j))
@@ -167,6 +170,8 @@ def _rpe_of_distances(
     errors = np.abs(q - p)
     if relation == "point_distance_error_ratio":
         moved = q > 0
+        if not moved.any():
+            raise ValueError("the reference does not move, and the ratio is one of its distances")
         errors, j = errors[moved] / q[moved] * 100, j[moved]
     return Errors("RPE", relation, errors, j)
 
