@@ -81,6 +81,7 @@ def test_a_command(case, tmp_path):
             if "Recording..." in line:
                 break
         os.killpg(process.pid, signal.SIGINT)
+        err += process.stderr.read()  # communicate() would lose what has been read ahead
     out, rest = process.communicate(timeout=120)
     made = "convert" in command or "reindex" in command
     assert process.returncode == expected["exit"], err + rest
