@@ -11,6 +11,7 @@ from tests.rosbag2_transport.conftest import DEEP, LATCHED, end, texts
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosbag2_interfaces import srv
+from rosbag2_interfaces.msg import ReadSplitEvent
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -197,18 +198,53 @@ def stamp(time_ns):
     return Time(sec=time_ns // SECOND, nanosec=time_ns % SECOND)
 
 
-def test_keys(bag_verb, tmp_path):
-    player = bag_verb("play", write_latched(tmp_path / "bag"), "-l", terminal=True)
+def test_keys(peer, bag_verb, tmp_path):
+    ticks = peer.listen("/tick")
+    player = bag_verb("play", write_latched(tmp_path / "bag"), "-l", "-p", terminal=True)
     player.wait_for("Press CURSOR_DOWN for Decrease Rate 10%")
-    player.type(" ")
-    player.wait_for("Pausing play.")
+    player.type("\x1b[C")
+    peer.wait_for(lambda: list(map(content, ticks)) == ["0"])
+    player.type("\x1b[C")
+    peer.wait_for(lambda: list(map(content, ticks)) == ["0", "1"])
     player.type("\x1b[A")
     player.wait_for("Set rate to 1.1")
     player.type("\x1b[B\x1b[B")
     player.wait_for("Set rate to 0.9")
     player.type(" ")
     player.wait_for("Resuming play.")
+    player.type(" ")
+    player.wait_for("Pausing play.")
     player.type("\x03")
+    assert player.wait() == 0
+
+
+def test_other_nodes_hear_of_the_next_file_and_steer_the_player(peer, bag_verb, tmp_path):
+    with BagWriter(tmp_path / "bag", max_file_ns=SECOND) as writer:
+        writer.add_topic("/tick", "std_msgs/msg/String")
+        for second in (0, 1, 2, 3):
+            writer.write("/tick", String(data=str(second)), START + second * SECOND)
+    splits = peer.listen("/events/read_split", type_=ReadSplitEvent)
+    player, name = bag_verb("play", tmp_path / "bag", "-p"), "/rosbag2_player"
+    for _ in range(600):  # until the player knows the listener
+        peer.call(srv.Seek, f"{name}/seek", time=stamp(START))
+        assert peer.call(srv.Burst, f"{name}/burst", num_messages=10).actually_burst == 4
+        if splits:
+            break
+    assert splits[0].closed_file == str(tmp_path / "bag" / "bag_0.mcap")
+    assert splits[0].opened_file == str(tmp_path / "bag" / "bag_1.mcap")
+    assert splits[0].node_name == name
+    peer.call(srv.Seek, f"{name}/seek", time=stamp(START))
+    assert peer.call(srv.SetRate, f"{name}/set_rate", rate=0.001).success
+    peer.call(srv.TogglePaused, f"{name}/toggle_paused")
+    assert not peer.call(srv.IsPaused, f"{name}/is_paused").paused
+    assert peer.call(srv.GetRate, f"{name}/get_rate").rate == 0.001
+    assert peer.call(srv.Burst, f"{name}/burst", num_messages=1).actually_burst == 0
+    assert not peer.call(srv.PlayNext, f"{name}/play_next").success
+    peer.call(srv.Pause, f"{name}/pause")
+    assert peer.call(srv.IsPaused, f"{name}/is_paused").paused
+    player.wait_for("Burst can only be used when in the paused state")
+    player.wait_for("Called play next, but not in paused state")
+    peer.call(srv.Stop, f"{name}/stop")
     assert player.wait() == 0
 
 

@@ -193,6 +193,22 @@ def test_snapshots_hold_the_newest_messages(peer, bag_verb, tmp_path):
     assert found == [name for name in NAMES if name in found]
 
 
+def test_what_a_full_cache_loses_is_counted(peer, bag_verb, tmp_path):
+    publisher = peer.publisher("/numbers")
+    options = ("--disable-keyboard-controls", "--max-cache-size", "1", "--topics", "/numbers")
+    recorder = bag_verb("record", "-o", "out", *options)
+    recorder.wait_for("Subscribed to topic '/numbers'")
+    publish(peer.heard(publisher))
+    assert publisher.wait_for_all_acked()
+    assert end(recorder) == 0
+    recorder.wait_for("Cache buffers lost messages per topic:")
+    lost = int(recorder.wait_for(r"Total lost: (\d+)")[0][1])
+    recorder.wait_for(f"/numbers: {lost}")
+    found = texts(tmp_path / "out", "/numbers")
+    assert found[0] == NAMES[0]
+    assert 0 < lost == len(NAMES) - len(found)
+
+
 def test_a_second_interrupt_does_not_spoil_the_bag(peer, bag_verb, tmp_path):
     publisher = peer.publisher("/numbers")
     recorder = bag_verb("record", "-o", "out", "--topics", "/numbers")
