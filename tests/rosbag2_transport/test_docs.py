@@ -58,7 +58,7 @@ def wait_until_recorded(path):
     import threading
 
     for _ in range(600):
-        if path.exists() and any(path.glob("*.mcap")) and len(texts(path, "/chatter")) > 1:
+        if path.exists() and any(path.glob("*.mcap")) and len(texts(path, "/chatter")) > 8:
             return
         threading.Event().wait(0.1)
     raise AssertionError(path)
