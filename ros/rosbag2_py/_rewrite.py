@@ -37,8 +37,14 @@ _ALIASES = {
     "exclude": "exclude_regex",
     "exclude_services": "exclude_service_events",
 }
-_STORAGE_KEYS = {field.name for field in fields(StorageOptions)}
-_RECORD_KEYS = {field.name for field in fields(RecordOptions)}
+
+
+def _types(options: StorageOptions | RecordOptions) -> dict[str, type]:
+    return {field.name: type(getattr(options, field.name)) for field in fields(options)}
+
+
+#: The types of the values by key.
+_STORAGE_KEYS, _RECORD_KEYS = _types(StorageOptions("")), _types(RecordOptions())
 _KEYS = {"all", *_ALIASES, *_STORAGE_KEYS, *_RECORD_KEYS}
 
 
@@ -93,9 +99,9 @@ def _options(path: str, output: Any) -> tuple[StorageOptions, RecordOptions]:
         if key == "all":
             record["all_topics"] = record["all_services"] = bool(value)
         elif name in _STORAGE_KEYS:
-            storage[name] = value
+            storage[name] = _value(path, key, value, _STORAGE_KEYS[name])
         elif name in _RECORD_KEYS:
-            record[name] = _record_value(name, value)
+            record[name] = _record_value(path, key, name, value)
         else:
             hint = did_you_mean(str(key), _KEYS)
             text = f"{path}: unknown key '{key}'"
@@ -103,14 +109,35 @@ def _options(path: str, output: Any) -> tuple[StorageOptions, RecordOptions]:
     return StorageOptions(**storage), RecordOptions(**record)
 
 
-def _record_value(name: str, value: Any) -> Any:
-    if name in ("services", "exclude_service_events"):
-        return [_event_topic(service) for service in value]
+def _record_value(path: str, key: str, name: str, value: Any) -> Any:
     if name == "topic_polling_interval":
-        return timedelta(milliseconds=value)
+        return _interval(path, value)
     if name == "topic_qos_profile_overrides":
         return {topic: qos_profile(topic, profile) for topic, profile in (value or {}).items()}
+    value = _value(path, key, value, _RECORD_KEYS[name])
+    if name in ("services", "exclude_service_events"):
+        return [_event_topic(service) for service in value]
     return value
+
+
+def _value(path: str, key: str, value: Any, kind: type) -> Any:
+    """A value of the kind that the option has; one text stands for a list of it."""
+    if value is None:
+        return kind()
+    if kind is list and isinstance(value, str):
+        return [value]
+    if type(value) is not kind:
+        raise RuntimeError(f"{path}: {key} is of type {kind.__name__}, not {value!r}")
+    return value
+
+
+def _interval(path: str, value: Any) -> timedelta:
+    """Milliseconds, or a dictionary with units."""
+    parts = value if isinstance(value, dict) else {"milliseconds": value}
+    factors = {"sec": 1000, "nsec": 1e-6, "milliseconds": 1}
+    if not parts.keys() <= factors.keys() or any(type(part) is not int for part in parts.values()):
+        raise RuntimeError(f"{path}: topic_polling_interval is a number of ms, not {value!r}")
+    return timedelta(milliseconds=sum(factors[unit] * part for unit, part in parts.items()))
 
 
 def _event_topic(service: str) -> str:

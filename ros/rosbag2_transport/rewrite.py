@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 from rclpy.logging import get_logger
 from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
+from turtlewire.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag import Bag, BagMessage, BagWriter
@@ -96,7 +97,23 @@ def _add_topics(inputs: Sequence[Bag], output: Output) -> set[str]:
                     hash_of_type=topic.type_hash or None,
                     definition=definitions.get(topic.type),
                 )
+    for text in _mistakes({name for bag in inputs for name in bag.topics}, names, output):
+        logger.warning(text)
     return names
+
+
+def _mistakes(known: set[str], chosen: set[str], output: Output) -> Iterator[str]:
+    """What the options name and the bags do not have, or that they choose nothing."""
+    path, options = output.writer.path, output.options
+    unknown = [name for name in (*options.topics, *options.services) if name not in known]
+    for name in unknown:
+        hint = did_you_mean(name, known) or f"Their topics are {', '.join(sorted(known))}."
+        yield f"Nothing of {name} is written to {path}: the bags do not have it. {hint}"
+    if not chosen and not unknown:
+        yield (
+            f"Nothing is written to {path}: choose by all, all_topics, all_services, topics, "
+            "topic_types, services or regex."
+        )
 
 
 def _is_in_time(output: Output, time_ns: int) -> bool:

@@ -80,14 +80,18 @@ class Session:
 
 @contextlib.contextmanager
 def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
-    """Have SIGINT and SIGTERM put an item into ``stop`` instead of raising; nothing in a thread.
+    """Have SIGINT, SIGTERM and SIGHUP put an item into ``stop``; nothing in a thread.
 
-    A queue, because its ``put`` may run in a signal handler whatever the main thread does.
+    SIGHUP comes when the terminal is closed: a recording is finished then, too, unless ``nohup``
+    lets it go on. A queue, because its ``put`` may run in a signal handler whatever the main thread
+    does.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    numbers = (signal.SIGINT, signal.SIGTERM)
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        numbers.append(signal.SIGHUP)
     former = {number: signal.signal(number, lambda *_: stop.put(None)) for number in numbers}
     try:
         yield

@@ -69,3 +69,73 @@ def test_rewrite_chooses_topics_and_times(tmp_path):
     assert texts(tmp_path / "part", "/latched") == []
     assert texts(tmp_path / "whole", "/a") == every
     assert texts(tmp_path / "whole", "/latched") == texts(SMALL, "/latched")
+
+
+EVERY_KEY = """
+output_bags:
+- uri: {folder}/every
+  storage_id: sqlite3
+  max_bagfile_size: 0
+  max_bagfile_duration: 1
+  max_cache_size: 100
+  storage_preset_profile: resilient
+  storage_config_uri: ''
+  snapshot_mode: false
+  start_time_ns: -1
+  end_time_ns: -1
+  custom_data: {{a: b}}
+  all: false
+  all_topics: false
+  all_services: true
+  topics: /a
+  topic_types: [tf2_msgs/msg/TFMessage]
+  services: []
+  regex: ''
+  exclude_regex: ''
+  exclude_topics: [/lossy]
+  exclude_topic_types: []
+  exclude_services: []
+  rmw_serialization_format: cdr
+  topic_polling_interval: {{sec: 0, nsec: 10000000}}
+  node_prefix: ''
+  compression_mode: message
+  compression_format: zstd
+  compression_queue_size: 1
+  compression_threads: 0
+  topic_qos_profile_overrides: {{/a: {{depth: 3}}}}
+  include_hidden_topics: true
+  include_unpublished_topics: true
+  is_discovery_disabled: false
+- uri: {folder}/nothing
+- uri: {folder}/wrong
+  topics: [/aa]
+"""
+
+
+def test_rewrite_knows_every_key_and_joins_bags(tmp_path, capfd):
+    (tmp_path / "out.yaml").write_text(EVERY_KEY.format(folder=tmp_path))
+    rosbag2_py.bag_rewrite(
+        [storage(SMALL), storage(SMALL, storage_id="mcap")], str(tmp_path / "out.yaml")
+    )
+    metadata = rosbag2_py.Info().read_metadata(str(tmp_path / "every"), "")
+    assert [item.topic_metadata.name for item in metadata.topics_with_message_count] == [
+        "/a",
+        "/tf_static",
+    ]
+    assert (metadata.compression_mode, metadata.custom_data) == ("MESSAGE", {"a": "b"})
+    assert len(metadata.files) > 1
+    assert texts(tmp_path / "every", "/a") == [text for text in texts(SMALL, "/a") for _ in "ab"]
+    told = capfd.readouterr().err
+    assert told.count(f"Nothing is written to {tmp_path}/nothing: choose by all, all_topics") == 1
+    assert told.count("Nothing of /aa is written to") == 1
+    assert (tmp_path / "wrong" / "metadata.yaml").exists()
+
+
+def test_a_rewrite_whose_second_bag_exists_leaves_a_whole_first_one(tmp_path):
+    (tmp_path / "second").mkdir()
+    (tmp_path / "out.yaml").write_text(
+        f"output_bags:\n- uri: {tmp_path}/first\n- uri: {tmp_path}/second\n"
+    )
+    with pytest.raises(RuntimeError, match="Bag directory already exists"):
+        rosbag2_py.bag_rewrite([storage(SMALL)], str(tmp_path / "out.yaml"))
+    assert (tmp_path / "first" / "metadata.yaml").exists()

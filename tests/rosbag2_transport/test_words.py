@@ -42,6 +42,12 @@ def test_completion(line, expected):
         ("play SMALL --qos-profile-overrides-path q.yaml", 1, "Unexpected key `reliabilty`"),
         ("convert -i SMALL -o c.yaml", 1, "the key 'output_bags' with a list is missing"),
         ("convert -i SMALL -o o.yaml", 1, "unknown key 'topcs'\nDid you mean: topics"),
+        ("convert -i SMALL -o t.yaml", 1, "t.yaml: start_time_ns is of type int, not 'abc'"),
+        ("convert -i SMALL -o p.yaml", 1, "topic_polling_interval is a number of ms, not 'fast'"),
+        ("record --topics /a --node-name a-b", 1, "'a-b' cannot be the name of a node"),
+        ("record --topics /a --snapshot-mode --max-cache-size 0", 1, "Max cache size must be"),
+        ("record -a --storage-preset-profile resilient", 1, "unknown MCAP storage preset profile"),
+        ("record -a -o file/bag", 1, "cannot make the bag"),
         ("burst SMALL -n -3", 2, "value must be non-negative integer"),
     ],
 )
@@ -50,6 +56,9 @@ def test_wrong_words(words, status, answer, tmp_path, monkeypatch, capfd):
     Path("c.yaml").write_text("chunksize: 3\n")
     Path("q.yaml").write_text("/a:\n  reliabilty: reliable\n")
     Path("o.yaml").write_text("output_bags:\n- uri: o\n  topcs: [/a]\n")
+    Path("t.yaml").write_text("output_bags:\n- {uri: o, start_time_ns: abc}\n")
+    Path("p.yaml").write_text("output_bags:\n- {uri: o, topic_polling_interval: fast}\n")
+    Path("file").write_text("")
     before = set(Path().iterdir())
     try:
         found = ros2cli.main.main(["bag", *words.replace("SMALL", str(SMALL)).split()])
