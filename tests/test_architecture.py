@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 #: when circles end; raise none.
 IN_CIRCLES = {"rclpy": 8}
 #: Need what is not installed where the tests run: colcon, a terminal.
-NOT_IMPORTED = {"turtlewire_ros.colcon_interfaces"}
+NOT_IMPORTED = {"turtlewire_ros.colcon_ament"}
 
 
 @pytest.fixture(scope="module")

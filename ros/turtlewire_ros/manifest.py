@@ -1,11 +1,62 @@
-"""Finds the error in a ``package.xml`` that cannot be read."""
+"""Reads ``package.xml``, and finds the error in one that cannot be read."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 from xml.parsers import expat
 
-__all__ = ["manifest_fault"]
+__all__ = ["Manifest", "ManifestError", "manifest_fault", "read_manifest"]
+
+
+class ManifestError(Exception):
+    """A package.xml cannot be read; the text names the file, the line and the reason."""
+
+
+class Manifest(NamedTuple):
+    """What a package.xml says.
+
+    Attributes:
+        name: The package.
+        version: Its version.
+        description: Its description, on one line.
+        build_dependencies: Packages that its build needs.
+    """
+
+    name: str
+    version: str
+    description: str
+    build_dependencies: tuple[str, ...]
+
+
+def read_manifest(path: Path) -> Manifest:
+    """Read a package.xml.
+
+    Raises:
+        ManifestError: It is missing, is no XML, or has no name or version.
+    """
+    from defusedxml.ElementTree import parse
+
+    if not path.is_file():
+        raise ManifestError(f"there is no {path}")
+    fault = manifest_fault(path)
+    if fault is not None:
+        raise ManifestError(fault)
+    tree = parse(path)
+    texts = {
+        tag: " ".join((tree.findtext(tag) or "").split())
+        for tag in ("name", "version", "description")
+    }
+    for tag in ("name", "version"):
+        if not texts[tag]:
+            raise ManifestError(f"{path} has no <{tag}>")
+    dependencies = [
+        element.text.strip()
+        for tag in ("buildtool_depend", "build_depend", "depend")
+        for element in tree.findall(tag)
+        if element.text
+    ]
+    return Manifest(**texts, build_dependencies=tuple(dependencies))
 
 
 def manifest_fault(path: str | Path) -> str | None:

@@ -244,3 +244,21 @@ def test_a_broken_manifest_is_refused_with_its_line(tmp_path):
     with pytest.raises(InterfaceError) as refused:
         generate_package(tmp_path, tmp_path / "out")
     assert str(refused.value) == f"{manifest}: mismatched tag: line 3, column 2"
+
+
+def test_an_idl_file_is_generated_unless_it_was_made_of_another(tmp_path):
+    source = tmp_path / "shapes"
+    (source / "msg").mkdir(parents=True)
+    (source / "msg" / "Disc.idl").write_text(
+        "module shapes { module msg { struct Disc { @default (value=2.0) double radius; }; }; };"
+    )
+    (source / "msg" / "Ring.msg").write_text("float64 radius 1.0\n")
+    (source / "msg" / "Ring.idl").write_text("what ROS 2 made of Ring.msg")
+    folder = generate_package(source, tmp_path / "out", "shapes")
+    assert (folder / "msg" / "Disc.msg").read_text() == "float64 radius 2.0\n"
+    assert sorted(path.name for path in (folder / "msg").iterdir()) == [
+        "Disc.msg", "Ring.msg", "__init__.py", "__init__.pyi",
+    ]  # fmt: skip
+    (source / "msg" / "Disc.idl").unlink()
+    generate_package(source, tmp_path / "out", "shapes")
+    assert not (folder / "msg" / "Disc.msg").exists()

@@ -133,6 +133,17 @@ def test_console_scripts_of_a_package_that_pip_installed(tmp_path, monkeypatch):
     assert executable_paths("pip_pkg") == [str(tmp_path / "bin" / "node")]
 
 
+def test_catkin_pkg_reads_our_manifests():
+    """The library of Debian's python3-catkin-pkg, with which colcon and rosdep read them, too."""
+    catkin_pkg = pytest.importorskip("catkin_pkg.package", reason="comes with colcon")
+    own = prefix.own_prefix()
+    if own is None:
+        pytest.skip("needs the installed distribution")
+    for name in ("rclpy", "tf2_ros", "geometry_msgs", "turtlesim"):
+        package = catkin_pkg.parse_package(os.path.join(own, "share", name))
+        assert (package.name, package.get_build_type()) == (name, "ament_python")
+
+
 def test_the_own_prefix_has_this_package():
     own = prefix.own_prefix()
     if own is None:

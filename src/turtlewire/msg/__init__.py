@@ -30,6 +30,7 @@ module                what it holds
 `diagnosis`           which field of a message or of its bytes is wrong
 `type_hash`           type hashes (RIHS01)
 `shell`               lazy classes of modules such as ``geometry_msgs.msg``
+`idl`                 ``.idl`` files as the text of ``.msg``, ``.srv`` and ``.action`` files
 `generate`, `stubs`   Python packages for a folder of definitions; their ``.pyi``
 `__main__`            ``python -m turtlewire.msg DIR``
 ====================  =================================================================

@@ -13,6 +13,7 @@ from shutil import copyfile
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
+from turtlewire.msg.idl import idl_to_text
 from turtlewire.msg.registry import KINDS, interfaces_in, register_package
 from turtlewire.msg.stubs import module_stub
 
@@ -61,7 +62,8 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
             of the interfaces itself.
     """
     package = package or package_name(source)
-    if not any(interfaces_in(str(source)).values()):
+    files = _definition_files(source)
+    if not files:
         raise InterfaceError(f"no .msg, .srv or .action files in {source}").with_hint(
             "They belong into its msg, srv and action folders."
         )
@@ -70,14 +72,39 @@ def generate_package(source: Path, output: Path, package: str = "") -> Path:
         raise InterfaceError(f"{folder} holds the interfaces themselves").with_hint(
             "Name another folder: --output generated"
         )
-    register_package(package, str(source))
-    write_modules(package, source, folder)
+    for path in _definition_files(folder):
+        path.unlink()
+    for path in files:
+        _put_definition(package, path, folder)
+    register_package(package, str(folder))
+    write_modules(package, folder, folder)
     (folder / "__init__.py").write_text(_PACKAGE.format(package=package), encoding="utf-8")
     (folder / "py.typed").touch()
-    for kind, names in interfaces_in(str(source)).items():
-        for name in names:
-            copyfile(source / kind / f"{name}.{kind}", folder / kind / f"{name}.{kind}")
     return folder
+
+
+def _definition_files(source: Path) -> list[Path]:
+    """The definitions in a folder; an .idl file beside another one is what ROS 2 made of it."""
+    found = []
+    for kind in KINDS:
+        found += sorted((source / kind).glob(f"*.{kind}"))
+        found += [
+            path
+            for path in sorted((source / kind).glob("*.idl"))
+            if not path.with_suffix(f".{kind}").exists()
+        ]
+    return found
+
+
+def _put_definition(package: str, path: Path, folder: Path) -> None:
+    kind = path.parent.name
+    target = folder / kind / f"{path.stem}.{kind}"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if path.suffix == ".idl":
+        text = idl_to_text(f"{package}/{kind}/{path.stem}", path.read_text(encoding="utf-8"))
+        target.write_text(text, encoding="utf-8")
+    else:
+        copyfile(path, target)
 
 
 def write_modules(package: str, source: Path, folder: Path) -> None:

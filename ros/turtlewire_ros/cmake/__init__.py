@@ -1,0 +1,22 @@
+"""Reads the CMakeLists.txt of packages without C++, as CMake and ament would.
+
+Nothing is configured or compiled: the commands are evaluated, and what they would install, generate
+and test is collected in a `plan.Plan`.
+
+==============  =======================================================================
+module          what it holds
+==============  =======================================================================
+`syntax`        commands and arguments of a file, with their lines
+`blocks`        the same as a tree of ``if``, ``foreach``, ``function`` …
+`conditions`    what stands between the parentheses of ``if`` and ``while``
+`interpreter`   variables, and the order in which commands run
+`basics`        ``set``, ``list``, ``string``, ``message``, ``option`` …
+`files`         ``file``, ``configure_file``, ``get_filename_component``, ``include``
+`arguments`     keywords of commands, as ``cmake_parse_arguments`` takes them apart
+`installing`    ``install``
+`ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
+`targets`       what would compile C++, and commands without an effect here
+`plan`          what a package installs, generates and tests
+`evaluate`      the plan of a package's folder
+==============  =======================================================================
+"""

@@ -1,0 +1,243 @@
+"""ament's commands: packages, Python, ament's index, hooks of the environment, tests."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from turtlewire_ros.cmake.arguments import Parsed, parse_keywords
+from turtlewire_ros.cmake.installing import destination
+from turtlewire_ros.cmake.plan import (
+    Install,
+    Interfaces,
+    PythonModule,
+    PythonPackage,
+    Resource,
+    TestRun,
+)
+from turtlewire_ros.cmake.syntax import CMakeError
+
+if TYPE_CHECKING:
+    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+
+__all__ = ["AMENT"]
+
+_KINDS = ("msg", "srv", "action")
+_FIND_KEYWORDS = ("COMPONENTS", "OPTIONAL_COMPONENTS", "HINTS", "PATHS", "NAMES", "REQUIRED")
+_WITHOUT_EFFECT = (
+    "ament_export_dependencies", "ament_export_include_directories", "ament_export_libraries",
+    "ament_export_interfaces", "ament_export_targets", "ament_export_definitions",
+    "ament_export_link_flags", "ament_package_xml", "ament_lint_auto_find_test_dependencies",
+    "rosidl_export_typesupport_libraries", "rosidl_export_typesupport_targets",
+    "rosidl_default_generators", "ament_add_gtest", "ament_add_gmock",
+    "ament_auto_find_test_dependencies", "ament_add_default_options",
+)  # fmt: skip
+_TEST_OPTIONS = ("SKIP_TEST", "GENERATE_RESULT_FOR_RETURN_CODE_ZERO")
+_TEST_VALUES = ("TIMEOUT", "WORKING_DIRECTORY", "TARGET", "PYTHON_EXECUTABLE", "RUNNER", "WERROR",
+                "RESULT_FILE", "OUTPUT_FILE")  # fmt: skip
+_TEST_LISTS = ("ENV", "APPEND_ENV", "APPEND_LIBRARY_DIRS", "COMMAND", "ARGS", "LABEL", "LABELS")
+_TIMEOUT = 60.0
+
+
+def _find_package(run: Interpreter, call: Call) -> None:
+    name = call.words[0]
+    known = run.packages.is_known(name)
+    run.variables[f"{name}_FOUND"] = "1" if known else "0"
+    config = run.packages.config(name)
+    if config is not None:
+        run.variables[f"{name}_DIR"] = str(config.parent)
+        run.run_file(config)
+    if not known and "REQUIRED" in call.words and not run.testing:
+        run.plan.missing.append(
+            f"{call.place}: there is no package '{name}'; add it to the workspace, or source or "
+            "install what has it"
+        )
+
+
+def _find_build_dependencies(run: Interpreter, _call: Call) -> None:
+    for name in run.variables.get("AMENT_BUILD_DEPENDENCIES", "").split(";"):
+        if name:
+            run.variables[f"{name}_FOUND"] = "1" if run.packages.is_known(name) else "0"
+
+
+def _package(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(
+        call.words,
+        options=("USE_SCOPED_HEADER_INSTALL_DIR",),
+        lists=("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST", "INSTALL_TO_SHARE", "INSTALL_TO_PATH"),
+    )
+    for keyword in ("CONFIG_EXTRAS", "CONFIG_EXTRAS_POST"):
+        for word in parsed.lists.get(keyword, []):
+            path = Path(run.source_path(word))
+            if not path.is_file():
+                raise CMakeError(call.place, f"{call.name}({keyword}): there is no file {path}")
+            run.plan.extras.append(path)
+    share = f"share/{run.variables['PROJECT_NAME']}"
+    folders = parsed.lists.get("INSTALL_TO_SHARE", [])
+    if folders:
+        sources = tuple(run.source_path(word) for word in folders)
+        run.plan.installs.append(Install("DIRECTORY", sources, share, call.place))
+
+
+def _python_package(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(
+        call.words[1:],
+        options=("SKIP_COMPILE",),
+        values=("PACKAGE_DIR", "VERSION", "SETUP_CFG", "DESTINATION", "SCRIPTS_DESTINATION"),
+    )
+    name, given = call.words[0], parsed.values
+    folder = Path(run.source_path(given.get("PACKAGE_DIR", name)))
+    if not (folder / "__init__.py").is_file():
+        what = f"no {folder / '__init__.py'}" if folder.is_dir() else f"no folder {folder}"
+        raise CMakeError(call.place, f"{call.name}({name}): there is {what}")
+    setup_cfg = Path(run.source_path(given.get("SETUP_CFG", "setup.cfg")))
+    if "SETUP_CFG" in given and not setup_cfg.is_file():
+        raise CMakeError(call.place, f"{call.name}({name}): there is no file {setup_cfg}")
+    targets = {key: destination(run, given[key], call) for key in
+               ("DESTINATION", "SCRIPTS_DESTINATION") if key in given}  # fmt: skip
+    run.plan.python_packages.append(
+        PythonPackage(
+            name,
+            folder,
+            given.get("VERSION", run.plan.version),
+            targets.get("DESTINATION", ""),
+            setup_cfg if setup_cfg.is_file() else None,
+            targets.get("SCRIPTS_DESTINATION", ""),
+            call.place,
+        )
+    )
+
+
+def _python_module(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(call.words, options=("SKIP_COMPILE",), values=("DESTINATION_SUFFIX",))
+    path = Path(run.source_path(parsed.rest[0]))
+    if not path.is_file():
+        raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
+    run.plan.python_modules.append(
+        PythonModule(path, parsed.values.get("DESTINATION_SUFFIX", ""), call.place)
+    )
+
+
+def _register_resource(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(
+        call.words,
+        options=("SKIP_INSTALL",),
+        values=("CONTENT", "CONTENT_FILE", "PACKAGE_NAME"),
+    )
+    content = parsed.values.get("CONTENT", "")
+    if "CONTENT_FILE" in parsed.values:
+        path = Path(run.source_path(parsed.values["CONTENT_FILE"]))
+        if not path.is_file():
+            raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
+        content = path.read_text(encoding="utf-8")
+    package = parsed.values.get("PACKAGE_NAME") or run.variables["PROJECT_NAME"]
+    run.plan.resources.append(Resource(parsed.rest[0], package, content))
+
+
+def _environment_hooks(run: Interpreter, call: Call) -> None:
+    for word in call.words:
+        path = Path(run.source_path(word))
+        if not path.is_file():
+            raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
+        run.plan.hooks.append(path)
+
+
+def _generate_interfaces(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(
+        call.words[1:],
+        options=("ADD_LINTER_TESTS", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK"),
+        values=("LIBRARY_NAME",),
+        lists=("DEPENDENCIES",),
+    )
+    for name in parsed.lists.get("DEPENDENCIES", []):
+        if not run.packages.is_installed(name) and not run.testing:
+            run.plan.missing.append(
+                f"{call.place}: there is no package '{name}', on which the interfaces depend"
+            )
+    files = tuple(_definition(run, word, call) for word in parsed.rest)
+    if not files:
+        raise CMakeError(call.place, f"{call.name}() names no files")
+    run.plan.targets.add(call.words[0])
+    skipped = "SKIP_INSTALL" in parsed.options
+    package = run.variables["PROJECT_NAME"]
+    run.plan.interfaces.append(Interfaces(package, files, not skipped, call.place))
+
+
+def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
+    """A definition's path in the package, and on disk; ``<folder>:msg/A.msg`` names both."""
+    base, colon, relative = word.rpartition(":")
+    if colon and len(base) > 1:  # not the drive of C:/a
+        path = Path(run.source_path(os.path.join(base, relative)))
+    else:
+        path = Path(run.source_path(word))
+        relative = f"{path.parent.name}/{path.name}"
+    folder, _, name = relative.rpartition("/")
+    kind = folder.rpartition("/")[2]
+    if kind not in _KINDS or not name.endswith((f".{kind}", ".idl")):
+        raise CMakeError(
+            call.place, f"{call.name}(): {word} is no msg/….msg, srv/….srv, action/….action or .idl"
+        )
+    if not path.is_file():
+        raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
+    return f"{kind}/{name}", path
+
+
+def _add_pytest_test(run: Interpreter, call: Call) -> None:
+    name, path, *_ = call.words
+    _add_test(run, call, "pytest", name, (run.source_path(path),))
+
+
+def _add_launch_test(run: Interpreter, call: Call) -> None:
+    path = run.source_path(call.words[0])
+    parsed = _test_arguments(call)
+    stem = os.path.relpath(path, run.variables["CMAKE_CURRENT_SOURCE_DIR"]).replace("/", "_")
+    name = parsed.values.get("TARGET", stem)
+    _add_test(run, call, "launch", name, (path, *parsed.lists.get("ARGS", [])))
+
+
+def _add_command_test(run: Interpreter, call: Call) -> None:
+    parsed = parse_keywords(call.words, values=("NAME",), lists=_TEST_LISTS)
+    name = parsed.values.get("NAME") or parsed.rest[0]
+    command = tuple(parse_keywords(call.words, _TEST_OPTIONS, _TEST_VALUES, _TEST_LISTS)
+                    .lists.get("COMMAND", []))  # fmt: skip
+    if command and command[0] not in run.plan.targets and "$<" not in command[0]:
+        _add_test(run, call, "command", name, command)
+
+
+def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[str, ...]) -> None:
+    parsed = _test_arguments(call)
+    if "SKIP_TEST" in parsed.options:
+        return
+    lines = parsed.lists.get("ENV", []) + parsed.lists.get("APPEND_ENV", [])
+    folder = parsed.values.get("WORKING_DIRECTORY", "")
+    environment = dict(line.split("=", 1) for line in lines)
+    timeout = float(parsed.values.get("TIMEOUT", _TIMEOUT))
+    run.plan.tests.append(TestRun(name, kind, words, environment, run.source_path(folder), timeout))
+
+
+def _test_arguments(call: Call) -> Parsed:
+    return parse_keywords(call.words[1:], _TEST_OPTIONS, _TEST_VALUES, _TEST_LISTS)
+
+
+def _nothing(_run: Interpreter, _call: Call) -> None:
+    """Do nothing: the command is for those who link against the package."""
+
+
+AMENT: dict[str, Handler] = {
+    **dict.fromkeys(_WITHOUT_EFFECT, _nothing),
+    "find_package": _find_package,
+    "ament_auto_find_build_dependencies": _find_build_dependencies,
+    "ament_package": _package,
+    "ament_auto_package": _package,
+    "ament_python_install_package": _python_package,
+    "ament_python_install_module": _python_module,
+    "ament_index_register_resource": _register_resource,
+    "ament_environment_hooks": _environment_hooks,
+    "rosidl_generate_interfaces": _generate_interfaces,
+    "ament_add_pytest_test": _add_pytest_test,
+    "add_launch_test": _add_launch_test,
+    "add_ros_test": _add_launch_test,
+    "ament_add_test": _add_command_test,
+    "add_test": _add_command_test,
+}

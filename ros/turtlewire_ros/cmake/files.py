@@ -1,0 +1,162 @@
+"""CMake's commands about files: ``file``, ``configure_file``, ``include`` and the like."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from shutil import copyfile, copytree
+from typing import TYPE_CHECKING
+
+from turtlewire_ros.cmake.arguments import parse_keywords
+from turtlewire_ros.cmake.basics import configured
+from turtlewire_ros.cmake.syntax import CMakeError
+
+if TYPE_CHECKING:
+    from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
+
+__all__ = ["FILES"]
+
+
+def _file(run: Interpreter, call: Call) -> None:
+    action, *words = call.words
+    if action in ("GLOB", "GLOB_RECURSE"):
+        _glob(run, words, recursive=action == "GLOB_RECURSE")
+    elif action in ("READ", "STRINGS"):
+        text = Path(run.source_path(words[0])).read_text(encoding="utf-8", errors="replace")
+        run.variables[words[1]] = text if action == "READ" else ";".join(text.splitlines())
+    elif action in ("WRITE", "APPEND"):
+        path = _writable(run, words[0], call)
+        with path.open("w" if action == "WRITE" else "a", encoding="utf-8") as file:
+            file.write("".join(words[1:]))
+    elif action == "MAKE_DIRECTORY":
+        for word in words:
+            _writable(run, word, call).mkdir(exist_ok=True)
+    elif action == "COPY":
+        _copy(run, words, call)
+    elif action == "RELATIVE_PATH":
+        run.variables[words[0]] = os.path.relpath(words[2], words[1])
+    elif action in ("TO_CMAKE_PATH", "TO_NATIVE_PATH"):
+        run.variables[words[1]] = words[0]
+    elif action == "REAL_PATH":
+        run.variables[words[1]] = os.path.realpath(run.source_path(words[0]))
+    else:
+        raise CMakeError(call.place, f"file({action}) is not known here")
+
+
+def _glob(run: Interpreter, words: list[str], *, recursive: bool) -> None:
+    variable, *rest = words
+    parsed = parse_keywords(
+        rest,
+        options=("CONFIGURE_DEPENDS", "FOLLOW_SYMLINKS"),
+        values=("RELATIVE", "LIST_DIRECTORIES"),
+    )
+    found: set[str] = set()
+    for pattern in parsed.rest:
+        folder, _, name = run.source_path(pattern).rpartition("/")
+        # CMake's wildcards may stand in folders, too; glob begins where there is none.
+        paths = Path(folder).rglob(name) if recursive else _matches(folder, name)
+        found.update(str(path) for path in paths if not recursive or path.is_file())
+    base = parsed.values.get("RELATIVE")
+    listed = sorted(found)
+    run.variables[variable] = ";".join(
+        os.path.relpath(path, run.source_path(base)) if base else path for path in listed
+    )
+
+
+def _matches(folder: str, name: str) -> list[Path]:
+    root = Path(folder)
+    parts = [name]
+    while set("*?[") & set(str(root)):
+        parts.insert(0, root.name)
+        root = root.parent
+    return list(root.glob("/".join(parts)))
+
+
+def _writable(run: Interpreter, text: str, call: Call) -> Path:
+    """The path of a file to write; its folder exists afterwards."""
+    path = Path(run.binary_path(text))
+    if not path.is_relative_to(run.variables["CMAKE_BINARY_DIR"]):
+        raise CMakeError(call.place, f"{path} is not in the build folder, and is not written")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def _copy(run: Interpreter, words: list[str], call: Call) -> None:
+    parsed = parse_keywords(words, values=("DESTINATION",))
+    target = _writable(run, os.path.join(parsed.values["DESTINATION"], "."), call)
+    target.mkdir(exist_ok=True)
+    for word in parsed.rest:
+        source = Path(run.source_path(word))
+        if source.is_dir():
+            copytree(source, target / source.name, dirs_exist_ok=True)
+        else:
+            copyfile(source, target / source.name)
+
+
+def _configure_file(run: Interpreter, call: Call) -> None:
+    source = Path(run.source_path(call.words[0]))
+    target = _writable(run, call.words[1], call)
+    if target.is_dir():
+        target /= source.name
+    if not source.is_file():
+        raise CMakeError(call.place, f"configure_file(): there is no file {source}")
+    if "COPYONLY" in call.words:
+        copyfile(source, target)
+        return
+    text = source.read_text(encoding="utf-8")
+    target.write_text(configured(run, text, at_only="@ONLY" in call.words), encoding="utf-8")
+
+
+def _get_filename_component(run: Interpreter, call: Call) -> None:
+    variable, text, mode = call.words[:3]
+    parsed = parse_keywords(call.words[3:], options=("CACHE",), values=("BASE_DIR",))
+    base = parsed.values.get("BASE_DIR") or run.variables["CMAKE_CURRENT_SOURCE_DIR"]
+    name = os.path.basename(text)
+    stem, dot, extension = name.partition(".")
+    modes = {
+        "DIRECTORY": os.path.dirname(text),
+        "PATH": os.path.dirname(text),
+        "NAME": name,
+        "NAME_WE": stem,
+        "NAME_WLE": os.path.splitext(name)[0],
+        "EXT": dot + extension,
+        "LAST_EXT": os.path.splitext(name)[1],
+        "ABSOLUTE": os.path.normpath(os.path.join(base, text)),
+        "REALPATH": os.path.realpath(os.path.join(base, text)),
+    }
+    run.variables[variable] = modes[mode]
+
+
+def _include(run: Interpreter, call: Call) -> None:
+    name = call.words[0]
+    path = run.source_path(name)
+    if os.path.isfile(path):
+        run.run_file(path)
+        return
+    for folder in run.variables.get("CMAKE_MODULE_PATH", "").split(";"):
+        module = os.path.join(run.source_path(folder), f"{name}.cmake")
+        if folder and os.path.isfile(module):
+            run.run_file(module)
+            return
+    # Modules of CMake itself have no extension; what matters of them here is defined beforehand.
+    if name.endswith(".cmake") and "OPTIONAL" not in call.words:
+        raise CMakeError(call.place, f"include(): there is no file {path}")
+
+
+def _add_subdirectory(run: Interpreter, call: Call) -> None:
+    folder = run.source_path(call.words[0])
+    path = os.path.join(folder, "CMakeLists.txt")
+    if not os.path.isfile(path):
+        raise CMakeError(call.place, f"add_subdirectory(): there is no file {path}")
+    binary = run.binary_path(os.path.relpath(folder, run.source_path(".")))
+    with run.scope(CMAKE_CURRENT_SOURCE_DIR=folder, CMAKE_CURRENT_BINARY_DIR=binary):
+        run.run_file(path)
+
+
+FILES: dict[str, Handler] = {
+    "file": _file,
+    "configure_file": _configure_file,
+    "get_filename_component": _get_filename_component,
+    "include": _include,
+    "add_subdirectory": _add_subdirectory,
+}

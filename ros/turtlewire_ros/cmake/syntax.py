@@ -1,0 +1,153 @@
+"""The commands of a CMake file: names and arguments, not yet evaluated."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Argument", "CMakeError", "Command", "Place", "parse_commands"]
+
+_SPACE = re.compile(r"(?:[ \t\r\n]+|#\[(?P<level>=*)\[.*?\](?P=level)\]|#[^\n]*)+", re.DOTALL)
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_BRACKET = re.compile(r"\[(?P<level>=*)\[\n?(?P<text>.*?)\](?P=level)\]", re.DOTALL)
+_QUOTED = re.compile(r'"(?P<text>(?:[^"\\]|\\.)*)"', re.DOTALL)
+# Quotes within an unquoted argument (-Da="b c") and $(MAKE) belong to it.
+_UNQUOTED = re.compile(r'(?:[^\s()#"\\]|\\.|\$\([^()]*\)|(?<=[^\s(])"(?:[^"\\]|\\.)*")+', re.DOTALL)
+
+
+class Place(NamedTuple):
+    """Where a command stands.
+
+    Attributes:
+        file: The file's path.
+        line: Line of the command's name; the first is 1.
+    """
+
+    file: str
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}"
+
+
+class CMakeError(Exception):
+    """A CMake file cannot be read or evaluated; the text begins with file and line.
+
+    Args:
+        place: Where the trouble is.
+        text: What it is.
+        earlier: Lines about what went wrong before, and is likely the reason.
+    """
+
+    def __init__(self, place: Place, text: str, earlier: Sequence[str] = ()) -> None:
+        super().__init__("\n".join([*earlier, f"{place}: {text}"]))
+        self.place = place
+        self.text = text
+
+
+class Argument(NamedTuple):
+    """One argument as written.
+
+    Attributes:
+        text: Without its quotes or brackets.
+        kind: ``plain``, ``quoted`` or ``bracket``; nothing is replaced in the last.
+    """
+
+    text: str
+    kind: str = "plain"
+
+
+class Command(NamedTuple):
+    """One command.
+
+    Attributes:
+        name: In lower case.
+        arguments: As written; parentheses among them are arguments of their own.
+        place: Where it stands.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    place: Place
+
+
+def parse_commands(text: str, file: str) -> list[Command]:
+    """The commands of a CMake file.
+
+    Args:
+        text: What the file holds.
+        file: Its path, for errors.
+
+    Raises:
+        CMakeError: The text is no CMake.
+    """
+    return _Reader(text, file).commands()
+
+
+class _Reader:
+    def __init__(self, text: str, file: str) -> None:
+        self._text = text
+        self._file = file
+        self._at = 0
+
+    def commands(self) -> list[Command]:
+        found = []
+        self._skip_space()
+        while self._at < len(self._text):
+            place = self._place()
+            name = self._match(_NAME)
+            if name is None:
+                raise CMakeError(place, f"expected a command, got {self._next_word()!r}")
+            self._skip_space()
+            if not self._text.startswith("(", self._at):
+                raise CMakeError(place, f"expected '(' after '{name[0]}'")
+            self._at += 1
+            found.append(Command(name[0].lower(), self._arguments(place), place))
+            self._skip_space()
+        return found
+
+    def _arguments(self, place: Place) -> tuple[Argument, ...]:
+        found: list[Argument] = []
+        depth = 1
+        while True:
+            self._skip_space()
+            if self._at >= len(self._text):
+                raise CMakeError(place, "the parenthesis that opens here is never closed")
+            character = self._text[self._at]
+            if character in "()":
+                self._at += 1
+                depth += 1 if character == "(" else -1
+                if depth == 0:
+                    return tuple(found)
+                found.append(Argument(character))
+            else:
+                found.append(self._argument())
+
+    def _argument(self) -> Argument:
+        for pattern, kind in ((_BRACKET, "bracket"), (_QUOTED, "quoted")):
+            match = self._match(pattern)
+            if match is not None:
+                text = match["text"]
+                return Argument(text.replace("\\\n", "") if kind == "quoted" else text, kind)
+        match = self._match(_UNQUOTED)
+        if match is None:
+            raise CMakeError(self._place(), f"cannot read {self._next_word()!r}")
+        return Argument(match[0])
+
+    def _match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
+        match = pattern.match(self._text, self._at)
+        if match is not None:
+            self._at = match.end()
+        return match
+
+    def _skip_space(self) -> None:
+        self._match(_SPACE)
+
+    def _place(self) -> Place:
+        return Place(self._file, self._text.count("\n", 0, self._at) + 1)
+
+    def _next_word(self) -> str:
+        return self._text[self._at :].split(None, 1)[0][:30]

@@ -1,0 +1,75 @@
+"""``python -m turtlewire_ros.run_test``: runs one test of ``colcon test``, with a time limit.
+
+There is a JUnit file afterwards in any case, so that ``colcon test-result`` tells of a test that
+ended too early to write one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+_MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
+_RESULT = """<?xml version="1.0" encoding="UTF-8"?>
+<testsuite name={name} tests="1" failures="{failures}" errors="0" skipped="0">
+  <testcase classname={name} name={name}>{inner}</testcase>
+</testsuite>
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line; returns the exit status of the test."""
+    parser = argparse.ArgumentParser(prog="python -m turtlewire_ros.run_test")
+    parser.add_argument("--kind", choices=("pytest", "launch", "command"), required=True)
+    parser.add_argument("--name", required=True)
+    parser.add_argument("--result", type=Path, required=True)
+    parser.add_argument("--timeout", type=float, required=True)
+    parser.add_argument("words", nargs="+")
+    options = parser.parse_args(argv)
+    result: Path = options.result
+    result.parent.mkdir(parents=True, exist_ok=True)
+    _write_result(result, options.name, "the test ended without a result")
+    status = _run(_command(options.kind, options.words, result, options.name), options.timeout)
+    if status is None:
+        _write_result(result, options.name, f"no end after {options.timeout:g} s")
+        return 1
+    if options.kind == "command":
+        _write_result(result, options.name, f"exit status {status}" if status else "")
+    return status
+
+
+def _command(kind: str, words: list[str], result: Path, name: str) -> list[str]:
+    if kind == "command":
+        return words
+    command = [sys.executable, "-m", _MODULES[kind], *words, f"--junit-xml={result}"]
+    return (
+        [*command, f"--junit-prefix={name}", "-p", "no:cacheprovider"]
+        if kind == "pytest"
+        else command
+    )
+
+
+def _run(command: list[str], timeout: float) -> int | None:
+    """The command's exit status; None if it was stopped after ``timeout`` seconds."""
+    process = subprocess.Popen(command, start_new_session=True)  # noqa: S603 -- the user's own test
+    try:
+        return process.wait(timeout)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        return None
+
+
+def _write_result(path: Path, name: str, failure: str) -> None:
+    inner = f"<failure message={quoteattr(failure)}/>" if failure else ""
+    text = _RESULT.format(name=quoteattr(name), failures=int(bool(failure)), inner=inner)
+    path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

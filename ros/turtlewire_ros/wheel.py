@@ -1,0 +1,139 @@
+"""Builds the wheel of an ament_cmake package without C++, for pip.
+
+What the package installs into a prefix goes into the environment's: a virtual environment with
+turtlewire is a prefix, in which ``ros2 run`` and launch files find the package.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import subprocess
+import tempfile
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import InterfaceError
+from turtlewire_ros.cmake.evaluate import evaluate_package
+from turtlewire_ros.cmake.syntax import CMakeError
+from turtlewire_ros.manifest import Manifest, ManifestError, read_manifest
+from turtlewire_ros.plan_install import PlanInstaller, entry_points, generator_commands
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire_ros.cmake.plan import Plan
+
+__all__ = ["WheelError", "build_package_wheel"]
+
+_MODULES = "site-packages"
+_WHEEL = "Wheel-Version: 1.0\nGenerator: turtlewire\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
+
+
+class WheelError(Exception):
+    """A package cannot become a wheel; the text has a line for each reason."""
+
+
+def build_package_wheel(source: Path, output: Path, warn: Callable[[str], None]) -> Path:
+    """Build the wheel of a package.
+
+    Args:
+        source: The package's folder.
+        output: The folder for the wheel.
+        warn: Called with each line of warning, as when C++ is left out.
+
+    Returns:
+        The wheel.
+
+    Raises:
+        WheelError: The package cannot be installed.
+    """
+    source = source.resolve()
+    try:
+        manifest = read_manifest(source / "package.xml")
+        with tempfile.TemporaryDirectory(prefix="turtlewire-wheel-") as folder:
+            prefix = Path(folder) / "prefix"
+            plan = _install(source, Path(folder) / "build", prefix, warn)
+            return _pack(manifest, plan, prefix, output)
+    except (CMakeError, InterfaceError, ManifestError, OSError) as error:
+        raise WheelError(str(error)) from error
+
+
+def _install(source: Path, build: Path, prefix: Path, warn: Callable[[str], None]) -> Plan:
+    if not (source / "CMakeLists.txt").is_file():
+        raise WheelError(f"{source} is no ament_cmake package: it has no CMakeLists.txt")
+    plan, interpreter = evaluate_package(source, build, prefix, _MODULES)
+    errors, warnings = plan.verdict()
+    if errors:
+        raise WheelError("\n".join(errors))
+    for line in warnings:
+        warn(line)
+    modules = prefix / _MODULES
+    for command in generator_commands(plan, build, modules):
+        # Our own module, with folders of this package.
+        done = subprocess.run(command, check=False, capture_output=True, text=True)  # noqa: S603
+        if done.returncode:
+            raise WheelError(done.stderr.strip())
+    PlanInstaller(
+        plan, interpreter, source, prefix, modules, python="/usr/bin/env python3"
+    ).install()
+    # Without it colcon takes a venv in a workspace for sources.
+    (prefix / "share" / plan.name / "COLCON_IGNORE").touch()
+    return plan
+
+
+def _pack(manifest: Manifest, plan: Plan, prefix: Path, output: Path) -> Path:
+    base = f"{manifest.name}-{manifest.version}"
+    path = output / f"{base}-py3-none-any.whl"
+    output.mkdir(parents=True, exist_ok=True)
+    record = []
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+
+        def add(name: str, data: bytes, mode: int = 0o644) -> None:
+            entry = zipfile.ZipInfo(name)
+            entry.external_attr = (0o100000 | mode) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode().rstrip("=")
+            record.append(f"{name},sha256={digest},{len(data)}\n")
+
+        for file in sorted(prefix.rglob("*")):
+            name = _place(file.relative_to(prefix), f"{base}.data")
+            if file.is_file() and name:
+                add(name, file.read_bytes(), file.stat().st_mode & 0o777)
+        for name, text in _metadata(manifest, plan).items():
+            add(f"{base}.dist-info/{name}", text.encode())
+        record.append(f"{base}.dist-info/RECORD,,\n")
+        archive.writestr(f"{base}.dist-info/RECORD", "".join(record))
+    return path
+
+
+def _place(relative: Path, data: str) -> str:
+    """Where a file of the prefix is in the wheel; empty if it is left out."""
+    first, *rest = relative.parts
+    if first == _MODULES:
+        return "" if rest and rest[0].endswith(".egg-info") else "/".join(rest)
+    if first == "bin" and rest:
+        return "/".join([data, "scripts", *rest])
+    return "/".join([data, "data", first, *rest])
+
+
+def _metadata(manifest: Manifest, plan: Plan) -> dict[str, str]:
+    groups: dict[str, dict[str, str]] = {}
+    for package in plan.python_packages:
+        for group, entries in entry_points(package.setup_cfg).items():
+            if group != "console_scripts":  # they are files in lib/<package>
+                groups.setdefault(group, {}).update(entries)
+    lines = [
+        f"[{group}]\n" + "".join(f"{name} = {target}\n" for name, target in entries.items())
+        for group, entries in groups.items()
+    ]
+    files = {
+        "METADATA": (
+            f"Metadata-Version: 2.1\nName: {manifest.name}\nVersion: {manifest.version}\n"
+            f"Summary: {manifest.description}\n"
+        ),
+        "WHEEL": _WHEEL,
+    }
+    return files | ({"entry_points.txt": "\n".join(lines)} if lines else {})

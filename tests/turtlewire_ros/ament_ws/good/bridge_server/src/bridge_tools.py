@@ -1,0 +1,2 @@
+def shorten(name):
+    return name.rpartition("/")[2]

@@ -1,0 +1,1 @@
+include("${macro_tool_DIR}/macro_tool_expand.cmake")

@@ -1,0 +1,3 @@
+from .prefixed import prefixed
+
+__all__ = ["prefixed"]

@@ -1,0 +1,2 @@
+def prefixed(name):
+    return f"nav_{name}"

@@ -1,0 +1,341 @@
+"""How a CMakeLists.txt is read: no CMake, no colcon, no processes."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlewire_ros.cmake.evaluate import evaluate_package
+from turtlewire_ros.cmake.syntax import CMakeError, parse_commands
+
+MANIFEST = "<package><name>robot</name><version>1.2.3</version><depend>std_msgs</depend></package>"
+HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(robot)\nfind_package(ament_cmake REQUIRED)\n"
+
+
+@pytest.fixture
+def evaluate(tmp_path):
+    """The plan of a package with this text after its first three lines, and its variables."""
+    source = tmp_path / "robot"
+    source.mkdir()
+    (source / "package.xml").write_text(MANIFEST)
+
+    def of(body: str, *arguments: str, **files: str):
+        for name, text in files.items():
+            path = source / name.replace("__", "/")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        (source / "CMakeLists.txt").write_text(f"{HEAD}{body}\n")
+        environment = {"HOME": "/home/me", "AMENT_PREFIX_PATH": ""}
+        plan, run = evaluate_package(
+            source, tmp_path / "build", tmp_path / "prefix", "lib/py", environment, arguments
+        )
+        return plan, run.variables
+
+    return of
+
+
+def value(evaluate, body: str) -> str:
+    return evaluate(body)[1].get("X", "not set")
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("set(X a)", "a"),
+        ('set(X a b "c d")', "a;b;c d"),
+        ("set(X [[${not} replaced]])", "${not} replaced"),
+        ("set(X [=[a]]b]=])", "a]]b"),
+        ('set(X "a\\"b\\\\c\\${d}")', 'a"b\\c${d}'),
+        ('set(X "two\\\nlines")', "twolines"),
+        ("set(X a#comment\n)", "a"),
+        ("set(X a #[[ a long\n comment ]] b)", "a;b"),
+        ('set(X -Da="b c")', '-Da="b c"'),
+        ("set(a b)\nset(b_c d)\nset(X ${${a}_c})", "d"),
+        ('set(X "$ENV{HOME}/x")', "/home/me/x"),
+        ("set(X 1)\nset(X)", "not set"),
+        ("set(X 1)\nunset(X)", "not set"),
+        ('set(X first CACHE STRING "doc")\nset(X second CACHE STRING "doc")', "first"),
+        ('option(X "doc" ON)', "ON"),
+        ("SET(X ${PROJECT_NAME}-${PROJECT_VERSION})", "robot-1.2.3"),
+        ("list(APPEND X a b)\nlist(APPEND X c)\nlist(REMOVE_ITEM X b)", "a;c"),
+        ("set(l a b c)\nlist(LENGTH l X)", "3"),
+        ("set(l a b c)\nlist(GET l 0 -1 X)", "a;c"),
+        ("set(l a b)\nlist(FIND l b X)", "1"),
+        ('set(l a b)\nlist(JOIN l ", " X)', "a, b"),
+        ('set(X x.cpp y.py)\nlist(FILTER X EXCLUDE REGEX ".*\\\\.cpp$")', "y.py"),
+        ("set(X b a b)\nlist(REMOVE_DUPLICATES X)\nlist(SORT X)\nlist(REVERSE X)", "b;a"),
+        ("set(X a b)\nlist(TRANSFORM X PREPEND msg/)\nlist(TRANSFORM X APPEND .msg)",
+         "msg/a.msg;msg/b.msg"),
+        ("set(l a b c d)\nlist(SUBLIST l 1 2 X)", "b;c"),
+        ('string(TOUPPER "abc" X)', "ABC"),
+        ('string(REPLACE "a" "b" X "banana")', "bbnbnb"),
+        ('string(REGEX REPLACE "([a-z]+)-([0-9]+)" "\\\\2:\\\\1" X "ab-12")', "12:ab"),
+        ('string(REGEX MATCH "[0-9]+" X "ab-12")', "12"),
+        ("string(CONCAT X a b c)", "abc"),
+        ("set(X a)\nstring(APPEND X b)", "ab"),
+        ('math(EXPR X "2 * (3 + 4) - 1")', "13"),
+        ('foreach(i 1 2 3)\n  set(X "${X}${i}")\nendforeach()', "123"),
+        ('foreach(i RANGE 3)\n  set(X "${X}${i}")\nendforeach()', "0123"),
+        ('set(l a b)\nforeach(i IN LISTS l ITEMS c)\n  set(X "${X}${i}")\nendforeach()', "abc"),
+        (("foreach(i a b c)\n  if(i STREQUAL b)\n    continue()\n  endif()\n"
+         '  set(X "${X}${i}")\nendforeach()'), "ac"),
+        (("foreach(i a b c)\n  if(i STREQUAL b)\n    break()\n  endif()\n"
+         '  set(X "${X}${i}")\nendforeach()'), "a"),
+        ('set(n 0)\nwhile(n LESS 3)\n  math(EXPR n "${n}+1")\nendwhile()\nset(X ${n})', "3"),
+        (("function(f a)\n  set(X ${a}-${ARGN}-${ARGC} PARENT_SCOPE)\nendfunction()\n"
+         "f(1 2 3)"), "1-2;3-3"),
+        ("function(f)\n  set(X inside)\nendfunction()\nset(X outside)\nf()", "outside"),
+        (("function(f)\n  set(X 1 PARENT_SCOPE)\n  return()\n  set(X PARENT_SCOPE)\nendfunction()\n"
+         "f()"), "1"),
+        ("macro(m a)\n  set(X ${a}${ARGN})\nendmacro()\nm(1 2)", "12"),
+        (('macro(m)\n  cmake_parse_arguments(ARG "FLAG" "ONE" "MANY" ${ARGN})\nendmacro()\n'
+         "m(rest FLAG ONE 1 MANY 2 3)\n"
+         "set(X ${ARG_FLAG} ${ARG_ONE} ${ARG_MANY} ${ARG_UNPARSED_ARGUMENTS})"), "TRUE;1;2;3;rest"),
+        ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
+        ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
+        ("return()\nset(X 1)", "not set"),
+    ],
+)  # fmt: skip
+def test_values(evaluate, body, expected):
+    assert value(evaluate, body) == expected
+
+
+@pytest.mark.parametrize(
+    ("condition", "holds"),
+    [
+        ("ON", True), ("0", False), ("2.5", True), ("no_such_variable", False), ('"text"', False),
+        ("YES AND NOT OFF", True), ("OFF OR ON", True), ("NOT ON OR ON", True),
+        ("(ON OR ON) AND OFF", False), ("ON OR ON AND OFF", True),
+        ("DEFINED PROJECT_NAME", True), ("DEFINED nothing", False), ("DEFINED ENV{HOME}", True),
+        ('PROJECT_NAME STREQUAL "robot"', True), ('"${PROJECT_NAME}" STREQUAL robot', True),
+        ('PROJECT_NAME MATCHES "^rob"', True), ("PROJECT_NAME MATCHES cat", False),
+        ("PROJECT_VERSION VERSION_LESS 1.10", True), ("1.2 VERSION_EQUAL 1.2.0", True),
+        ("PROJECT_VERSION VERSION_GREATER_EQUAL 2", False),
+        ("3 LESS 10", True), ("3 EQUAL 3.0", True), ("3 GREATER x", False),
+        ("b IN_LIST letters", True), ("z IN_LIST letters", False),
+        ('EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/package.xml"', True), ("EXISTS nothing", False),
+        ('IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"', True), ("TARGET lib", True),
+        ("TARGET nothing", False), ("COMMAND ament_package", True), ("COMMAND nothing", False),
+        ('CMAKE_COMPILER_IS_GNUCXX OR CMAKE_CXX_COMPILER_ID MATCHES "Clang"', False),
+        ("std_msgs_FOUND", True), ("nobody_has_this_FOUND", False),
+    ],
+)  # fmt: skip
+def test_conditions(evaluate, condition, holds):
+    body = (
+        "set(letters a b)\nadd_library(lib INTERFACE)\nfind_package(std_msgs)\n"
+        "find_package(nobody_has_this QUIET)\n"
+        f"if({condition})\n  set(X 1)\nelse()\n  set(X 0)\nendif()"
+    )
+    assert value(evaluate, body) == str(int(holds))
+
+
+def test_elseif(evaluate):
+    body = (
+        "if(OFF)\nset(X 1)\nelseif(ON)\nset(X 2)\nelseif(ON)\nset(X 3)\nelse()\nset(X 4)\nendif()"
+    )
+    assert value(evaluate, body) == "2"
+
+
+@pytest.mark.parametrize(
+    ("body", "line", "text"),
+    [
+        ("set(X", 4, "the parenthesis that opens here is never closed"),
+        ("if(ON)\nset(X 1)", 4, "if() has no endif()"),
+        ("\nendif()", 5, "endif() closes nothing"),
+        ("set X", 4, "expected '(' after 'set'"),
+        ("5", 4, "expected a command, got '5'"),
+        ("foreach(i a)\nendif()", 4, "foreach() has no endforeach()"),
+        ("list(COOK l)", 4, "list(COOK) is not known here"),
+        ("list(GET l 5 X)", 4, "wrong arguments: list(GET l 5 X)"),
+        ("if(ON AND)\nendif()", 4, "a condition ends too early"),
+        ("if(ON ON)\nendif()", 4, "unexpected 'ON' in a condition"),
+        ('math(EXPR X "1 / 0")', 4, "cannot calculate '1 / 0'"),
+        ("math(EXPR X \"__import__('os')\")", 4, "cannot calculate"),
+        ("function(f a)\nendfunction()\nf()", 6, "f() takes 1 arguments (a), got 0"),
+        ("function(f)\n  f()\nendfunction()\nf()", 5, "f() calls itself without end"),
+        ('message(FATAL_ERROR no "${PROJECT_NAME}")', 4, "norobot"),
+        ("add_subdirectory(nowhere)", 4, "add_subdirectory(): there is no file"),
+        ("file(WRITE ${CMAKE_SOURCE_DIR}/x y)", 4, "is not in the build folder"),
+        ("configure_file(a.in a)", 4, "configure_file(): there is no file"),
+        ("install(FILES a)", 4, "install(FILES) has no DESTINATION"),
+        ("install(FILES a DESTINATION ../up)", 4, "is outside of the install folder"),
+        ("install(SCRIPT a.cmake)", 4, "install(SCRIPT) is not known here"),
+        ("ament_python_install_package(robot)", 4, "there is no folder"),
+        ("ament_environment_hooks(a.sh)", 4, "there is no file"),
+        ("rosidl_generate_interfaces(robot A.msg)", 4, "A.msg is no msg/….msg, srv/….srv"),
+        ("rosidl_generate_interfaces(robot)", 4, "names no files"),
+        ("catkin_package()", 4, "is of ROS 1, whose packages do not run here"),
+    ],
+)  # fmt: skip
+def test_errors_name_file_and_line(evaluate, tmp_path, body, line, text):
+    with pytest.raises(CMakeError) as raised:
+        evaluate(body)
+    message = str(raised.value)
+    assert message.startswith(f"{tmp_path / 'robot' / 'CMakeLists.txt'}:{line}: ")
+    assert text in message
+
+
+@given(st.text(alphabet='ab(){}[]="\\#;$ \n', max_size=40))
+def test_any_text_is_read_or_refused(text):
+    try:
+        commands = parse_commands(text, "f")
+    except CMakeError:
+        return
+    assert all(command.name.isidentifier() for command in commands)
+
+
+def test_what_is_installed(evaluate, tmp_path):
+    plan, _ = evaluate(
+        'install(DIRECTORY "meshes/" urdf DESTINATION "share/${PROJECT_NAME}"\n'
+        '  PATTERN "*.blend" EXCLUDE)\n'
+        "INSTALL(PROGRAMS walk.py DESTINATION lib/${PROJECT_NAME} RENAME walk) # walks\n"
+        "install(FILES a DESTINATION ${CMAKE_INSTALL_PREFIX}/share/x OPTIONAL)\n"
+        "install(TARGETS a b EXPORT c)\n"
+    )
+    source = tmp_path / "robot"
+    directory, program, file = plan.installs
+    assert directory.kind == "DIRECTORY"
+    assert directory.sources == (f"{source}/meshes/", f"{source}/urdf")
+    assert directory.destination == "share/robot"
+    assert [rule.excludes for rule in directory.rules] == [True]
+    assert (program.kind, program.destination, program.rename) == ("PROGRAMS", "lib/robot", "walk")
+    assert (file.destination, file.optional) == ("share/x", True)
+
+
+def test_globs(evaluate, tmp_path):
+    _, variables = evaluate(
+        'file(GLOB a RELATIVE ${CMAKE_CURRENT_LIST_DIR} "msg/*.msg")\n'
+        'file(GLOB_RECURSE b "*.msg")\nfile(GLOB c "*/A.msg")',
+        msg__B="", **{"msg__A.msg": "int32 a\n", "msg__C.msg": "int32 c\n"},
+    )  # fmt: skip
+    folder = tmp_path / "robot" / "msg"
+    assert variables["a"] == "msg/A.msg;msg/C.msg"
+    assert variables["b"] == f"{folder / 'A.msg'};{folder / 'C.msg'}"
+    assert variables["c"] == str(folder / "A.msg")
+
+
+def test_interfaces(evaluate, tmp_path):
+    other = tmp_path / "other" / "msg"
+    other.mkdir(parents=True)
+    (other / "O.msg").touch()
+    plan, _ = evaluate(
+        f'rosidl_generate_interfaces(${{PROJECT_NAME}} msg/A.msg "{other.parent}:msg/O.msg"\n'
+        "  DEPENDENCIES std_msgs ADD_LINTER_TESTS LIBRARY_NAME x SKIP_INSTALL)",
+        **{"msg__A.msg": "int32 a\n"},
+    )
+    (interfaces,) = plan.interfaces
+    assert interfaces.files == (
+        ("msg/A.msg", tmp_path / "robot" / "msg" / "A.msg"),
+        ("msg/O.msg", other / "O.msg"),
+    )
+    assert not interfaces.installed
+
+
+def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
+    plan, _ = evaluate("find_package(nobody_has_this_msgs REQUIRED)\nfind_package(neither QUIET)")
+    (line,) = plan.missing
+    assert line.split("CMakeLists.txt")[1] == (
+        ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, or source or "
+        "install what has it"
+    )
+    plan, _ = evaluate("if(BUILD_TESTING)\n  find_package(nobody_has_this_msgs REQUIRED)\nendif()")
+    assert plan.missing == []
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "add_executable(walker src/walker.cpp)",
+        "add_library(walker SHARED src/walker.cpp)",
+        "add_library(walker src/walker.cpp)",
+        "pybind11_add_module(walker src/walker.cpp)",
+        'rclcpp_components_register_nodes(walker "a::B")',
+        "ament_auto_add_library(walker src/walker.cpp)",
+    ],
+)  # fmt: skip
+def test_what_compiles_is_refused_with_its_target(evaluate, body):
+    plan, _ = evaluate(body)
+    name = body.partition("(")[0]
+    (line,) = plan.refused
+    assert line.endswith(
+        f"CMakeLists.txt:4: {name}(walker) compiles C++, which turtlewire does not"
+    )
+    assert plan.verdict() == ([line], [])
+
+
+def test_the_python_of_a_package_with_cpp_is_installed(evaluate):
+    plan, _ = evaluate(
+        "add_executable(walker a.cpp)\ncompile_shaders(a b)\n"
+        "find_package(unknown_cpp_library REQUIRED)\n"
+        "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})"
+    )
+    errors, warnings = plan.verdict()
+    assert errors == []
+    assert [line.split("CMakeLists.txt:")[1].split(":")[0] for line in warnings] == ["4", "6", "5"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "add_library(headers INTERFACE)\ntarget_link_libraries(headers INTERFACE a::b)",
+        "add_library(a::b ALIAS headers)",
+        "if(BUILD_TESTING)\n  add_executable(a a.cpp)\n  who_knows_this()\nendif()",
+        "if(BUILD_TESTING AND NOT WIN32)\n  ament_add_gtest(b b.cpp)\nendif()",
+        "ament_export_dependencies(std_msgs)\nament_export_targets(x HAS_LIBRARY_TARGET)",
+        "set_target_properties(a PROPERTIES B C)\ntarget_compile_features(a PUBLIC cxx_std_17)",
+        "include(CTest)\ninclude(GNUInstallDirs)",
+    ],
+)  # fmt: skip
+def test_what_compiles_nothing_is_let_pass(evaluate, body):
+    assert evaluate(body)[0].verdict() == ([], [])
+
+
+def test_an_unknown_command_is_an_error(evaluate):
+    errors, _ = evaluate("make_coffee(now)")[0].verdict()
+    assert (
+        errors[0]
+        .split("CMakeLists.txt")[1]
+        .startswith(":4: the command make_coffee() is not known; ")
+    )
+
+
+def test_definitions_of_the_command_line(evaluate):
+    body = (
+        'set(FAST OFF CACHE BOOL "doc")\nif(BUILD_TESTING)\n  add_test(NAME a COMMAND b)\nendif()'
+    )
+    plan, variables = evaluate(body, "-DFAST:BOOL=ON", "-DBUILD_TESTING=OFF", "--trace")
+    assert variables["FAST"] == "ON"
+    assert plan.tests == []
+
+
+def test_tests(evaluate, tmp_path):
+    plan, _ = evaluate(
+        "add_executable(compiled a.cpp)\nif(BUILD_TESTING)\n"
+        "  ament_add_pytest_test(one test/test_one.py TIMEOUT 90 ENV A=1 B=2)\n"
+        "  add_launch_test(test/two.py ARGS a:=b)\n"
+        "  ament_add_test(three COMMAND echo hello WORKING_DIRECTORY test)\n"
+        "  add_test(NAME four COMMAND compiled)\n"
+        "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\nendif()"
+    )
+    folder = tmp_path / "robot"
+    assert [(test.name, test.kind, test.words) for test in plan.tests] == [
+        ("one", "pytest", (f"{folder}/test/test_one.py",)),
+        ("test_two.py", "launch", (f"{folder}/test/two.py", "a:=b")),
+        ("three", "command", ("echo", "hello")),
+    ]
+    assert plan.tests[0].environment == {"A": "1", "B": "2"}
+    assert [test.timeout for test in plan.tests] == [90, 60, 60]
+    assert plan.tests[2].folder == os.path.join(folder, "test")
+
+
+def test_a_subfolder_has_its_own_variables(evaluate, tmp_path):
+    plan, variables = evaluate(
+        "set(X outside)\nadd_subdirectory(sub)",
+        **{"sub__CMakeLists.txt": "set(X inside)\ninstall(FILES a DESTINATION share)\n"
+           "set(SEEN ${X} PARENT_SCOPE)\n"},
+    )  # fmt: skip
+    assert (variables["X"], variables["SEEN"]) == ("outside", "inside")
+    assert plan.installs[0].sources == (str(tmp_path / "robot" / "sub" / "a"),)
