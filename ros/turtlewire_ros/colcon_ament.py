@@ -28,7 +28,7 @@ from turtlewire_ros.cmake.evaluate import evaluate_package
 from turtlewire_ros.cmake.syntax import CMakeError
 from turtlewire_ros.manifest import ManifestError, manifest_fault
 from turtlewire_ros.package_lookup import PackageLookup
-from turtlewire_ros.plan_install import PlanInstaller, generator_commands
+from turtlewire_ros.plan_install import PlanInstaller, build_commands
 
 if TYPE_CHECKING:
     from colcon_core.package_descriptor import PackageDescriptor
@@ -136,8 +136,8 @@ class AmentPackageBuild(TaskExtensionPoint):
             colcon_logger.error(f"{name}: {line}")
         if errors:
             return 1
-        for command in generator_commands(plan, build, modules):
-            done = await run(self.context, command, cwd=args.build_base, env=environment)
+        for command, folder in build_commands(plan, build, modules):
+            done = await run(self.context, command, cwd=folder, env=environment)
             if done.returncode:
                 return int(done.returncode)
         installer = PlanInstaller(
@@ -175,7 +175,7 @@ class AmentPackageTest(TaskExtensionPoint):
             done = await run(
                 self.context,
                 self._command(test),
-                cwd=test["folder"],
+                cwd=args.build_base,
                 env=environment | {"PYTHONDONTWRITEBYTECODE": "1"} | test["environment"],
             )
             failed = failed or bool(done.returncode)
@@ -191,6 +191,7 @@ class AmentPackageTest(TaskExtensionPoint):
             "--kind", test["kind"],
             "--name", f"{name}.{test['name']}",
             "--result", str(folder / f"{test['name']}.xunit.xml"),
+            "--folder", test["folder"],
             "--timeout", str(test["timeout"]),
             "--", *test["words"],
         ]  # fmt: skip

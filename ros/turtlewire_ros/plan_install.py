@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from turtlewire_ros.cmake.interpreter import Interpreter
     from turtlewire_ros.cmake.plan import FileRule, Install, Plan, PythonPackage
 
-__all__ = ["PlanInstaller", "entry_points", "generator_commands"]
+__all__ = ["PlanInstaller", "build_commands", "entry_points"]
 
 _IGNORED = ("__pycache__", ".pyc")
 _SCRIPT = "#!{python}\nimport sys\n\nfrom {module} import {function}\n\nsys.exit({call}())\n"
@@ -48,8 +48,10 @@ unset AMENT_CURRENT_PREFIX _turtlewire_value
 """
 
 
-def generator_commands(plan: Plan, build: Path, modules: Path) -> Iterator[list[str]]:
-    """Commands that generate the plan's interfaces; their definitions are put into ``build``.
+def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[tuple[list[str], str]]:
+    """What runs before the installation: commands, each with the folder in which it runs.
+
+    They generate interfaces, whose definitions are put into ``build``, and run the plan's steps.
 
     Args:
         plan: The plan.
@@ -70,8 +72,11 @@ def generator_commands(plan: Plan, build: Path, modules: Path) -> Iterator[list[
         for relative, source in files:
             _replace_by_copy(source, folder / relative)
         output = modules if installed else build / "rosidl_generator_py"
-        yield [sys.executable, "-m", "turtlewire.msg", str(folder), "--output", str(output),
-               "--package", plan.name]  # fmt: skip
+        command = [sys.executable, "-m", "turtlewire.msg", str(folder), "--output", str(output)]
+        yield [*command, "--package", plan.name], str(build)
+    for step in plan.steps:
+        Path(step.folder).mkdir(parents=True, exist_ok=True)
+        yield list(step.words), step.folder
 
 
 def entry_points(setup_cfg: Path | None) -> dict[str, dict[str, str]]:
@@ -132,6 +137,8 @@ class PlanInstaller:
             CMakeError: A file that a command names is missing.
             OSError: A file cannot be written.
         """
+        for package in self._plan.python_packages:
+            self._make_scripts(package)
         for install in self._plan.installs:
             self._install(install)
         for package in self._plan.python_packages:
@@ -146,7 +153,10 @@ class PlanInstaller:
         self._put(self._source / "package.xml", self._share / "package.xml")
         self._register()
         self._install_extras()
-        return self._install_hooks()
+        hooks = self._install_hooks()
+        for text, place in self._plan.install_code:
+            self._run.run_text(text, place)
+        return hooks
 
     def _install(self, install: Install) -> None:
         target = self._prefix / install.destination
@@ -202,17 +212,26 @@ class PlanInstaller:
             for line in (f"[{group}]", *(f"{name} = {to}" for name, to in entries.items()), "")
         ]
         (info / "entry_points.txt").write_text("\n".join(lines), encoding="utf-8")
-        if package.scripts:
-            for name, target in groups.get("console_scripts", {}).items():
-                self._install_script(self._prefix / package.scripts / name, target)
+        for script in sorted(self._scripts_of(package).iterdir()) if package.scripts else ():
+            _replace_by_copy(script, self._prefix / package.scripts / script.name)
 
-    def _install_script(self, path: Path, target: str) -> None:
-        module, _, call = target.partition(":")
-        function = call.partition(".")[0]
-        path.parent.mkdir(parents=True, exist_ok=True)
-        text = _SCRIPT.format(python=self._python, module=module, function=function, call=call)
-        path.write_text(text, encoding="utf-8")
-        path.chmod(0o755)
+    def _make_scripts(self, package: PythonPackage) -> None:
+        """Make the console scripts where ament does, from where packages install them again."""
+        if not package.scripts:
+            return
+        folder = self._scripts_of(package)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, target in entry_points(package.setup_cfg).get("console_scripts", {}).items():
+            module, _, call = target.partition(":")
+            text = _SCRIPT.format(
+                python=self._python, module=module, function=call.partition(".")[0], call=call
+            )
+            (folder / name).write_text(text, encoding="utf-8")
+            (folder / name).chmod(0o755)
+
+    def _scripts_of(self, package: PythonPackage) -> Path:
+        binary = Path(self._run.variables["CMAKE_BINARY_DIR"])
+        return binary / "ament_cmake_python" / package.name / "scripts"
 
     def _register(self) -> None:
         index = self._prefix / "share" / "ament_index" / "resource_index"

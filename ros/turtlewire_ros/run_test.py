@@ -28,10 +28,13 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--kind", choices=("pytest", "launch", "command"), required=True)
     parser.add_argument("--name", required=True)
     parser.add_argument("--result", type=Path, required=True)
+    parser.add_argument("--folder", required=True, help="where it runs; made if it is missing")
     parser.add_argument("--timeout", type=float, required=True)
     parser.add_argument("words", nargs="+")
     options = parser.parse_args(argv)
     result: Path = options.result
+    Path(options.folder).mkdir(parents=True, exist_ok=True)
+    os.chdir(options.folder)
     result.parent.mkdir(parents=True, exist_ok=True)
     _write_result(result, options.name, "the test ended without a result")
     status = _run(_command(options.kind, options.words, result, options.name), options.timeout)

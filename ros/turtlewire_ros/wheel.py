@@ -18,7 +18,7 @@ from turtlewire.errors import InterfaceError
 from turtlewire_ros.cmake.evaluate import evaluate_package
 from turtlewire_ros.cmake.syntax import CMakeError
 from turtlewire_ros.manifest import Manifest, ManifestError, read_manifest
-from turtlewire_ros.plan_install import PlanInstaller, entry_points, generator_commands
+from turtlewire_ros.plan_install import PlanInstaller, build_commands, entry_points
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,11 +70,13 @@ def _install(source: Path, build: Path, prefix: Path, warn: Callable[[str], None
     for line in warnings:
         warn(line)
     modules = prefix / _MODULES
-    for command in generator_commands(plan, build, modules):
-        # Our own module, with folders of this package.
-        done = subprocess.run(command, check=False, capture_output=True, text=True)  # noqa: S603
+    for command, folder in build_commands(plan, build, modules):
+        # Our own module, or what the package itself runs.
+        done = subprocess.run(  # noqa: S603
+            command, cwd=folder, check=False, capture_output=True, text=True
+        )
         if done.returncode:
-            raise WheelError(done.stderr.strip())
+            raise WheelError(done.stderr.strip() or f"{' '.join(command)} failed")
     PlanInstaller(
         plan, interpreter, source, prefix, modules, python="/usr/bin/env python3"
     ).install()

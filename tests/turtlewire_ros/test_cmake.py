@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 
 import pytest
 from hypothesis import given
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from turtlewire_ros.cmake.evaluate import evaluate_package
 from turtlewire_ros.cmake.syntax import CMakeError, parse_commands
+from turtlewire_ros.cmake.tool import main as tool
 
 MANIFEST = "<package><name>robot</name><version>1.2.3</version><depend>std_msgs</depend></package>"
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(robot)\nfind_package(ament_cmake REQUIRED)\n"
@@ -97,6 +99,12 @@ def value(evaluate, body: str) -> str:
         ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
         ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
         ("return()\nset(X 1)", "not set"),
+        ("set(X a b c)\nlist(REMOVE_AT X 0 -1)", "b"),
+        ('set(X "a \\"b c\\" d")\nseparate_arguments(X)', "a;b c;d"),
+        (("execute_process(COMMAND ${CMAKE_COMMAND} -E echo a b OUTPUT_VARIABLE X "
+         "OUTPUT_STRIP_TRAILING_WHITESPACE)"), "a b"),
+        ("execute_process(COMMAND no-such-program RESULT_VARIABLE X)\nif(X)\nset(X no)\nendif()",
+         "no"),
     ],
 )  # fmt: skip
 def test_values(evaluate, body, expected):
@@ -339,3 +347,48 @@ def test_a_subfolder_has_its_own_variables(evaluate, tmp_path):
     )  # fmt: skip
     assert (variables["X"], variables["SEEN"]) == ("outside", "inside")
     assert plan.installs[0].sources == (str(tmp_path / "robot" / "sub" / "a"),)
+
+
+def test_steps_tests_and_code_that_runs_last(evaluate, tmp_path):
+    plan, _ = evaluate(
+        "add_custom_command(OUTPUT a.txt COMMAND ${CMAKE_COMMAND} -E touch a.txt COMMENT x)\n"
+        "add_custom_target(all_of_it ALL DEPENDS a.txt COMMAND echo a > b.txt)\n"
+        "add_custom_target(when_asked COMMAND echo never)\n"
+        "add_custom_command(TARGET compiled POST_BUILD COMMAND echo never)\n"
+        'install(CODE "message(hello)")\nadd_test(NAME plain COMMAND true)\n'
+        'file(GENERATE OUTPUT g.txt CONTENT "generated")'
+    )
+    assert [step.words for step in plan.steps] == [
+        (sys.executable, "-m", "turtlewire_ros.cmake.tool", "-E", "touch", "a.txt"),
+        ("sh", "-c", "echo a > b.txt"),
+    ]
+    build = tmp_path / "build"
+    assert plan.steps[0].folder == str(build)
+    assert [text for text, _ in plan.install_code] == ["message(hello)"]
+    assert (plan.tests[0].folder, plan.tests[0].timeout) == (str(build), 1500)
+    assert (build / "g.txt").read_text() == "generated"
+
+
+def test_what_cmake_e_does(tmp_path, capfd, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for words in (
+        ["make_directory", "a/b"],
+        ["touch", "a/b/c"],
+        ["copy", "a/b/c", "d"],
+        ["copy_directory", "a", "e"],
+        ["create_symlink", "d", "link"],
+        ["create_symlink", "e", "link"],
+        ["rm", "-rf", "a", "d"],
+        ["env", "WHO=me", "--unset=HOME", "sh", "-c", "echo $WHO $HOME"],
+    ):
+        assert tool(["-E", *words]) == 0
+    assert sorted(path.as_posix() for path in tmp_path.rglob("*")) == [
+        f"{tmp_path}/{name}" for name in ("e", "e/b", "e/b/c", "link")
+    ]
+    assert os.readlink("link") == "e"
+    assert tool(["-E", "copy", "nothing", "x"]) == 1
+    assert tool(["--build", "."]) == 1
+    output = capfd.readouterr()
+    assert output.out == "me\n"
+    assert "cmake -E copy nothing x: " in output.err
+    assert "cmake --build .: only cmake -E " in output.err

@@ -220,6 +220,8 @@ def test_scripts_modules_and_launch_files(built):
     script = """
 ros2 run macro_tool expand 'Hi $NAME' you
 macro_tool 'Hi $NAME' bin
+expand 'Hi $NAME' again
+macro_link 'Hi $NAME' link
 ros2 pkg executables bridge_server
 ros2 run bridge_server bridge.py /b /a
 python -c 'import bridge_tools; print(bridge_tools.shorten("/a/b"))
@@ -231,6 +233,8 @@ ros2 run sliders sliders
     assert shell(built, script) == [
         "Hi you",
         "Hi bin",
+        "Hi again",
+        "Hi link",
         "bridge_server bridge",
         "bridge_server bridge.py",
         "['/a', '/b']",
@@ -248,6 +252,7 @@ def test_data_templates_extras_and_hooks(built):
         "greeting: ROBOT!\nknows: of 1.2.3\nas_is: ${greeting}\n"
     )
     assert (share / "robot.txt").read_text() == "robot 2.5"
+    assert (share / "hello.txt").read_text() == "Hello nav_bringup\n"
     assert sorted(path.name for path in (share / "maps").iterdir()) == ["office.yaml"]
     index = built / "install/nav_bringup/share/ament_index/resource_index"
     assert (index / "nav_plugins/nav_bringup").read_text() == "planner;controller"
@@ -334,7 +339,7 @@ colcon build --packages-select macro_tool --symlink-install > link.log 2>&1 || c
 sed -i 's/import sys/import sys  # changed/' src/macro_tool/macro_tool/__init__.py
 grep -c changed install/macro_tool/lib/python*/site-packages/macro_tool/__init__.py
 colcon build --packages-select macro_tool > copy.log 2>&1 || cat copy.log
-find install/macro_tool -type l
+find install/macro_tool -type l ! -name macro_link
 grep -c changed src/macro_tool/macro_tool/__init__.py
 """
     assert shell(built, script) == ["1", "1"]

@@ -16,6 +16,8 @@ module          what it holds
 `installing`    ``install``
 `ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
 `targets`       what would compile C++, and commands without an effect here
+`processes`     ``execute_process``, ``add_custom_command``, ``add_custom_target``
+`tool`          what ``cmake -E`` does
 `plan`          what a package installs, generates and tests
 `evaluate`      the plan of a package's folder
 ==============  =======================================================================

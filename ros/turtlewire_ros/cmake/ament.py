@@ -37,7 +37,9 @@ _TEST_OPTIONS = ("SKIP_TEST", "GENERATE_RESULT_FOR_RETURN_CODE_ZERO")
 _TEST_VALUES = ("TIMEOUT", "WORKING_DIRECTORY", "TARGET", "PYTHON_EXECUTABLE", "RUNNER", "WERROR",
                 "RESULT_FILE", "OUTPUT_FILE")  # fmt: skip
 _TEST_LISTS = ("ENV", "APPEND_ENV", "APPEND_LIBRARY_DIRS", "COMMAND", "ARGS", "LABEL", "LABELS")
+#: Seconds after which a test is stopped: of ament, and of add_test.
 _TIMEOUT = 60.0
+_CMAKE_TIMEOUT = 1500.0
 
 
 def _find_package(run: Interpreter, call: Call) -> None:
@@ -210,9 +212,12 @@ def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[s
     if "SKIP_TEST" in parsed.options:
         return
     lines = parsed.lists.get("ENV", []) + parsed.lists.get("APPEND_ENV", [])
-    folder = parsed.values.get("WORKING_DIRECTORY", "")
+    # CMake's own command runs tests in the build folder, those of ament in the source folder.
+    plain = call.name == "add_test"
+    default = "CMAKE_CURRENT_BINARY_DIR" if plain else "CMAKE_SOURCE_DIR"
+    folder = parsed.values.get("WORKING_DIRECTORY", run.variables[default])
     environment = dict(line.split("=", 1) for line in lines)
-    timeout = float(parsed.values.get("TIMEOUT", _TIMEOUT))
+    timeout = float(parsed.values.get("TIMEOUT", _CMAKE_TIMEOUT if plain else _TIMEOUT))
     run.plan.tests.append(TestRun(name, kind, words, environment, run.source_path(folder), timeout))
 
 

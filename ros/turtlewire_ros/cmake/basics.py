@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 import re
+import shlex
 from typing import TYPE_CHECKING
 
 from turtlewire_ros.cmake.arguments import parse_keywords
@@ -118,6 +119,11 @@ _CHANGES: dict[str, Callable[[list[str], list[str]], list[str]]] = {
     "APPEND": lambda items, words: items + words,
     "PREPEND": lambda items, words: words + items,
     "REMOVE_ITEM": lambda items, words: [item for item in items if item not in words],
+    "REMOVE_AT": lambda items, words: [
+        item
+        for number, item in enumerate(items)
+        if not {str(number), str(number - len(items))} & {*words}
+    ],
     "REMOVE_DUPLICATES": lambda items, _: list(dict.fromkeys(items)),
     "REVERSE": lambda items, _: items[::-1],
     "SORT": lambda items, _: sorted(items),
@@ -169,6 +175,12 @@ _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
     ),
     "MAKE_C_IDENTIFIER": (2, 1, lambda words: re.sub(r"\W", "_", words[0])),
 }  # fmt: skip
+
+
+def _separate_arguments(run: Interpreter, call: Call) -> None:
+    name, *words = call.words
+    text = words[-1] if words else run.variables.get(name, "")
+    run.variables[name] = ";".join(shlex.split(text))
 
 
 def _math(run: Interpreter, call: Call) -> None:
@@ -245,6 +257,7 @@ BASICS: dict[str, Handler] = {
     "list": _list,
     "string": _string,
     "math": _math,
+    "separate_arguments": _separate_arguments,
     "cmake_parse_arguments": _parse_arguments,
     "project": _project,
 }

@@ -13,6 +13,7 @@ from turtlewire_ros.cmake.files import FILES
 from turtlewire_ros.cmake.installing import INSTALLING
 from turtlewire_ros.cmake.interpreter import Interpreter
 from turtlewire_ros.cmake.plan import Plan
+from turtlewire_ros.cmake.processes import PROCESSES
 from turtlewire_ros.cmake.syntax import CMakeError
 from turtlewire_ros.cmake.targets import TARGETS
 from turtlewire_ros.manifest import read_manifest
@@ -63,7 +64,7 @@ def evaluate_package(
         if match is not None:
             variables[match[1]] = match[2]
     interpreter = Interpreter(
-        BASICS | FILES | INSTALLING | TARGETS | AMENT,
+        BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT,
         plan,
         variables,
         environment,

@@ -12,6 +12,8 @@ from turtlewire_ros.cmake.basics import configured
 from turtlewire_ros.cmake.syntax import CMakeError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from turtlewire_ros.cmake.interpreter import Call, Handler, Interpreter
 
 __all__ = ["FILES"]
@@ -19,20 +21,13 @@ __all__ = ["FILES"]
 
 def _file(run: Interpreter, call: Call) -> None:
     action, *words = call.words
-    if action in ("GLOB", "GLOB_RECURSE"):
+    if action in _WRITING:
+        _WRITING[action](run, words, call)
+    elif action in ("GLOB", "GLOB_RECURSE"):
         _glob(run, words, recursive=action == "GLOB_RECURSE")
     elif action in ("READ", "STRINGS"):
         text = Path(run.source_path(words[0])).read_text(encoding="utf-8", errors="replace")
         run.variables[words[1]] = text if action == "READ" else ";".join(text.splitlines())
-    elif action in ("WRITE", "APPEND"):
-        path = _writable(run, words[0], call)
-        with path.open("w" if action == "WRITE" else "a", encoding="utf-8") as file:
-            file.write("".join(words[1:]))
-    elif action == "MAKE_DIRECTORY":
-        for word in words:
-            _writable(run, word, call).mkdir(exist_ok=True)
-    elif action == "COPY":
-        _copy(run, words, call)
     elif action == "RELATIVE_PATH":
         run.variables[words[0]] = os.path.relpath(words[2], words[1])
     elif action in ("TO_CMAKE_PATH", "TO_NATIVE_PATH"):
@@ -41,6 +36,26 @@ def _file(run: Interpreter, call: Call) -> None:
         run.variables[words[1]] = os.path.realpath(run.source_path(words[0]))
     else:
         raise CMakeError(call.place, f"file({action}) is not known here")
+
+
+def _write(run: Interpreter, words: list[str], call: Call) -> None:
+    path = _writable(run, words[0], call)
+    with path.open("w" if call.words[0] == "WRITE" else "a", encoding="utf-8") as file:
+        file.write("".join(words[1:]))
+
+
+def _generate(run: Interpreter, words: list[str], call: Call) -> None:
+    parsed = parse_keywords(words, values=("OUTPUT", "CONTENT", "INPUT"))
+    path = _writable(run, parsed.values["OUTPUT"], call)
+    if "INPUT" in parsed.values:
+        copyfile(run.source_path(parsed.values["INPUT"]), path)
+    else:
+        path.write_text(parsed.values["CONTENT"], encoding="utf-8")
+
+
+def _make_directory(run: Interpreter, words: list[str], call: Call) -> None:
+    for word in words:
+        _writable(run, word, call).mkdir(exist_ok=True)
 
 
 def _glob(run: Interpreter, words: list[str], *, recursive: bool) -> None:
@@ -75,7 +90,8 @@ def _matches(folder: str, name: str) -> list[Path]:
 def _writable(run: Interpreter, text: str, call: Call) -> Path:
     """The path of a file to write; its folder exists afterwards."""
     path = Path(run.binary_path(text))
-    if not path.is_relative_to(run.variables["CMAKE_BINARY_DIR"]):
+    folders = (run.variables["CMAKE_BINARY_DIR"], run.variables["CMAKE_INSTALL_PREFIX"])
+    if not any(path.is_relative_to(folder) for folder in folders):
         raise CMakeError(call.place, f"{path} is not in the build folder, and is not written")
     path.parent.mkdir(parents=True, exist_ok=True)
     return path
@@ -91,6 +107,15 @@ def _copy(run: Interpreter, words: list[str], call: Call) -> None:
             copytree(source, target / source.name, dirs_exist_ok=True)
         else:
             copyfile(source, target / source.name)
+
+
+_WRITING: dict[str, Callable[[Interpreter, list[str], Call], None]] = {
+    "WRITE": _write,
+    "APPEND": _write,
+    "GENERATE": _generate,
+    "MAKE_DIRECTORY": _make_directory,
+    "COPY": _copy,
+}
 
 
 def _configure_file(run: Interpreter, call: Call) -> None:

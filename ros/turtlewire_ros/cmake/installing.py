@@ -38,6 +38,9 @@ def _install(run: Interpreter, call: Call) -> None:
     kind = call.words[0] if call.words else ""
     if kind in _WITHOUT_EFFECT:
         return
+    if kind == "CODE":
+        run.plan.install_code.append((call.words[1], call.place))
+        return
     if kind not in _KINDS:
         raise CMakeError(call.place, f"install({kind}) is not known here")
     words, rules = (

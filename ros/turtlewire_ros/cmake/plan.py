@@ -18,6 +18,7 @@ __all__ = [
     "PythonModule",
     "PythonPackage",
     "Resource",
+    "Step",
     "TestRun",
 ]
 
@@ -112,6 +113,14 @@ class Resource(NamedTuple):
     content: str
 
 
+class Step(NamedTuple):
+    """A program that runs before anything is installed: its words, its folder, and its command."""
+
+    words: tuple[str, ...]
+    folder: str
+    place: Place
+
+
 class TestRun(NamedTuple):
     """A test that ``colcon test`` runs.
 
@@ -144,6 +153,9 @@ class Plan:
         missing: One line for each required package that is not there.
         warnings: Messages of the file itself.
         targets: Names of targets that exist, those without a result included.
+        custom_targets: Those of ``add_custom_target``.
+        steps: Programs that make files.
+        install_code: Commands of ``install(CODE …)``, which run last.
     """
 
     name: str = ""
@@ -161,6 +173,9 @@ class Plan:
     missing: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     targets: set[str] = field(default_factory=set)
+    custom_targets: set[str] = field(default_factory=set)
+    steps: list[Step] = field(default_factory=list)
+    install_code: list[tuple[str, Place]] = field(default_factory=list)
 
     def has_python(self) -> bool:
         """Whether there is something to install that needs no compiler and is no mere data."""
