@@ -32,7 +32,7 @@ class Reindexer:
         damaged: list[str] = []
         try:
             found = reindex(storage_options.uri, damaged.append)
-        except BagError as error:
+        except (BagError, OSError) as error:
             raise RuntimeError(str(error)) from error
         if damaged:
             logger = get_logger("rosbag2_cpp")

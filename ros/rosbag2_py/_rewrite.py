@@ -69,8 +69,10 @@ def bag_rewrite(input_options: Iterable[StorageOptions], output_config_file: str
                 outputs.append(_output(options))
                 stack.callback(outputs[-1].writer.close)  # also if the next one cannot be made
             rewrite(bags, outputs)
-    except (BagError, OSError, sqlite3.Error) as error:
+    except BagError as error:
         raise RuntimeError(str(error)) from error
+    except (OSError, sqlite3.Error) as error:
+        raise RuntimeError(f"Converting stopped: {error}") from error
 
 
 def _read(path: str) -> list[tuple[StorageOptions, RecordOptions]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 import threading
 from typing import TYPE_CHECKING
 
@@ -70,7 +71,7 @@ def _with_player(
 ) -> None:
     words = [word for word in options.topic_remapping_options if ":=" in word]
     name = options.node_prefix + _NAME
-    failures: list[BagError] = []
+    failures: list[Exception] = []
     try:
         with (
             stopped_by_signals(stop),
@@ -98,14 +99,14 @@ def _run(
     player: Player,
     stop: queue.SimpleQueue[None],
     first: Callable[[Player], object],
-    failures: list[BagError],
+    failures: list[Exception],
 ) -> None:
     """Play on a thread, so that this one can be interrupted."""
 
     def play_all() -> None:
         try:
             player.play()
-        except BagError as error:
+        except (BagError, OSError, sqlite3.Error) as error:
             failures.append(error)
         finally:
             stop.put(None)

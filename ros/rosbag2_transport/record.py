@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import time
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from rosbag2_transport.recorder import Recorder
 from rosbag2_transport.recorder_services import RecorderServices
 from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
 from rosbag2_transport.topic_filter import check_patterns
+from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
 from turtlewire.wire.names import validate_node_name
 
@@ -72,8 +74,10 @@ def record(
             _report_lost(recording)
     failure = recording.failure or failure
     if failure is not None:
+        is_whole = os.path.exists(os.path.join(writer.path, METADATA_FILE))
+        remedy = "" if is_whole else "; when there is room, `ros2 bag reindex` makes it a bag"
         raise RuntimeError(
-            f"Recording stopped: {failure}. What was recorded before is in {writer.path}"
+            f"Recording stopped: {failure}. What was recorded before is in {writer.path}{remedy}"
         )
 
 

@@ -157,6 +157,13 @@ def events(path):
     return path
 
 
+def test_a_file_that_is_missing_is_one_error(tmp_path):
+    path = events(tmp_path / "bag")
+    (path / "bag_0.mcap").unlink()
+    with pytest.raises(RuntimeError, match=r"No such file or directory.*bag_0\.mcap"):
+        played(path)
+
+
 def test_recorded_requests_are_sent_again(peer, tmp_path, capfd):
     bag = events(tmp_path / "bag")
     played(bag, rate=50.0, publish_service_requests=True)

@@ -104,6 +104,26 @@ def test_it_reads_no_more_than_it_keeps():
     assert len(taken) == 6
 
 
+@pytest.mark.parametrize("size_bytes", [1, 1000, 10_000])
+def test_large_messages_are_not_all_kept(size_bytes):
+    taken = []
+
+    def read():
+        for i in range(200):
+            taken.append(i)
+            yield BagMessage("/a", "t", i, i, bytes(1000))
+
+    source = ReadAhead(read(), 1000, size_bytes)
+    found = []
+    while (message := source.peek()) is not None:
+        # One more has been read, and waits for room.
+        assert len(taken) - len(found) <= max(1, size_bytes // 1000) + 1
+        found.append(message.log_time_ns)
+        source.pop()
+    assert found == list(range(200))
+    source.close()
+
+
 def test_damage_is_told_behind_what_can_be_read():
     def damaged():
         yield from messages(2)

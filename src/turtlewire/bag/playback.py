@@ -81,13 +81,18 @@ class ReadAhead:
     Args:
         messages: What is read.
         size: How many messages are kept ready at most.
+        size_bytes: How many bytes of them: a thousand images would fill the memory.
     """
 
-    def __init__(self, messages: Iterator[BagMessage], size: int = 1000) -> None:
+    def __init__(
+        self, messages: Iterator[BagMessage], size: int = 1000, size_bytes: int = 100 << 20
+    ) -> None:
         self._size = max(1, size)
+        self._size_bytes = size_bytes
+        self._read_bytes = self._popped_bytes = 0  # each is written by one thread only
         self._ready: deque[BagMessage] = deque()
         self._changed = threading.Condition()
-        self._ended = self._closed = False
+        self._ended = self._closed = self._waits = False
         self._failure: Exception | None = None
         self._thread = threading.Thread(
             target=self._run, args=(messages,), name="bag-reader", daemon=True
@@ -117,10 +122,17 @@ class ReadAhead:
 
     def pop(self) -> None:
         """Go on behind the next message."""
-        self._ready.popleft()
-        if len(self._ready) == self._size // 2:
+        self._popped_bytes += len(self._ready.popleft().data)
+        if self._waits and self._has_room():
             with self._changed:
                 self._changed.notify_all()
+
+    def _has_room(self) -> bool:
+        """Whether half of what is kept ready is gone."""
+        return (
+            len(self._ready) <= self._size // 2
+            and self._read_bytes - self._popped_bytes <= self._size_bytes // 2
+        )
 
     def close(self) -> None:
         """End the thread."""
@@ -130,14 +142,17 @@ class ReadAhead:
         self._thread.join()
 
     def _run(self, messages: Iterator[BagMessage]) -> None:
-        half = self._size // 2
         try:
             for message in messages:
-                if len(self._ready) >= self._size:
+                waiting_bytes = self._read_bytes - self._popped_bytes
+                if len(self._ready) >= self._size or waiting_bytes >= self._size_bytes:
                     with self._changed:
-                        self._changed.wait_for(lambda: len(self._ready) <= half or self._closed)
+                        self._waits = True
+                        self._changed.wait_for(lambda: self._has_room() or self._closed)
+                        self._waits = False
                 if self._closed:
                     return
+                self._read_bytes += len(message.data)
                 self._ready.append(message)
                 if len(self._ready) == 1:
                     with self._changed:
