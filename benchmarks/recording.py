@@ -6,7 +6,8 @@
 
 `load` publishes images of 100 kB and small messages with numbers, records them with ``ros2 bag
 record``, and compares the bag with what was sent. `timing` plays a bag of 100 messages a second and
-measures when each message is published. `writing` writes a million messages.
+measures when each message is published; `scripts/bench recording` prints that as a table. `writing`
+writes a million messages.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from benchmarks.figures import Figure, Row
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.msg import get_message, serialize
 from turtlewire.testing import isolated_domain
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
     from rosbag2_transport.player import Player
     from turtlewire.bag import BagMessage
     from turtlewire.wire.base import Graph, Publisher
+
+TITLE = "Playing a bag (how late messages are published; not min / median, but median / 99 %)"
 
 SECOND = 1_000_000_000
 START = 1_700_000_000 * SECOND
@@ -119,8 +123,8 @@ def note(player: Player, errors: list[float], message: BagMessage) -> None:
     errors.append((player.clock.now_ns() - message.log_time_ns) / player.clock.rate * 1e-6)
 
 
-def timing() -> None:
-    """Play at three rates, and print how late messages were published."""
+def lateness() -> Iterator[tuple[float, list[float]]]:
+    """Play at three rates; each with the milliseconds by which its messages are late, in order."""
     from rosbag2_transport.options import PlayOptions
     from rosbag2_transport.player import Player
     from rosbag2_transport.session import Session
@@ -139,12 +143,24 @@ def timing() -> None:
                 player.on_publish.append(partial(note, player, errors))
                 player.play()
                 player.close()
-            errors.sort()
-            print(
-                f"{rate:g}x: {len(errors)} messages, late by [ms] median "
-                f"{statistics.median(errors):.3f}, 99 % {errors[int(len(errors) * 0.99)]:.3f}, "
-                f"most {errors[-1]:.3f}"
-            )
+            yield rate, sorted(errors)
+
+
+def timing() -> None:
+    """Print how late messages are published."""
+    for rate, errors in lateness():
+        print(
+            f"{rate:g}x: {len(errors)} messages, late by [ms] median "
+            f"{statistics.median(errors):.3f}, 99 % {errors[int(len(errors) * 0.99)]:.3f}, "
+            f"most {errors[-1]:.3f}"
+        )
+
+
+def rows() -> Iterator[Row]:
+    """How late messages are published at three rates."""
+    for rate, errors in lateness():
+        middle, late = statistics.median(errors), errors[int(len(errors) * 0.99)]
+        yield Row(f"{rate:g}x, {len(errors)} messages", Figure(middle, late, "ms"))
 
 
 def writing() -> None:

@@ -20,7 +20,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from typing import BinaryIO
 
-__all__ = ["MAX_CHUNK_BYTES", "compress", "decompress", "read_zstd_file", "write_zstd_file"]
+__all__ = [
+    "MAX_CHUNK_BYTES",
+    "ZSTD_MAGIC",
+    "compress",
+    "decompress",
+    "read_zstd_file",
+    "write_zstd_file",
+]
+
+#: What a frame of zstd begins with.
+ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 
 #: A chunk or message larger than this when decompressed is refused, and one that grows more than a
 #: thousandfold beyond 64 MiB: a few damaged bytes must not make a reader ask for the whole memory.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import struct
 import zlib
+from itertools import accumulate
 
 from turtlewire.bag.compression import compress
 from turtlewire.bag.mcap_records import (
@@ -139,11 +140,15 @@ class McapWriter:
             pack(Op.MESSAGE, fields + len(data), channel, 0, log_time, publish_time) + data
             for channel, log_time, publish_time, data in self._pending
         ]
-        index: dict[int, list[int]] = {channel: [] for channel, *_ in self._pending}
-        position = len(definitions)
-        for (channel, log_time, _, _), message in zip(self._pending, messages, strict=True):
-            index[channel] += (log_time, position)
-            position += len(message)
+        index: dict[int, list[int]] = {}
+        positions = accumulate(map(len, messages), initial=len(definitions))
+        # The last position is that behind the last message.
+        for (channel, log_time, _, _), position in zip(self._pending, positions, strict=False):
+            entries = index.get(channel)
+            if entries is None:
+                entries = index[channel] = []
+            entries.append(log_time)
+            entries.append(position)
         messages.insert(0, definitions)
         self._write_chunk(b"".join(messages), index)
         self._new_definitions.clear()

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from contextlib import suppress
 from typing import TYPE_CHECKING, Protocol
 
+from turtlewire.bag.compression import ZSTD_MAGIC
 from turtlewire.bag.mcap_reader import McapFile
 from turtlewire.bag.mcap_records import MAGIC
 from turtlewire.bag.message import BagMessage
@@ -245,17 +247,25 @@ class SqliteStorage:
         start, end = self.file.times()
         embedded = self.file.embedded_metadata()
         topics = list(self.file.topics.values())
+        packed = "" if embedded else self._packed()
         return BagMetadata(
             storage="sqlite3",
             topics=topics,
             start_ns=start,
             duration_ns=end - start,
             message_count=sum(topic.message_count for topic in topics),
-            compression_format=embedded.compression_format if embedded else "",
-            compression_mode=embedded.compression_mode if embedded else "",
+            compression_format=embedded.compression_format if embedded else packed,
+            compression_mode=embedded.compression_mode if embedded else "MESSAGE" * bool(packed),
             custom_data=embedded.custom_data if embedded else {},
             ros_distro=embedded.ros_distro if embedded else "",
         )
+
+    def _packed(self) -> str:
+        """The compression of the messages as the first one shows it: no CDR begins like zstd."""
+        with suppress(BagError):
+            for _, _, data in self.file.messages(self.file.topics, 0, (1 << 64) - 1):
+                return "zstd" if data.startswith(ZSTD_MAGIC) else ""
+        return ""
 
     def definitions(self) -> dict[str, tuple[str, str]]:
         """Encoding and text of the definition of each type."""

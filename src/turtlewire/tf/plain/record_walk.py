@@ -25,11 +25,21 @@ _MESSAGE_OPCODE = 5
 _SHORTEST_MESSAGE = _MESSAGE.size - _PREFIX.size
 #: Stamps that fall back by more than this are a jump of time, not messages out of order.
 _JUMP_NS = 1_000_000_000
-#: Of a TFMessage in CDR: the byte order, the number of its transforms, the stamp of the first.
-_HEADS = {0: struct.Struct(">xxxxIiI"), 1: struct.Struct("<xxxxIiI")}
+#: Of a TFMessage in CDR of each byte order: the number of its transforms, the first one's stamp.
+_read_big_head = struct.Struct(">xxxxIiI").unpack_from
+_read_little_head = struct.Struct("<xxxxIiI").unpack_from
 _NAMES_AT = 16
 _NUMBERS_SIZE = 56
 _SMALLEST = _NAMES_AT + _NUMBERS_SIZE
+
+
+class _Clock:
+    """The newest stamp of a frame since its last jump."""
+
+    __slots__ = ("child", "newest")
+
+    def __init__(self, child: bytes, newest: int) -> None:
+        self.child, self.newest = child, newest
 
 
 class RecordWalk:
@@ -52,8 +62,8 @@ class RecordWalk:
 
     def __init__(self, start_ns: int, end_ns: int) -> None:
         self._start_ns, self._end_ns = start_ns, end_ns
-        self._newest: dict[bytes, int] = {}
-        self._children: dict[bytes, bytes] = {}  # by the names of a message with one transform
+        self._clocks: dict[bytes, _Clock] = {}  # by the child frame
+        self._known: dict[bytes, _Clock] = {}  # by the names of a message with one transform
         self.messages = 0
         self.jumps: list[tuple[int, str, int]] = []
         self.steps_back: dict[str, tuple[int, int]] = {}
@@ -78,6 +88,7 @@ class RecordWalk:
         data = bytes(records)
         end, start_ns, end_ns = len(data), self._start_ns, self._end_ns
         read, fields, prefix = _MESSAGE.unpack_from, _MESSAGE.size, _PREFIX.size
+        channel_of, take = channels.get, self._take
         at, last = 0, end - fields
         while at < end:
             if at > last:  # no room for a message
@@ -90,9 +101,9 @@ class RecordWalk:
             if following > end or (opcode == _MESSAGE_OPCODE and length < _SHORTEST_MESSAGE):
                 return at
             if opcode == _MESSAGE_OPCODE:
-                channel = channels.get(number)
+                channel = channel_of(number)
                 if channel is not None and start_ns <= log_time <= end_ns:
-                    self._take(buffer, log_time, data[at + fields : following], channel)
+                    take(buffer, log_time, data[at + fields : following], channel)
             at = following
         return -1
 
@@ -107,30 +118,29 @@ class RecordWalk:
             return  # the buffer counts them
         if static or len(data) < _SMALLEST:  # without transforms
             return
-        count, seconds, nanoseconds = _HEADS[data[1]].unpack_from(data)
+        count, seconds, nanoseconds = (_read_little_head if data[1] else _read_big_head)(data)
         if not count:  # what follows is no transform
             return
         stamp = seconds * 1_000_000_000 + nanoseconds
         # The names of a message with one transform lie between its head and its numbers.
         names = data[_NAMES_AT:-_NUMBERS_SIZE] if count == 1 else b""
-        child = self._children.get(names)
-        if child is None:
-            child = _first_child(data)
+        clock = self._known.get(names)
+        if clock is None:
+            clock = self._clocks.setdefault(child := _first_child(data), _Clock(child, stamp))
             if names:
-                self._children[names] = child
-        newest = self._newest.get(child)
-        if newest is None or stamp >= newest:
-            self._newest[child] = stamp
+                self._known[names] = clock
+        if stamp >= clock.newest:
+            clock.newest = stamp
         else:
-            self._note_step_back(log_time, child, stamp, newest - stamp)
+            self._note_step_back(log_time, clock, stamp)
 
-    def _note_step_back(self, log_time: int, child: bytes, stamp: int, back: int) -> None:
-        name = child.decode(errors="replace")
+    def _note_step_back(self, log_time: int, clock: _Clock, stamp: int) -> None:
+        name, back = clock.child.decode(errors="replace"), clock.newest - stamp
         count, largest = self.steps_back.get(name, (0, 0))
         self.steps_back[name] = count + 1, max(back, largest)
         if back > _JUMP_NS:
             self.jumps.append((log_time, name, back))
-            self._newest[child] = stamp
+            clock.newest = stamp
 
 
 def _skip(data: bytes, at: int) -> int:
