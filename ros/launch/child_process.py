@@ -105,7 +105,12 @@ class ChildProcess:
     def send_signal(self, number: signal.Signals) -> None:
         """Send a signal, unless the process has ended."""
         with contextlib.suppress(ProcessLookupError):
-            self._transport.send_signal(number)
+            if sys.platform == "win32":
+                self._transport.send_signal(number)
+            elif self.running:
+                # The transport would poll first. If the process has just ended, that takes its
+                # status away from asyncio's watcher, which then reports 255.
+                os.kill(self.pid, number)
 
     def write(self, data: bytes) -> None:
         """Send input, if its stdin is an open pipe."""

@@ -60,6 +60,7 @@ class LaunchService:
         self._interrupted = False
         self._unseen_interrupts = 0
         self._return_code = 0
+        self._task: asyncio.Task[int] | None = None
 
     @property
     def context(self) -> LaunchContext:
@@ -70,6 +71,11 @@ class LaunchService:
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
         """The loop it runs on, or None when it does not run."""
         return self._run.loop
+
+    @property
+    def task(self) -> asyncio.Task[int] | None:
+        """The task that runs it, or ran it last; None before its first run."""
+        return self._task
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Visit a description as soon as the launch runs. Safe from any thread."""
@@ -113,6 +119,7 @@ class LaunchService:
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
             self._run.begin()
+            self._task = asyncio.current_task()
             self._return_code = 0
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)

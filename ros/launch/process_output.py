@@ -35,7 +35,8 @@ class ProcessOutput:
         self.destination: Any = (
             dict(chosen) if hasattr(chosen, "items") else normalize_to_list_of_substitutions(chosen)
         )
-        self._cached = cached
+        #: Whether all bytes are kept.
+        self.cached = cached
         self._cache = {1: bytearray(), 2: bytearray()}
         self._lines = {1: OutputLines(), 2: OutputLines()}
 
@@ -55,7 +56,7 @@ class ProcessOutput:
 
     def keep(self, fd: int, data: bytes) -> None:
         """Keep bytes, if that is wanted."""
-        if self._cached:
+        if self.cached:
             self._cache[fd] += data
 
     def kept(self, fd: int) -> bytes:

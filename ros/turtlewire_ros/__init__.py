@@ -15,5 +15,6 @@ module                                what it holds
 `wheel`                               an ament_cmake package as a wheel
 `build_backend`, `pip_install`        two ways to have pip install it
 `manifest`                            reads ``package.xml``, and finds the error in it
+`pytest_plugin`, `pytest_hookspecs`   options, markers and hook of launch tests
 ====================================  ====================================================
 """

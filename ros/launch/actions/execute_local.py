@@ -136,6 +136,21 @@ class ExecuteLocal(ProcessAction):
         """Exit status of its last run, negative for a signal; None before its first end."""
         return self._return_code
 
+    @property
+    def cached_output(self) -> bool:
+        """Whether all output is kept."""
+        return self._output.cached
+
+    @property
+    def sigterm_timeout(self) -> list[Substitution]:
+        """Seconds between SIGINT and SIGTERM, as text."""
+        return self._sigterm_timeout
+
+    @property
+    def sigkill_timeout(self) -> list[Substitution]:
+        """Seconds between SIGTERM and SIGKILL, as text."""
+        return self._sigkill_timeout
+
     def get_stdout(self) -> bytes:
         """Its output to stdout; kept only with ``cached_output``."""
         return self._output.kept(1)

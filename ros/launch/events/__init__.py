@@ -5,6 +5,7 @@ from __future__ import annotations
 from launch.events import matchers, process
 from launch.events.execution_complete import ExecutionComplete
 from launch.events.include_launch_description import IncludeLaunchDescription
+from launch.events.matchers import matches_action
 from launch.events.shutdown import Shutdown
 from launch.events.timer_event import TimerEvent
 
@@ -14,5 +15,6 @@ __all__ = [
     "Shutdown",
     "TimerEvent",
     "matchers",
+    "matches_action",
     "process",
 ]

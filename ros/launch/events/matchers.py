@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from launch.events.process.process_targeted_event import (
+from launch.events.process.process_matchers import (
     matches_executable,
     matches_name,
     matches_pid,
@@ -18,6 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["matches_action", "matches_executable", "matches_name", "matches_pid"]
 
 
-def matches_action(action: ProcessRunner) -> Callable[[ProcessRunner], bool]:
+def matches_action(target_action: ProcessRunner) -> Callable[[ProcessRunner], bool]:
     """Matches the process that this action runs."""
-    return lambda other: other is action
+    return lambda action: action is target_action

@@ -248,18 +248,14 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     Raises:
         RuntimeError: A word is not a pair.
     """
-    values: dict[str, str] = {}
-    for word in words:
-        name, separator, value = word.partition(":=")
-        if not separator or not name or not value:
-            error = RuntimeError(
-                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
-            )
-            match = re.fullmatch(r"(\w+):?=(.+)", word)
-            vars(error)["hint"] = f"Did you mean: {match[1]}:={match[2]}" if match else ""
-            raise error
-        values[name] = value
-    return list(values.items())
+    from launch.utilities.command_line import parse_arguments
+
+    try:
+        return parse_arguments(words)
+    except RuntimeError as error:
+        wrong = [match for word in words if (match := re.fullmatch(r"(\w+)=(.+)", word))]
+        vars(error)["hint"] = f"Did you mean: {wrong[0][1]}:={wrong[0][2]}" if wrong else ""
+        raise
 
 
 def _description(source: LaunchDescriptionSource) -> LaunchDescription:
@@ -276,30 +272,9 @@ def _description(source: LaunchDescriptionSource) -> LaunchDescription:
 
 
 def _show_arguments(description: LaunchDescription) -> int:
-    from launch import LaunchContext
-    from launch.utilities import perform_substitutions
+    from launch.utilities.command_line import describe_arguments
 
-    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    conditional = False
-    for declared in description.get_launch_arguments():
-        conditional |= declared.conditionally_included
-        star = "*" if declared.conditionally_included else ""
-        lines += [
-            "",
-            f"    '{declared.name}'{star}:",
-            *(f"        {line}" for line in declared.description.splitlines()),
-        ]
-        if declared.default_value is not None:
-            try:
-                default = f"'{perform_substitutions(LaunchContext(), declared.default_value)}'"
-            except Exception:  # noqa: BLE001  it depends on what happens during the launch
-                default = " + ".join(part.describe() for part in declared.default_value)
-            lines.append(f"        (default: {default})")
-    if len(lines) == 1:
-        lines += ["", "  No arguments."]
-    if conditional:
-        lines += ["", "* argument(s) which are only used if specific conditions occur"]
-    print("\n".join(lines))
+    print(describe_arguments(description.get_launch_arguments()))
     return 0
 
 

@@ -1,0 +1,61 @@
+"""Arguments of launch files on a command line, and the text that shows them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.launch_context import LaunchContext
+from launch.utilities.substitutions import perform_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.launch_argument import LaunchArgument
+    from launch.substitution import Substitution
+
+__all__ = ["describe_arguments", "parse_arguments"]
+
+
+def parse_arguments(words: Iterable[str]) -> list[tuple[str, str]]:
+    """``name:=value`` pairs, the last one of each name.
+
+    Raises:
+        RuntimeError: A word is not a pair.
+    """
+    values: dict[str, str] = {}
+    for word in words:
+        name, separator, value = word.partition(":=")
+        if not separator or not name or not value:
+            raise RuntimeError(
+                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
+            )
+        values[name] = value
+    return list(values.items())
+
+
+def describe_arguments(arguments: Iterable[LaunchArgument]) -> str:
+    """Names, descriptions and defaults of declared arguments, as ``--show-args`` shows them."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    conditional = False
+    for declared in arguments:
+        conditional |= declared.conditionally_included
+        star = "*" if declared.conditionally_included else ""
+        lines += [
+            "",
+            f"    '{declared.name}'{star}:",
+            *(f"        {line}" for line in declared.description.splitlines()),
+        ]
+        if declared.default_value is not None:
+            lines.append(f"        (default: {_default(declared.default_value)})")
+    if len(lines) == 1:
+        lines += ["", "  No arguments."]
+    if conditional:
+        lines += ["", "* argument(s) which are only used if specific conditions occur"]
+    return "\n".join(lines)
+
+
+def _default(value: list[Substitution]) -> str:
+    try:
+        return f"'{perform_substitutions(LaunchContext(), value)}'"
+    except Exception:  # noqa: BLE001  it depends on what happens during the launch
+        return " + ".join(part.describe() for part in value)

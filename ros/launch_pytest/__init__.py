@@ -1,0 +1,18 @@
+"""Tests of launched processes as functions of pytest.
+
+============  =================================================================
+module        what it holds
+============  =================================================================
+`fixture`     the decorator of fixtures that return a launch description
+`plugin`      runs such launches, and the tests marked ``launch``
+`actions`     ``ReadyToTest``
+`tools`       waits for starts, ends and output of processes
+============  =================================================================
+"""
+
+from __future__ import annotations
+
+from launch_pytest import actions, tools
+from launch_pytest.fixture import fixture
+
+__all__ = ["actions", "fixture", "tools"]

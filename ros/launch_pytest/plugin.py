@@ -1,0 +1,356 @@
+"""Runs launch fixtures, and the tests that are marked ``launch``."""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import inspect
+from typing import TYPE_CHECKING, Any, cast
+
+import pytest
+
+from launch import LaunchDescription
+from launch_pytest.fixture import (
+    finalize_launch_service,
+    get_event_loop_fixture,
+    get_launch_context_fixture,
+    get_launch_service_fixture,
+)
+from launch_testing.actions.ready import ReadyToTest
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable, Generator, Iterable, Iterator
+
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch_pytest.fixture import Options
+
+__all__ = [
+    "event_loop",
+    "get_launch_test_fixture",
+    "get_launch_test_fixturename",
+    "get_ready_to_test_action",
+    "has_shutdown_kwarg",
+    "is_launch_test",
+    "is_launch_test_mark_valid",
+    "is_same_launch_test_fixture",
+    "is_shutdown_test",
+    "is_valid_test_item",
+    "iterate_ready_to_test_actions",
+    "launch_context",
+    "launch_service",
+    "need_shutdown_test_item",
+    "pytest_collection_modifyitems",
+    "pytest_configure",
+    "pytest_fixture_setup",
+    "pytest_pycollect_makeitem",
+    "pytest_pyfunc_call",
+    "run_until_complete",
+]
+
+event_loop = get_event_loop_fixture()
+launch_service = get_launch_service_fixture()
+launch_context = get_launch_context_fixture()
+
+_SUFFIX = "[shutdown_test]"
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the marker known."""
+    config.addinivalue_line(
+        "markers", "launch(fixture, shutdown=False): marks a test of what a launch fixture starts"
+    )
+
+
+# the launch
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_fixture_setup(
+    fixturedef: pytest.FixtureDef[Any], request: pytest.FixtureRequest
+) -> Generator[None, Any, Any]:
+    """Run what a launch fixture describes, up to its ``ReadyToTest``."""
+    options: Options | None = getattr(fixturedef.func, "_launch_pytest", None)
+    if options is None:
+        return (yield)
+    loop = request.getfixturevalue("event_loop")
+    service = request.getfixturevalue("launch_service")
+    result = yield
+    description = result[0] if isinstance(result, (tuple, list)) else result
+    ready = asyncio.Event()
+    get_ready_to_test_action(description).add_callback(ready.set)
+    service.include_launch_description(description)
+    task = loop.create_task(service.run_async(shutdown_when_idle=options.shutdown_when_idle))
+    fixturedef.addfinalizer(
+        functools.partial(
+            finalize_launch_service,
+            service,
+            eprefix=f"When tearing down {options.name}: ",
+            auto_shutdown=options.auto_shutdown,
+        )
+    )
+    run_until_complete(loop, _first(task, ready))
+    if not ready.is_set():
+        pytest.fail(f"The launch of {options.name} ended before its ReadyToTest", pytrace=False)
+    return result
+
+
+async def _first(task: asyncio.Task[int], ready: asyncio.Event) -> None:
+    """Wait until the launch is ready or has ended."""
+    waiting = asyncio.ensure_future(ready.wait())
+    await asyncio.wait({task, waiting}, return_when=asyncio.FIRST_COMPLETED)
+    waiting.cancel()
+
+
+def get_ready_to_test_action(launch_description: LaunchDescription) -> ReadyToTest:
+    """The one ``ReadyToTest`` of a description.
+
+    Raises:
+        RuntimeError: There is none, or there are several, or it is no launch description.
+    """
+    if not isinstance(launch_description, LaunchDescription):
+        raise TypeError(
+            "a launch fixture must return a LaunchDescription, or a list that begins with one, "
+            f"not {type(launch_description).__name__}"
+        )
+    actions = list(iterate_ready_to_test_actions(launch_description.entities))
+    if len(actions) != 1:
+        raise RuntimeError(
+            "launch_pytest fixtures must return a LaunchDescription containing exactly one "
+            f"ReadyToTest action, found {len(actions)}"
+        )
+    return actions[0]
+
+
+def iterate_ready_to_test_actions(
+    entities: Iterable[LaunchDescriptionEntity],
+) -> Iterator[ReadyToTest]:
+    """All ``ReadyToTest`` actions among entities and what they contain."""
+    for entity in entities:
+        if isinstance(entity, ReadyToTest):
+            yield entity
+        yield from iterate_ready_to_test_actions(entity.describe_sub_entities())
+        for _, group in entity.describe_conditional_sub_entities():
+            yield from iterate_ready_to_test_actions(group)
+
+
+# which tests
+
+
+def is_launch_test(item: Any) -> bool:
+    """Whether an item is marked ``launch``."""
+    return item.get_closest_marker("launch") is not None
+
+
+def is_launch_test_mark_valid(item: Any) -> bool:
+    """Whether the mark of an item names a launch fixture."""
+    return _options(item) is not None
+
+
+def get_launch_test_fixture(item: Any) -> Any:
+    """The fixture that the mark of an item names, or None."""
+    mark = item.get_closest_marker("launch")
+    return None if mark is None else mark.kwargs.get("fixture")
+
+
+def get_launch_test_fixturename(item: Any) -> str | None:
+    """The name by which pytest knows that fixture, or None."""
+    options = _options(item)
+    return None if options is None else options.name
+
+
+def is_same_launch_test_fixture(left_item: Any, right_item: Any) -> bool:
+    """Whether two items are tests of one launch fixture."""
+    left = get_launch_test_fixture(left_item)
+    return left is not None and left is get_launch_test_fixture(right_item)
+
+
+def has_shutdown_kwarg(item: Any) -> bool:
+    """Whether the mark of an item says that it runs after the shutdown."""
+    mark = item.get_closest_marker("launch")
+    return mark is not None and bool(mark.kwargs.get("shutdown", False))
+
+
+def is_shutdown_test(item: Any) -> bool:
+    """Whether an item runs after the shutdown: by its mark, or as the end of a generator."""
+    return has_shutdown_kwarg(item) or hasattr(item, "_launch_pytest_begin")
+
+
+def need_shutdown_test_item(obj: Any) -> bool:
+    """Whether a test function is a generator: it goes on after the shutdown."""
+    return inspect.isgeneratorfunction(obj) or inspect.isasyncgenfunction(obj)
+
+
+def is_valid_test_item(obj: Any) -> bool:
+    """Whether something is a function, coroutine function or generator function."""
+    return inspect.isfunction(obj) or inspect.ismethod(obj)
+
+
+def _options(item: Any) -> Options | None:
+    found: Options | None = getattr(get_launch_test_fixture(item), "_launch_pytest", None)
+    return found
+
+
+# collection
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytest.Item] | None:
+    """Make the items of a test that is marked ``launch``."""
+    function = getattr(obj, "__func__", obj)
+    if not is_valid_test_item(function) or not collector.istestfunction(obj, name):
+        return None
+    marks = [
+        mark
+        for mark in (*getattr(function, "pytestmark", []), *collector.iter_markers())
+        if mark.name == "launch"
+    ]
+    if not marks:
+        return None
+    options: Options | None = getattr(marks[0].kwargs.get("fixture"), "_launch_pytest", None)
+    if options is None:
+        pytest.fail(
+            f"{name}: @pytest.mark.launch needs fixture=…, a function decorated with "
+            "@launch_pytest.fixture",
+            pytrace=False,
+        )
+    needed = pytest.mark.usefixtures("event_loop", "launch_service", options.name)
+    function = needed(function)
+    items: list[pytest.Item] = list(collector._genfunctions(name, function))
+    if not need_shutdown_test_item(function):
+        return items
+    if marks[0].kwargs.get("shutdown"):
+        pytest.fail(f"{name}: a generator cannot be a shutdown test", pytrace=False)
+    if options.scope == "function":
+        return items
+    return items + [_end_of(item) for item in items]
+
+
+def _end_of(begin: Any) -> pytest.Item:
+    """The item that runs what follows the ``yield`` of a generator."""
+    end: Any = pytest.Function.from_parent(
+        begin.parent,
+        name=begin.originalname + _SUFFIX,
+        callobj=begin.obj,
+        callspec=getattr(begin, "callspec", None),
+        fixtureinfo=begin._fixtureinfo,
+    )
+    end._launch_pytest_begin = begin
+    return cast("pytest.Item", end)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(
+    session: pytest.Session, config: pytest.Config, items: list[pytest.Item]
+) -> None:
+    """Put the tests that run after the shutdown behind all others of their launch."""
+    del session, config
+    places: dict[Any, list[int]] = {}
+    for place, item in enumerate(items):
+        if is_launch_test(item) and (options := _options(item)) is not None:
+            places.setdefault(_launch_of(item, options), []).append(place)
+    for group in places.values():
+        ordered = sorted((items[place] for place in group), key=is_shutdown_test)
+        for place, item in zip(group, ordered, strict=True):
+            items[place] = item
+
+
+def _launch_of(item: Any, options: Options) -> Any:
+    """What items of one launch have in common: fixture, place of its scope, parameters."""
+    scopes = {"class": pytest.Class, "module": pytest.Module, "package": pytest.Package}
+    place = item if options.scope == "function" else item.session
+    if options.scope in scopes:
+        place = item.getparent(scopes[options.scope]) or item.getparent(pytest.Module)
+    indices = getattr(getattr(item, "callspec", None), "indices", {})
+    return options.name, place, indices.get(options.name)
+
+
+# running tests
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
+    """Run a test that is marked ``launch`` while the loop of its launch runs."""
+    options = _options(pyfuncitem)
+    if options is None:
+        return None
+    names = pyfuncitem._fixtureinfo.argnames
+    arguments = {name: pyfuncitem.funcargs[name] for name in names}
+    loop = pyfuncitem.funcargs["event_loop"]
+    shut_down = functools.partial(
+        finalize_launch_service,
+        pyfuncitem.funcargs["launch_service"],
+        eprefix=f"When running test {pyfuncitem.name}: ",
+        auto_shutdown=options.auto_shutdown,
+    )
+    function = pyfuncitem.obj
+    if hasattr(pyfuncitem, "_launch_pytest_begin"):
+        _finish(pyfuncitem, loop, shut_down)
+    elif need_shutdown_test_item(function):
+        steps = function(**arguments)
+        pyfuncitem._launch_pytest_steps = steps
+        _require(_step(loop, steps), f"{pyfuncitem.name} did not yield")
+        if options.scope == "function":
+            _finish_steps(loop, steps, shut_down, pyfuncitem.name)
+    else:
+        if has_shutdown_kwarg(pyfuncitem):
+            shut_down()
+        _call(loop, function, arguments)
+    return True
+
+
+def _finish(item: Any, loop: asyncio.AbstractEventLoop, shut_down: Callable[[], None]) -> None:
+    """Run the part of a generator that follows its ``yield``."""
+    begin = item._launch_pytest_begin
+    steps = getattr(begin, "_launch_pytest_steps", None)
+    shut_down()
+    if steps is None or not _is_suspended(steps):
+        pytest.skip(f"{begin.name} did not reach its yield")
+    _finish_steps(loop, steps, shut_down, begin.name)
+
+
+def _finish_steps(
+    loop: asyncio.AbstractEventLoop, steps: Any, shut_down: Callable[[], None], name: str
+) -> None:
+    shut_down()
+    _require(not _step(loop, steps), f"{name} has more than one yield")
+
+
+def _step(loop: asyncio.AbstractEventLoop, steps: Any) -> bool:
+    """Run a generator up to its next ``yield``; returns whether there is one."""
+    if inspect.isasyncgen(steps):
+        return bool(run_until_complete(loop, anext(steps, _END)) is not _END)
+    step = loop.run_in_executor(None, next, steps, _END)
+    return bool(run_until_complete(loop, step) is not _END)
+
+
+_END = object()
+
+
+def _is_suspended(steps: Any) -> bool:
+    frame = steps.ag_frame if inspect.isasyncgen(steps) else steps.gi_frame
+    return frame is not None
+
+
+def _require(fulfilled: bool, otherwise: str) -> None:
+    if not fulfilled:
+        pytest.fail(otherwise, pytrace=False)
+
+
+def _call(
+    loop: asyncio.AbstractEventLoop, function: Callable[..., Any], arguments: dict[str, Any]
+) -> None:
+    """Run a coroutine on the loop, or a function on another thread while the loop runs."""
+    if inspect.iscoroutinefunction(function):
+        run_until_complete(loop, function(**arguments))
+    else:
+        bound = functools.partial(function, **arguments)
+        run_until_complete(loop, loop.run_in_executor(None, bound))
+
+
+def run_until_complete(loop: asyncio.AbstractEventLoop, future_like: Awaitable[Any]) -> Any:
+    """Run a loop until something has completed; returns its result."""
+    return loop.run_until_complete(_awaited(future_like))
+
+
+async def _awaited(future_like: Awaitable[Any]) -> Any:
+    return await future_like

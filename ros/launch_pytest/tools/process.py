@@ -1,0 +1,297 @@
+"""Waits for starts, ends and output of the processes of a launch.
+
+Each function has a form for coroutines and one for functions of pytest, which run on another thread
+than the launch; that one ends with ``_sync``. All take the launch's context, the action that runs
+the process, and the seconds to wait at most (None: no limit). Output can be read only of actions
+with ``cached_output=True``.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from typing import TYPE_CHECKING, Any
+
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine, Iterator
+
+    from launch import LaunchContext
+    from launch.actions import ExecuteProcess
+    from launch.event_handler import BaseEventHandler
+
+    Validate = Callable[[str], Any]
+
+__all__ = [
+    "assert_output",
+    "assert_output_sync",
+    "assert_stderr",
+    "assert_stderr_sync",
+    "register_event_handler",
+    "wait_for_exit",
+    "wait_for_exit_sync",
+    "wait_for_output",
+    "wait_for_output_sync",
+    "wait_for_start",
+    "wait_for_start_sync",
+    "wait_for_stderr",
+    "wait_for_stderr_sync",
+]
+
+
+@contextlib.contextmanager
+def register_event_handler(
+    context: LaunchContext, event_handler: BaseEventHandler
+) -> Iterator[None]:
+    """Register a handler for the time of a ``with`` block, on the thread of the launch."""
+    context.register_event_handler(event_handler)
+    try:
+        yield
+    finally:
+        context.unregister_event_handler(event_handler)
+
+
+async def wait_for_start(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: float | None = None,
+) -> bool:
+    """Wait until a process has started; returns whether it has."""
+    changed = asyncio.Event()
+    handler = OnProcessStart(
+        target_action=execute_process_action, on_start=lambda *_: changed.set()
+    )
+    return await _wait(
+        launch_context,
+        (handler,),
+        changed,
+        lambda: execute_process_action.process_details is not None,
+        timeout,
+    )
+
+
+async def wait_for_exit(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: float | None = None,
+) -> bool:
+    """Wait until a process has ended; returns whether it has."""
+    changed = asyncio.Event()
+    handler = OnProcessExit(target_action=execute_process_action, on_exit=lambda *_: changed.set())
+    return await _wait(
+        launch_context,
+        (handler,),
+        changed,
+        lambda: execute_process_action.return_code is not None,
+        timeout,
+    )
+
+
+async def wait_for_output(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> bool:
+    """Wait until a function accepts what a process has written to stdout.
+
+    Args:
+        launch_context: The context of the launch.
+        execute_process_action: Runs the process.
+        validate_output: Gets all of the text. It refuses it by returning False or by raising
+            ``AssertionError``.
+        timeout: Seconds to wait at most.
+
+    Returns:
+        Whether it accepted it in time.
+    """
+    read = execute_process_action.get_stdout
+    _require_cache(execute_process_action)
+    return await _wait_for_text(
+        launch_context, execute_process_action, read, validate_output, timeout
+    )
+
+
+async def wait_for_stderr(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> bool:
+    """The same for stderr, where ROS nodes log."""
+    read = execute_process_action.get_stderr
+    _require_cache(execute_process_action)
+    return await _wait_for_text(
+        launch_context, execute_process_action, read, validate_output, timeout
+    )
+
+
+async def assert_output(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> None:
+    """Wait as :func:`wait_for_output` does.
+
+    Raises:
+        AssertionError: The text was not accepted in time; the function's own error, if it has one.
+    """
+    if not await wait_for_output(launch_context, execute_process_action, validate_output, timeout):
+        _refuse(validate_output, execute_process_action.get_stdout(), "stdout")
+
+
+async def assert_stderr(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> None:
+    """The same for stderr, where ROS nodes log."""
+    if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
+        _refuse(validate_output, execute_process_action.get_stderr(), "stderr")
+
+
+def wait_for_start_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: float | None = None,
+) -> bool:
+    """:func:`wait_for_start` for another thread."""
+    return bool(
+        _run(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
+    )
+
+
+def wait_for_exit_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: float | None = None,
+) -> bool:
+    """:func:`wait_for_exit` for another thread."""
+    return bool(
+        _run(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
+    )
+
+
+def wait_for_output_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> bool:
+    """:func:`wait_for_output` for another thread."""
+    waiting = wait_for_output(launch_context, execute_process_action, validate_output, timeout)
+    return bool(_run(launch_context, waiting))
+
+
+def wait_for_stderr_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> bool:
+    """:func:`wait_for_stderr` for another thread."""
+    waiting = wait_for_stderr(launch_context, execute_process_action, validate_output, timeout)
+    return bool(_run(launch_context, waiting))
+
+
+def assert_output_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> None:
+    """:func:`assert_output` for another thread."""
+    asserting = assert_output(launch_context, execute_process_action, validate_output, timeout)
+    _run(launch_context, asserting)
+
+
+def assert_stderr_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: float | None = None,
+) -> None:
+    """:func:`assert_stderr` for another thread."""
+    asserting = assert_stderr(launch_context, execute_process_action, validate_output, timeout)
+    _run(launch_context, asserting)
+
+
+def _run(context: LaunchContext, waiting: Coroutine[Any, Any, Any]) -> Any:
+    """Run a coroutine on the loop of the launch, from another thread."""
+    loop = context.asyncio_loop
+    if loop is None:  # the launch has ended: the coroutine does not wait
+        return asyncio.run(waiting)
+    return asyncio.run_coroutine_threadsafe(waiting, loop).result()
+
+
+async def _wait_for_text(
+    context: LaunchContext,
+    action: ExecuteProcess,
+    read: Callable[[], bytes],
+    validate: Validate,
+    timeout: float | None,
+) -> bool:
+    changed = asyncio.Event()
+
+    def wake(*_: object) -> None:
+        changed.set()
+
+    handlers = (
+        OnProcessIO(target_action=action, on_stdout=wake, on_stderr=wake),
+        OnProcessExit(target_action=action, on_exit=wake),
+    )
+    return await _wait(
+        context, handlers, changed, lambda: _accepts(validate, _text(read())), timeout
+    )
+
+
+async def _wait(
+    context: LaunchContext,
+    handlers: tuple[BaseEventHandler, ...],
+    changed: asyncio.Event,
+    fulfilled: Callable[[], bool],
+    timeout: float | None,
+) -> bool:
+    """Wait until a condition is fulfilled, which is tested after each event."""
+    if context.asyncio_loop is None:
+        return fulfilled()
+
+    async def until_fulfilled() -> None:
+        while not fulfilled():
+            changed.clear()
+            await changed.wait()
+
+    with contextlib.ExitStack() as registered:
+        for handler in handlers:
+            registered.enter_context(register_event_handler(context, handler))
+        try:
+            await asyncio.wait_for(until_fulfilled(), timeout)
+        except asyncio.TimeoutError:
+            return fulfilled()
+        return True
+
+
+def _accepts(validate: Validate, text: str) -> bool:
+    try:
+        return validate(text) is not False
+    except AssertionError:
+        return False
+
+
+def _refuse(validate: Validate, written: bytes, stream: str) -> None:
+    text = _text(written)
+    assert validate(text) is not False, f"what was written to {stream} was not accepted: {text!r}"
+
+
+def _text(written: bytes) -> str:
+    return written.decode(errors="replace")
+
+
+def _require_cache(action: ExecuteProcess) -> None:
+    if not action.cached_output:
+        raise ValueError(
+            f"the output of {action.describe()} is not kept; give the action cached_output=True"
+        )

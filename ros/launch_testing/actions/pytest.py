@@ -1,0 +1,28 @@
+"""Runs tests of pytest in a process of their own."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from launch_testing.actions.test import Test
+
+__all__ = ["PyTest"]
+
+
+class PyTest(Test):
+    """Runs tests of pytest in a process of their own.
+
+    Args:
+        path: Path of the file or folder.
+        **kwargs: See :class:`Test`.
+    """
+
+    def __init__(self, *, path: str, **kwargs: Any) -> None:
+        super().__init__(cmd=[sys.executable, "-m", "pytest", path], **kwargs)
+        self._path = path
+
+    @property
+    def path(self) -> str:
+        """Path of the file or folder."""
+        return self._path

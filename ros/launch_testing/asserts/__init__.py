@@ -1,0 +1,33 @@
+"""Assertions about what the processes of a launch wrote, and how they ended."""
+
+from __future__ import annotations
+
+from launch_testing.asserts.assert_exit_codes import (
+    EXIT_OK,
+    EXIT_SIGINT,
+    EXIT_SIGKILL,
+    EXIT_SIGQUIT,
+    EXIT_SIGSEGV,
+    assertExitCodes,
+)
+from launch_testing.asserts.assert_output import assertInStderr, assertInStdout, assertInStream
+from launch_testing.asserts.assert_sequential_output import (
+    SequentialTextChecker,
+    assertSequentialStdout,
+)
+from launch_testing.util.proc_lookup import NO_CMD_ARGS
+
+__all__ = [
+    "EXIT_OK",
+    "EXIT_SIGINT",
+    "EXIT_SIGKILL",
+    "EXIT_SIGQUIT",
+    "EXIT_SIGSEGV",
+    "NO_CMD_ARGS",
+    "SequentialTextChecker",
+    "assertExitCodes",
+    "assertInStderr",
+    "assertInStdout",
+    "assertInStream",
+    "assertSequentialStdout",
+]

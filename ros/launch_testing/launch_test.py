@@ -1,0 +1,117 @@
+"""The command ``launch_test``."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import sys
+import traceback
+from typing import TYPE_CHECKING, Any
+
+from launch_testing.junitxml import unittestResultsToXml
+from launch_testing.loader import LoadTestsFromPythonModule
+from launch_testing.print_arguments import print_arguments_of_launch_description
+from launch_testing.test_runner import LaunchTestRunner
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+__all__ = ["add_arguments", "main", "parse_arguments", "run"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command to a parser."""
+    parser.add_argument("launch_test_file", help="Path of the launch test")
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Log what the launch does in detail"
+    )
+    parser.add_argument(
+        "-s",
+        "--show-args",
+        "--show-arguments",
+        action="store_true",
+        help="Show the arguments of the launch test, and end",
+    )
+    parser.add_argument(
+        "--package-name", help="Name for the report; by default the file's name without extension"
+    )
+    parser.add_argument("--junit-xml", dest="xmlpath", help="Where to write a report as JUnit XML")
+    parser.add_argument(
+        "launch_arguments", nargs="*", help="Arguments of the launch test, as name:=value"
+    )
+
+
+def parse_arguments() -> tuple[argparse.ArgumentParser, argparse.Namespace]:
+    """The parser of the command, and what it found on the command line of this process."""
+    parser = argparse.ArgumentParser(
+        prog="launch_test", description="Run tests against what a launch description starts."
+    )
+    add_arguments(parser)
+    return parser, parser.parse_args()
+
+
+def run(
+    parser: argparse.ArgumentParser,
+    args: argparse.Namespace,
+    test_runner_cls: type[LaunchTestRunner] = LaunchTestRunner,
+) -> int:
+    """Run the tests of a file.
+
+    Args:
+        parser: Prints errors of the command line; it then ends the program with status 2.
+        args: What it found.
+        test_runner_cls: Runs the launches.
+
+    Returns:
+        0, or 1 if a test failed.
+    """
+    path = os.path.abspath(args.launch_test_file)
+    if not os.path.isfile(path):
+        parser.error(f"Test file '{args.launch_test_file}' does not exist")
+    name = os.path.splitext(os.path.basename(path))[0]
+    package = args.package_name or name
+    module = _imported(name, path)
+    if not hasattr(module, "generate_test_description"):
+        parser.error(
+            f"Test file '{args.launch_test_file}' is missing generate_test_description function"
+        )
+    runs = LoadTestsFromPythonModule(module, name=f"{package}.{name}.launch_tests")
+    runner = test_runner_cls(runs, args.launch_arguments, args.verbose)
+    try:
+        runner.validate()
+        if args.show_args:
+            description = runs[0].get_launch_description()
+            print_arguments_of_launch_description(launch_description=description)
+            return 0
+        results = runner.run()
+    except Exception as error:  # noqa: BLE001  the file's own code may raise anything
+        traceback.print_exc()
+        parser.error(str(error))
+    if args.xmlpath:
+        report = unittestResultsToXml(name=f"{package}.{name}", test_results=results)
+        report.write(args.xmlpath, encoding="utf-8", xml_declaration=True)
+    for result in results.values():
+        if message := getattr(result, "message", ""):
+            print(f"FAILED: {message}")
+    return int(not all(result.wasSuccessful() for result in results.values()))
+
+
+def main() -> None:
+    """Run the command line of this process, and end it."""
+    parser, args = parse_arguments()
+    sys.exit(run(parser, args))
+
+
+def _imported(name: str, path: str) -> ModuleType:
+    """The file as a module of its own; files beside it can be imported as in a script."""
+    sys.path.insert(0, os.path.dirname(path))
+    specification: Any = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module  # dataclasses and pickle look for it there
+    specification.loader.exec_module(module)
+    return module
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,21 @@
+"""Arguments of a launch, as words of a command line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.utilities.command_line import parse_arguments
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["parse_launch_arguments"]
+
+
+def parse_launch_arguments(launch_arguments: Iterable[str]) -> list[tuple[str, str]]:
+    """Split words ``name:=value``; of several with one name the last one counts.
+
+    Raises:
+        RuntimeError: A word has another form.
+    """
+    return parse_arguments(launch_arguments)

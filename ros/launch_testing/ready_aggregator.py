@@ -1,0 +1,33 @@
+"""Calls a function when several things are ready."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["ReadyAggregator"]
+
+
+class ReadyAggregator:
+    """Calls a function at the n-th call of :meth:`ready_fn`. Safe from any thread.
+
+    Args:
+        ready_fn: The function.
+        num_to_aggregate: The n.
+    """
+
+    def __init__(self, ready_fn: Callable[[], object], num_to_aggregate: int) -> None:
+        self._function = ready_fn
+        self._missing = num_to_aggregate
+        self._lock = threading.Lock()
+
+    def ready_fn(self) -> None:
+        """One more is ready."""
+        with self._lock:
+            self._missing -= 1
+            is_last = self._missing == 0
+        if is_last:
+            self._function()

@@ -1,0 +1,18 @@
+"""Patterns of expected output, and processes that a single test starts."""
+
+from __future__ import annotations
+
+from launch_testing.tools.output import (
+    basic_output_filter,
+    expect_output,
+    expected_output_from_file,
+)
+from launch_testing.tools.process import ProcessProxy, launch_process
+
+__all__ = [
+    "ProcessProxy",
+    "basic_output_filter",
+    "expect_output",
+    "expected_output_from_file",
+    "launch_process",
+]

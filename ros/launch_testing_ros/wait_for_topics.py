@@ -1,0 +1,111 @@
+"""Waits until messages have come on topics."""
+
+from __future__ import annotations
+
+import collections
+import threading
+import uuid
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+from launch_testing_ros.message_pump import MessagePump
+from rclpy.context import Context
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+__all__ = ["WaitForTopics"]
+
+
+class WaitForTopics:
+    """Subscribes to topics and waits for a message on each.
+
+    ``with WaitForTopics([("chatter", String)]) as topics:`` waits at the beginning. It has a node
+    and a context of its own.
+
+    Args:
+        topic_tuples: Names and types of the topics.
+        timeout: Seconds to wait at most.
+        messages_received_buffer_length: How many messages of each topic are kept.
+    """
+
+    def __init__(
+        self,
+        topic_tuples: Iterable[tuple[str, Any]],
+        timeout: float = 5.0,
+        messages_received_buffer_length: int = 10,
+    ) -> None:
+        self.topic_tuples = list(topic_tuples)
+        self.timeout = timeout
+        self._length = messages_received_buffer_length
+        self._messages: dict[str, collections.deque[Any]] = {}
+        self._changed = threading.Condition()
+        self._context = Context()
+        rclpy.init(context=self._context)
+        name = f"wait_for_topics_{uuid.uuid4().hex[:12]}"
+        self._node = rclpy.create_node(name, context=self._context)
+        for topic, kind in self.topic_tuples:
+            self._subscribe(topic, kind)
+        self._pump = MessagePump(self._node, context=self._context)
+        self._pump.start()
+
+    def _subscribe(self, topic: str, kind: Any) -> None:
+        def keep(message: Any) -> None:
+            with self._changed:
+                kept = self._messages.setdefault(topic, collections.deque(maxlen=self._length))
+                kept.append(message)
+                self._changed.notify_all()
+
+        self._node.create_subscription(kind, topic, keep, 10)
+
+    def wait(self) -> bool:
+        """Wait; returns whether each topic had a message in time."""
+        with self._changed:
+            return self._changed.wait_for(
+                lambda: len(self._messages) == len(dict(self.topic_tuples)), self.timeout
+            )
+
+    def topics_received(self) -> set[str]:
+        """Topics that had a message."""
+        with self._changed:
+            return set(self._messages)
+
+    def topics_not_received(self) -> set[str]:
+        """Topics that had none."""
+        return {topic for topic, _ in self.topic_tuples} - self.topics_received()
+
+    def received_messages(self, topic_name: str) -> list[Any]:
+        """The last messages of a topic.
+
+        Raises:
+            KeyError: It is none of the topics.
+        """
+        if topic_name not in dict(self.topic_tuples):
+            known = ", ".join(topic for topic, _ in self.topic_tuples)
+            raise KeyError(f"'{topic_name}' is none of the topics: {known}")
+        with self._changed:
+            return list(self._messages.get(topic_name, ()))
+
+    def shutdown(self) -> None:
+        """Destroy node and context."""
+        self._pump.stop()
+        self._node.destroy_node()
+        rclpy.shutdown(context=self._context)
+
+    def __enter__(self) -> Self:
+        if not self.wait():
+            missing = self.topics_not_received()
+            self.shutdown()
+            raise RuntimeError("Did not receive messages on these topics: ", missing)
+        return self
+
+    def __exit__(
+        self,
+        exep_type: type[BaseException] | None,
+        exep_value: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.shutdown()

@@ -1,0 +1,72 @@
+"""What pytest loads at each start, because it finds this distribution's entry point.
+
+It knows options and markers of launch tests, and imports their packages only when a test file
+speaks of them: other people's tests neither wait for `launch` nor see its fixtures.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from turtlewire_ros import pytest_hookspecs
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pytest
+
+__all__ = ["pytest_addhooks", "pytest_addoption", "pytest_configure", "pytest_pycollect_makemodule"]
+
+_MARKERS = (
+    "launch_test: marks a generate_test_description function as a launch test",
+    "rostest: marks a generate_test_description function as a launch test of ROS nodes",
+    "launch(fixture, shutdown=False): marks a test of what a launch fixture starts",
+)
+
+#: Plugins, and what files that need them contain.
+_PLUGINS = {
+    "launch_pytest.plugin": b"mark.launch",
+    "launch_testing_ros.pytest.hooks": b"generate_test_description",
+    "launch_testing.pytest.hooks": b"generate_test_description",
+}
+
+
+def pytest_addhooks(pluginmanager: pytest.PytestPluginManager) -> None:
+    """Add the hook of launch tests."""
+    pluginmanager.add_hookspecs(pytest_hookspecs)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option for arguments of launch tests."""
+    parser.addoption(
+        "--launch-args",
+        action="append",
+        nargs="*",
+        default=[],
+        help="Arguments of launch tests, as name:=value",
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the markers known."""
+    for marker in _MARKERS:
+        config.addinivalue_line("markers", marker)
+
+
+def pytest_pycollect_makemodule(
+    module_path: Path, parent: pytest.Collector
+) -> pytest.Collector | None:
+    """Register the plugins that the file needs."""
+    source = module_path.read_bytes()
+    for name, sign in _PLUGINS.items():
+        if sign in source and not parent.config.pluginmanager.has_plugin(name):
+            plugin = import_module(name)
+            parent.config.pluginmanager.register(plugin, name)
+            # The current call of the hook does not reach what is registered during it.
+            if hasattr(plugin, "pytest_pycollect_makemodule"):
+                collector: pytest.Collector | None = plugin.pytest_pycollect_makemodule(
+                    module_path, parent
+                )
+                return collector
+    return None
