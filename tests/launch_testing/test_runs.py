@@ -116,7 +116,8 @@ def test_the_command_line(tmp_path, words, status, says):
 
 def test_plain_tests_do_not_wait_for_launch(tmp_path):
     (tmp_path / "test_plain.py").write_text(
-        "import sys\nimport pytest\n\ndef test_nothing_was_imported():\n    assert 'launch' not in sys.modules\n"
+        "import sys\nimport pytest\n\ndef test_nothing_was_imported():\n"
+        "    assert 'launch' not in sys.modules\n"
         "\ndef test_event_loop(request):\n"
         "    with pytest.raises(pytest.FixtureLookupError):\n"
         "        request.getfixturevalue('event_loop')\n"
