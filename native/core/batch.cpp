@@ -289,6 +289,13 @@ Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_po
           per_second * rotation_vector(last.rotation * conjugate(first.rotation))};
 }
 
+// As in ROS 2, an interval that would begin before time 0, or at 0, which means the latest time,
+// begins 10 microseconds after it.
+Stamp interval_start(Stamp end, Stamp interval) {
+  constexpr Stamp kFirst = 10'000;
+  return end > kFirst ? std::max(end - interval, kFirst) : end - interval;
+}
+
 }  // namespace
 
 std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityRequest& request,
@@ -307,7 +314,7 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
     for (std::size_t i = 0; i < n; ++i) {
       times[i] = stamps[begin + i] != 0 ? stamps[begin + i] : latest;
       ends[i] = times[i] <= latest ? std::min(times[i] + request.interval / 2, latest) : times[i];
-      starts[i] = ends[i] - request.interval;
+      starts[i] = interval_start(ends[i], request.interval);
     }
     motion.block({ends, n}, last, status[0]);
     motion.block({starts, n}, first, status[1]);
@@ -322,7 +329,7 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
       const Pose at = body.pose(i);
       const Vec3 fixed_point = at.translation + rotate(at.rotation, request.point);
       const Velocity seen =
-          mean_velocity(first.pose(i), last.pose(i), fixed_point, request.interval);
+          mean_velocity(first.pose(i), last.pose(i), fixed_point, ends[i] - starts[i]);
       const Quat to_axes = turn.pose(i).rotation;
       velocities[begin + i] = {rotate(to_axes, seen.linear), rotate(to_axes, seen.angular)};
       std::size_t step = 0;

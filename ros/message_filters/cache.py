@@ -5,18 +5,22 @@ from __future__ import annotations
 import threading
 from bisect import bisect_left, bisect_right
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, overload
 
-from .simple_filter import SimpleFilter
+from rclpy._typing import MsgT
+
+from .one_message_filter import OneMessageFilter
 from .stamps import stamp_of
 
 if TYPE_CHECKING:
     from rclpy.time import Time
 
+    from .simple_filter import SimpleFilter
+
 __all__ = ["Cache"]
 
 
-class Cache(SimpleFilter):
+class Cache(OneMessageFilter[MsgT]):
     """Keeps the last messages of a filter, ordered by stamp, and passes them on. Thread-safe.
 
     Args:
@@ -25,14 +29,24 @@ class Cache(SimpleFilter):
         allow_headerless: Accept messages without a stamp, with the time of their arrival.
     """
 
+    @overload
+    def __init__(
+        self, f: OneMessageFilter[MsgT], cache_size: int = 1, allow_headerless: bool = False
+    ) -> None: ...
+
+    @overload
+    def __init__(
+        self, f: SimpleFilter | None = None, cache_size: int = 1, allow_headerless: bool = False
+    ) -> None: ...
+
     def __init__(
         self, f: SimpleFilter | None = None, cache_size: int = 1, allow_headerless: bool = False
     ) -> None:
         super().__init__()
         self._lock = threading.Lock()
-        self.cache_msgs: list[Any] = []
+        self.cache_msgs: list[MsgT] = []
         self.cache_times: list[Time] = []
-        self._arrived: deque[tuple[Time, Any]] = deque()
+        self._arrived: deque[tuple[Time, MsgT]] = deque()
         self.cache_size = cache_size
         self.allow_headerless = allow_headerless
         if f is not None:
@@ -42,7 +56,7 @@ class Cache(SimpleFilter):
         """Listen to a filter."""
         self.incoming_connection = f.registerCallback(self.add)
 
-    def add(self, msg: Any) -> None:
+    def add(self, msg: MsgT) -> None:
         """Store a message, and pass it on."""
         stamp = stamp_of(
             msg, allow_headerless=self.allow_headerless, logger="message_filters_cache"
@@ -58,7 +72,7 @@ class Cache(SimpleFilter):
                 self._forget(*self._arrived.popleft())
         self.signalMessage(msg)
 
-    def _forget(self, stamp: Time, msg: Any) -> None:
+    def _forget(self, stamp: Time, msg: MsgT) -> None:
         """Drop the message that arrived first.
 
         It need not have the oldest stamp: after a clock has jumped back, the messages from before
@@ -71,20 +85,20 @@ class Cache(SimpleFilter):
 
     def getInterval(  # noqa: N802 -- ROS 2's name
         self, from_stamp: Time, to_stamp: Time
-    ) -> list[Any]:
+    ) -> list[MsgT]:
         """The messages from one time to another, both included."""
         with self._lock:
             return self.cache_msgs[
                 bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)
             ]
 
-    def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
+    def getElemAfterTime(self, stamp: Time) -> MsgT | None:  # noqa: N802 -- ROS 2's name
         """The oldest message that is not older than a time, or None."""
         with self._lock:
             place = bisect_left(self.cache_times, stamp)
             return self.cache_msgs[place] if place < len(self.cache_msgs) else None
 
-    def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802 -- ROS 2's name
+    def getElemBeforeTime(self, stamp: Time) -> MsgT | None:  # noqa: N802 -- ROS 2's name
         """The newest message that is not newer than a time, or None."""
         with self._lock:
             place = bisect_right(self.cache_times, stamp)
@@ -103,7 +117,7 @@ class Cache(SimpleFilter):
         with self._lock:
             return self.cache_times[0] if self.cache_times else None
 
-    def getLast(self) -> Any:  # noqa: N802 -- ROS 2's name
+    def getLast(self) -> MsgT | None:  # noqa: N802 -- ROS 2's name
         """The newest message, or None."""
         with self._lock:
             return self.cache_msgs[-1] if self.cache_msgs else None

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .simple_filter import SimpleFilter
+from rclpy._typing import MsgT
+
+from .one_message_filter import OneMessageFilter
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+    from rclpy.subscription import Subscription
 
 __all__ = ["Subscriber"]
 
 
-class Subscriber(SimpleFilter):
+class Subscriber(OneMessageFilter[MsgT]):
     """Passes on the messages of a topic.
+
+    Type checkers know its messages: ``Subscriber[PointStamped]`` refuses callbacks of others.
 
     Args:
         node: The subscribing node.
@@ -31,16 +36,18 @@ class Subscriber(SimpleFilter):
     """
 
     def __init__(
-        self, node: Node, msg_type: type[Any], topic: str, *args: Any, **kwargs: Any
+        self, node: Node, msg_type: type[MsgT], topic: str, *args: Any, **kwargs: Any
     ) -> None:
         super().__init__()
         if not args:
             kwargs.setdefault("qos_profile", 10)
         self.node = node
         self.topic = topic
-        self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
+        self.sub: Subscription[MsgT] = node.create_subscription(
+            msg_type, topic, self.callback, *args, **kwargs
+        )
 
-    def callback(self, msg: Any) -> None:
+    def callback(self, msg: MsgT) -> None:
         """Take a message from the subscription."""
         self.signalMessage(msg)
 

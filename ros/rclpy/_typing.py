@@ -1,6 +1,7 @@
 """Type variables of the public classes.
 
-Each has a default, so that ``Publisher`` without brackets stays a valid annotation.
+Each has a default, so that ``Publisher`` without brackets stays a valid annotation. Typed programs
+import some of them from the public modules by ROS 2's names: ``MsgType``, ``SrvType`` …
 """
 
 from __future__ import annotations

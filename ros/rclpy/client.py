@@ -12,6 +12,9 @@ from ._execution.blocking import Call, wait_for_response
 from ._execution.futures import call_when_done, run_callbacks_on
 from ._rclpy_pybind11 import RCLError
 from ._typing import RequestT, ResponseT, SrvT_co, T
+from ._typing import RequestT as SrvTypeRequest
+from ._typing import ResponseT as SrvTypeResponse
+from ._typing import SrvT as SrvType
 from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
 from .task import Future
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["Client"]
+__all__ = ["Client", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
 class Client(IntrospectedEndpoint, Generic[SrvT_co]):

@@ -22,7 +22,7 @@ from ._node.endpoints import NodeEndpoints, QosOverrides
 from ._node.graph import NodeGraph
 from ._node.parameters import NodeParameters
 from ._rclpy_pybind11 import NodeNameNonExistentError
-from .client import Client
+from .client import Client, SrvType, SrvTypeRequest, SrvTypeResponse
 from .clock import ROSClock
 from .exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from .guard_condition import GuardCondition
@@ -30,7 +30,7 @@ from .handle import Handle
 from .hints import with_hint
 from .parameter import PARAMETER_SEPARATOR_STRING
 from .parameter_service import ParameterService
-from .publisher import Publisher
+from .publisher import MsgType, Publisher
 from .qos import qos_profile_parameter_events, qos_profile_services_default
 from .service import Service
 from .subscription import MessageInfo, Subscription
@@ -63,8 +63,12 @@ if TYPE_CHECKING:
 __all__ = [
     "HIDDEN_NODE_PREFIX",
     "PARAMETER_SEPARATOR_STRING",
+    "MsgType",
     "Node",
     "NodeNameNonExistentError",
+    "SrvType",
+    "SrvTypeRequest",
+    "SrvTypeResponse",
     "component_arguments",
 ]
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "PARAMETER_SEPARATOR_STRING",
+    "AllowableParameterValue",
     "Parameter",
     "get_parameter_value",
     "parameter_dict_from_yaml_file",
@@ -19,6 +20,11 @@ __all__ = [
 ]
 
 PARAMETER_SEPARATOR_STRING = "."
+
+#: What a parameter can hold, for annotations.
+AllowableParameterValue = (
+    bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str] | None
+)
 
 
 class Parameter:

@@ -11,6 +11,7 @@ from turtlewire.wire.qos import BEST_AVAILABLE_NS
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from ._typing import MsgT
+from ._typing import MsgT as MsgType
 from .duration import Duration
 from .handle import Handle
 from .qos_policies import DurabilityPolicy, LivelinessPolicy
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from ._node.core import NodeCore
     from .qos import QoSProfile
 
-__all__ = ["Publisher"]
+__all__ = ["MsgType", "Publisher"]
 
 
 _SLICE_NS = 100_000_000

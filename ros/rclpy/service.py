@@ -9,6 +9,9 @@ from turtlewire.errors import CdrError, WireError
 from turtlewire.msg import deserialize, serialize
 
 from ._rclpy_pybind11 import InvalidHandle
+from ._typing import RequestT as SrvTypeRequest
+from ._typing import ResponseT as SrvTypeResponse
+from ._typing import SrvT as SrvType
 from ._typing import SrvT_co
 from .hints import described
 from .service_introspection import EventType, IntrospectedEndpoint
@@ -23,7 +26,7 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["Service"]
+__all__ = ["Service", "SrvType", "SrvTypeRequest", "SrvTypeResponse"]
 
 
 class Service(IntrospectedEndpoint, Generic[SrvT_co]):

@@ -10,6 +10,7 @@ from turtlewire.msg import deserialize
 
 from ._execution.entity import Entity, Host, Work
 from ._typing import MsgT
+from ._typing import MsgT as MsgType
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .qos import QoSProfile
 
-__all__ = ["MessageInfo", "Subscription"]
+__all__ = ["MessageInfo", "MsgType", "Subscription"]
 
 
 #: Second argument of a callback that takes two: what is known of the message beside its content.

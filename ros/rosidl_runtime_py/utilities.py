@@ -50,7 +50,7 @@ def get_message(identifier: str) -> Any:
 
     Raises as `get_interface` does.
     """
-    return _get(identifier, "msg", Message, "message")
+    return _get(identifier, "msg", Message, "a message")
 
 
 def get_service(identifier: str) -> Any:
@@ -58,7 +58,7 @@ def get_service(identifier: str) -> Any:
 
     Raises as `get_interface` does.
     """
-    return _get(identifier, "srv", Service, "service")
+    return _get(identifier, "srv", Service, "a service")
 
 
 def get_action(identifier: str) -> Any:
@@ -66,7 +66,7 @@ def get_action(identifier: str) -> Any:
 
     Raises as `get_interface` does.
     """
-    return _get(identifier, "action", Action, "action")
+    return _get(identifier, "action", Action, "an action")
 
 
 def is_message(interface: Any) -> bool:
@@ -89,5 +89,5 @@ def _get(identifier: str, kind: str, base: type, word: str) -> Any:
     interface = get_interface(full_name)
     if not (isinstance(interface, type) and issubclass(interface, base)):
         # ROS 2's class.
-        raise ValueError(f"Expected the full name of a {word}, got '{identifier}'")  # noqa: TRY004
+        raise ValueError(f"Expected the full name of {word}, got '{identifier}'")  # noqa: TRY004
     return interface

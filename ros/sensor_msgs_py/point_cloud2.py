@@ -8,9 +8,10 @@ from collections import namedtuple
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
 
 from sensor_msgs.msg import PointCloud2, PointField
+
+from .numpy_compat import structured_to_unstructured, unstructured_to_structured
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -173,7 +174,7 @@ def dtype_from_fields(
 
 
 def create_cloud(
-    header: Header, fields: Sequence[PointField], points: Any, step: int | None = None
+    header: Header, fields: Sequence[PointField], points: Any, point_step: int | None = None
 ) -> PointCloud2:
     """Make a cloud.
 
@@ -182,12 +183,12 @@ def create_cloud(
         fields: The fields of a point.
         points: A structured array of their dtype, a plain array with a last axis of that length, or
             an iterable of tuples.
-        step: Bytes from point to point; None ends a point after its last field.
+        point_step: Bytes from point to point; None ends a point after its last field.
 
     Raises:
         AssertionError: The array does not fit the fields, or has more than two axes of points.
     """
-    structured = np.ascontiguousarray(_structured(fields, points, step))
+    structured = np.ascontiguousarray(_structured(fields, points, point_step))
     if structured.ndim > 2:
         raise AssertionError(
             "Too many dimensions for organized cloud! "
@@ -209,17 +210,17 @@ def create_cloud(
     )
 
 
-def create_cloud_xyz32(header: Header, points: Any, step: int | None = None) -> PointCloud2:
+def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = None) -> PointCloud2:
     """Make a cloud of float32 x, y, z; the arguments are those of `create_cloud`."""
     fields = [
         PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
         for index, name in enumerate("xyz")
     ]
-    return create_cloud(header, fields, points, step)
+    return create_cloud(header, fields, points, point_step)
 
 
-def _structured(fields: Sequence[PointField], points: Any, step: int | None) -> Any:
-    dtype = dtype_from_fields(fields, step)
+def _structured(fields: Sequence[PointField], points: Any, point_step: int | None) -> Any:
+    dtype = dtype_from_fields(fields, point_step)
     if not isinstance(points, np.ndarray):
         return np.array([tuple(point) for point in points], dtype=dtype)
     if points.dtype.names is None:

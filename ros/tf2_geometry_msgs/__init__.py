@@ -137,12 +137,20 @@ __all__ = [
 register()
 
 
-def __getattr__(name: str) -> Any:
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from tf2_geometry_msgs import numpy_bridge
+#: Messages that ROS 2's package has because it imports them; programs take them from here.
+_MESSAGES = {
+    *("PointStamped", "PolygonStamped", "Pose", "PoseStamped", "PoseWithCovarianceStamped"),
+    *("TransformStamped", "Vector3Stamped", "WrenchStamped"),
+}
 
-    value = globals()[name] = getattr(numpy_bridge, name)
+
+def __getattr__(name: str) -> Any:
+    if name not in __all__ and name not in _MESSAGES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    home = "geometry_msgs.msg" if name in _MESSAGES else "tf2_geometry_msgs.numpy_bridge"
+    value = globals()[name] = getattr(import_module(home), name)
     return value
 
 

@@ -91,10 +91,13 @@ __all__ = [
 ]
 
 _LAZY = {
-    "BufferClient": "buffer_client",
-    "BufferServer": "buffer_server",
-    "FilterFailureReason": "message_filter",
-    "MessageFilter": "message_filter",
+    "BufferClient": "tf2_ros.buffer_client",
+    "BufferServer": "tf2_ros.buffer_server",
+    "FilterFailureReason": "tf2_ros.message_filter",
+    "MessageFilter": "tf2_ros.message_filter",
+    # ROS 2's package has these because it imports them; programs take them from here.
+    "TFMessage": "tf2_msgs.msg",
+    "TransformStamped": "geometry_msgs.msg",
 }
 
 
@@ -104,5 +107,5 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    value = globals()[name] = getattr(import_module(f".{_LAZY[name]}", __name__), name)
+    value = globals()[name] = getattr(import_module(_LAZY[name]), name)
     return value

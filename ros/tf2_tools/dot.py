@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
-if TYPE_CHECKING:
-    from turtlewire.tf.frame_tree import FrameTree, Link
+from turtlewire.tf.frame_tree import FrameTree, Link
 
-__all__ = ["dot_from_tree"]
+__all__ = ["dot_from_tree", "generate_dot"]
 
 
 def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
@@ -22,6 +21,29 @@ def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
         "}",
     ]
     return "\n".join(["digraph G {", *map(_link, tree.links.values()), *legend])
+
+
+def generate_dot(data: dict[str, Any], recorded_time: float | str) -> str:
+    """Graphviz text of what the service ``tf2_frames`` answers.
+
+    Args:
+        data: Its YAML, loaded: of each frame, by its name, the parent and the rates.
+        recorded_time: When it was asked, for the legend.
+    """
+    links = [
+        Link(
+            child=str(child),
+            parent=frame["parent"],
+            broadcaster=frame["broadcaster"],
+            is_static=False,
+            rate_hz=frame["rate"],
+            newest=frame["most_recent_transform"],
+            oldest=frame["oldest_transform"],
+            length=frame["buffer_length"],
+        )
+        for child, frame in data.items()
+    ]
+    return dot_from_tree(FrameTree(links), str(recorded_time))
 
 
 def _link(link: Link) -> str:

@@ -16,7 +16,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
-from tf2_tools.dot import dot_from_tree
+from tf2_tools.dot import dot_from_tree, generate_dot
 from tf2_tools.pdf import pdf_from_drawing
 from turtlewire.cli.pipes import leave_pipe
 from turtlewire.printable import printable
@@ -27,7 +27,7 @@ from turtlewire.tf.tree_drawing import draw_tree
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["INTERRUPTED", "WAIT_TIME_S", "ViewFrames", "main"]
+__all__ = ["INTERRUPTED", "WAIT_TIME_S", "ViewFrames", "generate_dot", "main"]
 
 WAIT_TIME_S = 5.0
 INTERRUPTED = 130
@@ -158,7 +158,7 @@ def main(args: list[str] | None = None) -> int:
                 return 1
     except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
-    except InvalidTopicNameException as error:
+    except (InvalidTopicNameException, ValueError) as error:
         print(error, file=sys.stderr)  # noqa: T201
         return 1
     except BrokenPipeError:

@@ -131,6 +131,24 @@ __all__ = [
 ]
 
 
+def _named_here(value: Any) -> Any:
+    """The same, but its help and repr name this package, as in ROS 2, not one of the parts."""
+    if hasattr(value, "__module__"):
+        value.__module__ = __name__
+    return value
+
+
+for _function in (
+    euler_from_quaternion,
+    quaternion_about_axis,
+    quaternion_conjugate,
+    quaternion_from_euler,
+    quaternion_inverse,
+    quaternion_multiply,
+):
+    _named_here(_function)
+
+
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -138,7 +156,7 @@ def __getattr__(name: str) -> Any:
 
     for module in (_matrices, _composition, _arrays, _arcball):
         if hasattr(module, name):
-            value = globals()[name] = getattr(module, name)
+            value = globals()[name] = _named_here(getattr(module, name))
             return value
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

@@ -35,7 +35,7 @@ class TurtleEndpoints:
         color_listeners: How many subscriptions its colour sensor has.
 
     Raises (on construction):
-        InvalidTopicNameException: The turtle's name is no part of a topic's name.
+        InvalidTopicNameException, ValueError: The turtle's name is no part of a topic's name.
     """
 
     def __init__(self, node: Node, turtle: Turtle) -> None:

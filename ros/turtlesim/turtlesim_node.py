@@ -183,11 +183,12 @@ class TurtlesimNode(CppNode):
         """Announce a turtle of the world.
 
         Raises:
-            InvalidTopicNameException: ROS does not allow its name; it has left the world again.
+            InvalidTopicNameException, ValueError: ROS does not allow its name; it has left the
+                world again.
         """
         try:
             self._endpoints_of[turtle.name] = TurtleEndpoints(self, turtle)
-        except InvalidTopicNameException:
+        except (InvalidTopicNameException, ValueError):
             self.world.kill(turtle.name)
             raise
         x, y = turtle.x, FIELD_SIZE - turtle.y_down
@@ -214,7 +215,7 @@ class TurtlesimNode(CppNode):
             return ""
         try:
             self._add(turtle)
-        except InvalidTopicNameException as error:
+        except (InvalidTopicNameException, ValueError) as error:
             self.get_logger().error(f"Cannot name a turtle [{name}]: {error}")
             return ""
         return turtle.name

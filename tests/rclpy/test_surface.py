@@ -91,6 +91,14 @@ rclpy.lifecycle.NodeMixin = rclpy.lifecycle.LifecycleNodeMixin
 rclpy.lifecycle.Publisher = rclpy.lifecycle.LifecyclePublisher
 rclpy.lifecycle.State = rclpy.lifecycle.LifecycleState
 rclpy.clock.ClockType = rclpy.clock_type.ClockType
+rclpy.node.MsgType = rclpy.publisher.MsgType
+rclpy.node.MsgType = rclpy.subscription.MsgType
+rclpy.node.SrvType = rclpy.client.SrvType
+rclpy.node.SrvTypeRequest = rclpy.service.SrvTypeRequest
+rclpy.node.SrvTypeResponse = rclpy.service.SrvTypeResponse
+tf2_ros.TransformStamped = geometry_msgs.msg.TransformStamped
+tf2_ros.TFMessage = tf2_msgs.msg.TFMessage
+tf2_geometry_msgs.PoseStamped = geometry_msgs.msg.PoseStamped
 rclpy.impl.logging_severity.LoggingSeverity = rclpy.logging.LoggingSeverity
 rclpy.impl.implementation_singleton.rclpy_implementation = rclpy._rclpy_pybind11
 """

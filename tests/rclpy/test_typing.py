@@ -82,10 +82,13 @@ def main() -> None:
 MISTAKES = """
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
+from geometry_msgs.msg import PointStamped
+from message_filters import Cache, Subscriber
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
+from rclpy.time import Time
 from std_msgs.msg import String
 
 Node("a", namspace="/b")
@@ -101,8 +104,13 @@ client.call_async(String())
 client.call(AddTwoInts.Request()).som
 ActionClient(node, Fibonacci, "count").send_goal_async(AddTwoInts.Request())
 Future[int]().set_result("1")
+client.call(AddTwoInts.Request(), 1.0).sum
+points = Subscriber(node, PointStamped, "points")
+points.registerCallback(heard)
+points.registerCallback(print, "further", "arguments")
+Cache(points).getInterval(Time(), Time())[0].pint
 """
-MISTAKEN_LINES = [10, 11, 12, 14, 16, 17, 19, 20, 21, 22]
+MISTAKEN_LINES = [13, 14, 15, 17, 19, 20, 22, 23, 24, 25, 26, 28, 30]
 
 
 @pytest.mark.slow

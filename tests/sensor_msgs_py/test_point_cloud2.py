@@ -52,7 +52,7 @@ def test_fields_of_several_types_and_counts():
     points = np.zeros(2, dtype=point_cloud2.dtype_from_fields(MIXED, point_step=16))
     points["ring"] = [7, 8]
     points["rgb_2"] = [255, 1]
-    cloud = point_cloud2.create_cloud(HEADER, MIXED, points, step=16)
+    cloud = point_cloud2.create_cloud(HEADER, MIXED, points, point_step=16)
     assert cloud.point_step == 16
     read = point_cloud2.read_points(cloud)
     assert read.dtype.names == ("x", "ring", "rgb_0", "rgb_1", "rgb_2")

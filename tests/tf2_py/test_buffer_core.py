@@ -164,6 +164,17 @@ def test_velocity(buffer: tf2_py.BufferCore) -> None:
         buffer.lookupVelocityCore("camera", "map", Time(seconds=9), Duration(seconds=0.5))
 
 
+def test_an_interval_of_a_velocity_does_not_reach_back_beyond_time_0(buffer) -> None:
+    """A simulation begins at 0: ROS 2 takes what there is of the interval."""
+    for t, x in ((10_000, 0.0), (SECOND // 2, 1.0), (SECOND, 2.0)):
+        buffer.set_transform(stamped("odom", "wheel", t, x=x), "me")
+    for stamp, interval in ((0, 1), (0, 3), (1, 3), (0.5, 2)):
+        linear, _ = buffer.lookupVelocityCore(
+            "wheel", "odom", Time(seconds=stamp), Duration(seconds=interval)
+        )
+        assert linear == pytest.approx((2.0, 0.0, 0.0), rel=1e-4)
+
+
 def test_chain(buffer: tf2_py.BufferCore) -> None:
     buffer.set_transform_static(stamped("base", "arm", 0), "me")
     chain = buffer._chain("arm", Time(seconds=2), "camera", Time(seconds=1), "map")

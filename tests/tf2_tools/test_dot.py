@@ -4,9 +4,12 @@ import shutil
 import subprocess
 
 import pytest
+import yaml
 
 from tf2_tools.dot import dot_from_tree
-from turtlewire.tf.frame_tree import FrameTree, Link
+from tf2_tools.view_frames import generate_dot
+from turtlewire import Buffer
+from turtlewire.tf.frame_tree import FrameTree, Link, read_frame_tree
 
 
 def test_one_link_as_ros_2_writes_it():
@@ -22,6 +25,15 @@ def test_one_link_as_ros_2_writes_it():
         '}->"world";\n'
         "}"
     )
+
+
+def test_the_dot_of_the_frames_of_the_service():
+    buffer = Buffer()
+    buffer.set_transform("world", "turtle1", 7_250_000_000, (1, 2, 3), (0, 0, 0, 1))
+    buffer.set_transform("world", "turtle1", 12_500_000_000, (1, 2, 3), (0, 0, 0, 1))
+    data = yaml.safe_load(buffer.all_frames_as_yaml())
+    assert generate_dot(data, 100.0) == dot_from_tree(read_frame_tree(buffer), "100.0")
+    assert generate_dot({}, 1.0) == 'digraph G { "No tf data received" }'
 
 
 def test_no_data():

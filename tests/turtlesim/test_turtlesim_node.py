@@ -192,6 +192,7 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
     assert world.call(Spawn, "/spawn", x=1.0, y=2.0).name == "turtle3"
     assert world.call(Spawn, "/spawn", name="turtle2").name == ""
     assert world.call(Spawn, "/spawn", name="no good").name == ""
+    assert world.call(Spawn, "/spawn", name="{x}").name == ""
     assert sorted(world.sim.world.turtles) == ["turtle1", "turtle2", "turtle3"]
     world.call(Kill, "/kill", name="turtle2")
     world.call(Kill, "/kill", name="turtle2")
@@ -204,6 +205,7 @@ def test_start_spawn_kill_and_reset_with_their_texts(make_world, capfd):
         "[ERROR] A turtle named [turtle2] already exists",
     ]
     assert logged[3].startswith("[ERROR] Cannot name a turtle [no good]: ")
+    assert logged[4] == "[ERROR] Cannot name a turtle [{x}]: unknown substitution: {x}"
     assert logged[-4:] == [
         "[ERROR] Tried to kill turtle [turtle2], which does not exist",
         "[INFO] Clearing turtlesim.",

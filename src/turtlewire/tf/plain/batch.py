@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.plain.shared_tree import SharedTree
 
+#: The first start of an interval.
+_FIRST_NS = 10_000
+
 
 def lookup_batch(
     self: SharedTree,
@@ -159,10 +162,11 @@ def lookup_velocity(
     def measure(t: int) -> tuple[float, ...]:
         end = min(t + interval_ns // 2, newest) if t <= newest else t
         last = _bare(self, observation_frame, tracking_frame, end)
-        first = _bare(self, observation_frame, tracking_frame, end - interval_ns)
+        start = _interval_start(end, interval_ns)
+        first = _bare(self, observation_frame, tracking_frame, start)
         turn = _bare(self, axes, observation_frame, t)[3:]
         at = compose(_bare(self, tracking_frame, fixed, t), (px, py, pz, 0.0, 0.0, 0.0, 1.0))[:3]
-        linear, angular = _mean_velocity(first, last, at, interval_ns / 1e9)
+        linear, angular = _mean_velocity(first, last, at, (end - start) / 1e9)
         return (*rotate(turn, linear), *rotate(turn, angular))
 
     for i, stamp in enumerate(times):
@@ -171,6 +175,15 @@ def lookup_velocity(
         target = result if single else result[i]
         target[:] = math.nan if row is None else row
     return result
+
+
+def _interval_start(end: int, interval_ns: int) -> int:
+    """Where an interval begins that ends there.
+
+    As in ROS 2, one that would begin before time 0, or at 0, which means the latest time, begins 10
+    microseconds after it.
+    """
+    return max(end - interval_ns, _FIRST_NS) if end > _FIRST_NS else end - interval_ns
 
 
 def _mean_velocity(first: Pose, last: Pose, point: Vector, seconds: float) -> tuple[Vector, Vector]:

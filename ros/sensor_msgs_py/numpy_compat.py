@@ -1,0 +1,7 @@
+"""Between structured arrays and plain ones; in ROS 2 for versions of NumPy that lack them."""
+
+from __future__ import annotations
+
+from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
+
+__all__ = ["structured_to_unstructured", "unstructured_to_structured"]
