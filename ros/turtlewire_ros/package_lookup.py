@@ -19,15 +19,18 @@ CONFIG_MARK = "# written by turtlewire"
 
 #: Build tools, and what only C++ needs: without a compiled target, nothing depends on them.
 _BUILD_ONLY = re.compile(
-    r"(ament|rosidl|rcl|rmw|rcpputils|rcutils|tf2|launch_testing|pluginlib|class_loader|nodelet"
-    r"|image_transport|cv_bridge|pcl|urdf|kdl|orocos|eigen|boost|opencv|python|pybind11|threads"
-    r"|openmp|vulkan|qt|gtest|gmock|benchmark|gazebo|gz|ignition|yaml|tinyxml|fmt|spdlog|cuda"
-    r"|pkgconfig|doxygen|git|zlib|osrf|backward|rviz|message_filters|diagnostic_updater"
-    r"|hardware_interface|controller_interface|rosbag2|angles|bond|fast|cyclone|console_bridge"
-    r"|performance_test|mimick|tracetools|libstatistics|ros_environment|test_msgs_support)",
+    r"ament_\w+|rosidl_\w+|rmw(_\w+)?|rcl(_\w+)?|rclcpp(_\w+)?|rcutils|rcpputils|python3?"
+    r"|python(interp|libs|_cmake_module)|pybind11(_vendor)?|launch_testing_ament_cmake"
+    r"|ros_testing|tf2|tf2_(eigen|kdl|bullet)(_\w+)?|pluginlib|class_loader|image_transport"
+    r"|cv_bridge|image_geometry|laser_geometry|pcl(_\w+)?|kdl_parser|orocos_kdl(_vendor)?"
+    r"|urdf(dom(_headers)?|_parser_plugin)?|eigen3(_cmake_module)?|boost|opencv|threads|openmp"
+    r"|gtest|gmock|benchmark|pkgconfig|git|doxygen|zlib|fmt|spdlog(_vendor)?|yaml-cpp"
+    r"|yaml_cpp_vendor|tinyxml2?(_vendor)?|console_bridge(_vendor)?|cuda(toolkit)?|qt[56]"
+    r"|osrf_testing_tools_cpp|mimick_vendor|performance_test_fixture|backward_ros|tracetools"
+    r"|rviz_\w+|rosbag2_(cpp|storage|transport)|hardware_interface|controller_interface"
+    r"|ros_environment|message_filters|angles|bondcpp|xacro",
     re.IGNORECASE,
 )
-_NOT_BUILD_ONLY = re.compile(r"_(msgs|interfaces|srvs|actions|description|bringup|common)$")
 
 
 class PackageLookup:
@@ -51,10 +54,10 @@ class PackageLookup:
     def is_known(self, name: str) -> bool:
         """Whether ``find_package`` finds a package.
 
-        Build tools, and packages that only C++ needs, count as found.
+        Build tools, and packages that only C++ needs, count as found: none of them installs or
+        generates anything here.
         """
-        build_only = _BUILD_ONLY.match(name) and not _NOT_BUILD_ONLY.search(name)
-        return bool(build_only) or self.is_installed(name)
+        return _BUILD_ONLY.fullmatch(name) is not None or self.is_installed(name)
 
     def config(self, name: str) -> Path | None:
         """The file with the CMake extras of a package that turtlewire has built, or None."""

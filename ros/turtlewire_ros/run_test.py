@@ -11,12 +11,15 @@ import os
 import signal
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 _MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
+#: A launch test needs this module, which comes with ROS 2's launch_testing.
+_LAUNCH_MODULE = "launch_testing"
 _RESULT = """<?xml version="1.0" encoding="UTF-8"?>
-<testsuite name={name} tests="1" failures="{failures}" errors="0" skipped="0">
+<testsuite name={name} tests="1" failures="{failures}" errors="0" skipped="{skipped}">
   <testcase classname={name} name={name}>{inner}</testcase>
 </testsuite>
 """
@@ -37,6 +40,9 @@ def main(argv: list[str] | None = None) -> int:
     os.chdir(options.folder)
     result.parent.mkdir(parents=True, exist_ok=True)
     _write_result(result, options.name, "the test ended without a result")
+    if options.kind == "launch" and find_spec(_LAUNCH_MODULE) is None:
+        _write_result(result, options.name, skipped=f"there is no {_LAUNCH_MODULE} here")
+        return 0
     status = _run(_command(options.kind, options.words, result, options.name), options.timeout)
     if status is None:
         _write_result(result, options.name, f"no end after {options.timeout:g} s")
@@ -68,9 +74,12 @@ def _run(command: list[str], timeout: float) -> int | None:
         return None
 
 
-def _write_result(path: Path, name: str, failure: str) -> None:
+def _write_result(path: Path, name: str, failure: str = "", skipped: str = "") -> None:
     inner = f"<failure message={quoteattr(failure)}/>" if failure else ""
-    text = _RESULT.format(name=quoteattr(name), failures=int(bool(failure)), inner=inner)
+    inner += f"<skipped message={quoteattr(skipped)}/>" if skipped else ""
+    text = _RESULT.format(
+        name=quoteattr(name), failures=int(bool(failure)), skipped=int(bool(skipped)), inner=inner
+    )
     path.write_text(text, encoding="utf-8")
 
 

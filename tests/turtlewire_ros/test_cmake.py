@@ -26,7 +26,7 @@ def evaluate(tmp_path):
 
     def of(body: str, *arguments: str, **files: str):
         for name, text in files.items():
-            path = source / name.replace("__", "/")
+            path = source / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
         (source / "CMakeLists.txt").write_text(f"{HEAD}{body}\n")
@@ -98,6 +98,7 @@ def value(evaluate, body: str) -> str:
          "set(X ${ARG_FLAG} ${ARG_ONE} ${ARG_MANY} ${ARG_UNPARSED_ARGUMENTS})"), "TRUE;1;2;3;rest"),
         ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
         ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
+        ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"),
         ("return()\nset(X 1)", "not set"),
         ("set(X a b c)\nlist(REMOVE_AT X 0 -1)", "b"),
         ('set(X "a \\"b c\\" d")\nseparate_arguments(X)', "a;b c;d"),
@@ -217,7 +218,7 @@ def test_globs(evaluate, tmp_path):
     _, variables = evaluate(
         'file(GLOB a RELATIVE ${CMAKE_CURRENT_LIST_DIR} "msg/*.msg")\n'
         'file(GLOB_RECURSE b "*.msg")\nfile(GLOB c "*/A.msg")',
-        msg__B="", **{"msg__A.msg": "int32 a\n", "msg__C.msg": "int32 c\n"},
+        **{"msg/A.msg": "int32 a\n", "msg/C.msg": "int32 c\n"},
     )  # fmt: skip
     folder = tmp_path / "robot" / "msg"
     assert variables["a"] == "msg/A.msg;msg/C.msg"
@@ -232,7 +233,7 @@ def test_interfaces(evaluate, tmp_path):
     plan, _ = evaluate(
         f'rosidl_generate_interfaces(${{PROJECT_NAME}} msg/A.msg "{other.parent}:msg/O.msg"\n'
         "  DEPENDENCIES std_msgs ADD_LINTER_TESTS LIBRARY_NAME x SKIP_INSTALL)",
-        **{"msg__A.msg": "int32 a\n"},
+        **{"msg/A.msg": "int32 a\n"},
     )
     (interfaces,) = plan.interfaces
     assert interfaces.files == (
@@ -249,6 +250,8 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
         ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, or source or "
         "install what has it"
     )
+    plan, _ = evaluate("find_package(urdf REQUIRED)\nfind_package(urdf_of_nobody REQUIRED)")
+    assert [":5: there is no package 'urdf_of_nobody'" in line for line in plan.missing] == [True]
     plan, _ = evaluate("if(BUILD_TESTING)\n  find_package(nobody_has_this_msgs REQUIRED)\nendif()")
     assert plan.missing == []
 
@@ -301,6 +304,24 @@ def test_what_compiles_nothing_is_let_pass(evaluate, body):
     assert evaluate(body)[0].verdict() == ([], [])
 
 
+def test_interfaces_and_a_python_package_of_one_name_are_an_error(evaluate):
+    plan, _ = evaluate(
+        "rosidl_generate_interfaces(robot msg/A.msg)\nament_python_install_package(robot)",
+        **{"msg/A.msg": "int32 a\n", "robot/__init__.py": ""},
+    )
+    ((line,), _) = plan.verdict()
+    assert line.endswith(
+        ":5: rosidl_generate_interfaces makes a Python package robot, too; give one of them "
+        "another name"
+    )
+
+
+def test_hooks_that_ament_names_are_left_out(evaluate):
+    assert (
+        evaluate('ament_environment_hooks("${ament_cmake_package_templates_PATH}")')[0].hooks == []
+    )
+
+
 def test_an_unknown_command_is_an_error(evaluate):
     errors, _ = evaluate("make_coffee(now)")[0].verdict()
     assert (
@@ -342,7 +363,7 @@ def test_tests(evaluate, tmp_path):
 def test_a_subfolder_has_its_own_variables(evaluate, tmp_path):
     plan, variables = evaluate(
         "set(X outside)\nadd_subdirectory(sub)",
-        **{"sub__CMakeLists.txt": "set(X inside)\ninstall(FILES a DESTINATION share)\n"
+        **{"sub/CMakeLists.txt": "set(X inside)\ninstall(FILES a DESTINATION share)\n"
            "set(SEEN ${X} PARENT_SCOPE)\n"},
     )  # fmt: skip
     assert (variables["X"], variables["SEEN"]) == ("outside", "inside")

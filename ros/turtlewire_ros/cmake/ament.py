@@ -138,7 +138,8 @@ def _register_resource(run: Interpreter, call: Call) -> None:
 
 
 def _environment_hooks(run: Interpreter, call: Call) -> None:
-    for word in call.words:
+    # Empty words are hooks that ament's variables name, which are for C++ libraries.
+    for word in filter(None, call.words):
         path = Path(run.source_path(word))
         if not path.is_file():
             raise CMakeError(call.place, f"{call.name}(): there is no file {path}")

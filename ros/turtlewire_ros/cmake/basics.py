@@ -156,6 +156,10 @@ def _string(run: Interpreter, call: Call) -> None:
         raise CMakeError(call.place, f"string({action}) is not known here")
 
 
+def _substring(text: str, begin: int, length: int) -> str:
+    return text[begin:] if length < 0 else text[begin : begin + length]
+
+
 #: Number of words that each form takes at least, which of them names the variable, what it does.
 _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
     "TOUPPER": (2, 1, lambda words: words[0].upper()),
@@ -173,6 +177,7 @@ _STRINGS: dict[str, tuple[int, int, Callable[[list[str]], str]]] = {
     "REGEX MATCHALL": (
         3, 1, lambda words: ";".join(match[0] for match in re.finditer(words[0], words[1])),
     ),
+    "SUBSTRING": (4, 3, lambda words: _substring(words[0], int(words[1]), int(words[2]))),
     "MAKE_C_IDENTIFIER": (2, 1, lambda words: re.sub(r"\W", "_", words[0])),
 }  # fmt: skip
 

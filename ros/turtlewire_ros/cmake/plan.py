@@ -193,6 +193,13 @@ class Plan:
         warnings: packages and commands that are not known may be for the C++ part.
         """
         troubles = self.missing + self.unknown
+        twice = {part.package for part in self.interfaces if part.installed}
+        troubles += [
+            f"{package.place}: rosidl_generate_interfaces makes a Python package {package.name}, "
+            "too; give one of them another name"
+            for package in self.python_packages
+            if package.name in twice
+        ]
         if not self.refused:
             return troubles, self.warnings
         if not self.has_python():

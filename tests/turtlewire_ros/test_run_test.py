@@ -1,0 +1,66 @@
+"""How one test of ``colcon test`` runs: its result is in a JUnit file, whatever happens."""
+
+from __future__ import annotations
+
+import sys
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from turtlewire_ros.run_test import main
+
+
+def result_of(tmp_path, kind, words, timeout="60"):
+    """Exit status, and the message of the failure in the result file, or what it is else."""
+    path = tmp_path / "results" / "a.xunit.xml"
+    status = main(
+        ["--kind", kind, "--name", "pkg.a", "--result", str(path), "--timeout", timeout,
+         "--folder", str(tmp_path / "build"), "--", *words]
+    )  # fmt: skip
+    case = ET.parse(path).find(".//testcase")
+    failure, skipped = case.find("failure"), case.find("skipped")
+    if skipped is not None:
+        return status, f"skipped: {skipped.get('message')}"
+    return status, "passed" if failure is None else failure.get("message").splitlines()[0]
+
+
+@pytest.fixture(autouse=True)
+def in_tmp_path(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        ("", (0, "passed")),
+        ("import sys; sys.exit(3)", (3, "exit status 3")),
+        ("import os, sys; sys.exit(os.path.basename(os.getcwd()) != 'build')", (0, "passed")),
+    ],
+)
+def test_a_command(tmp_path, source, expected):
+    assert result_of(tmp_path, "command", [sys.executable, "-c", source]) == expected
+
+
+def test_a_command_without_end_is_stopped(tmp_path):
+    source = "import threading; threading.Event().wait()"
+    expected = (1, "no end after 0.5 s")
+    assert result_of(tmp_path, "command", [sys.executable, "-c", source], "0.5") == expected
+
+
+def test_pytest_writes_the_result_itself(tmp_path):
+    (tmp_path / "test_it.py").write_text("def test_it():\n    assert 1 == 2\n")
+    status, message = result_of(tmp_path, "pytest", [str(tmp_path / "test_it.py")])
+    assert (status, message) == (1, "assert 1 == 2")
+
+
+def test_a_test_that_cannot_begin_has_a_result_too(tmp_path):
+    status, message = result_of(tmp_path, "pytest", ["--no-such-option"])
+    assert (status, message) == (4, "the test ended without a result")
+
+
+def test_a_launch_test_without_launch_testing_is_skipped(tmp_path, monkeypatch):
+    monkeypatch.setattr("turtlewire_ros.run_test.find_spec", lambda name: None)
+    assert result_of(tmp_path, "launch", ["x.py"]) == (
+        0,
+        "skipped: there is no launch_testing here",
+    )
