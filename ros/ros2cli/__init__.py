@@ -27,5 +27,13 @@ module                             what it holds
 `system_report`                    ``ros2 doctor --report``
 `multicast`                        datagrams of ``ros2 multicast``
 `package_template`                 files that ``ros2 pkg create`` writes
+`cli`, `helpers`                   ``ros2`` called by programs; functions for extensions
+`command`, `verb`                  ROS 2's classes of commands and verbs
+`builtin`                          our commands and verbs behind these classes
+`installed`                        entry points of other packages, found fast
+`entry_points`, `plugin_system`    ROS 2's functions for entry points and extensions
+`extension`                        runs those of other packages
+`node`                             nodes for extensions: direct, strategy, daemon
+`xmlrpc`                           remote calls on this host
 =================================  ========================================================
 """

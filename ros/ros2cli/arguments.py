@@ -50,7 +50,7 @@ def exclusive(*members: Argument, required: bool = False) -> Exclusive:
 
 
 def add_arguments(
-    parser: argparse.ArgumentParser, arguments: Iterable[Argument | Exclusive]
+    parser: argparse._ActionsContainer, arguments: Iterable[Argument | Exclusive]
 ) -> None:
     """Define a command line."""
     for item in arguments:

@@ -9,7 +9,6 @@ from ros2cli.interface_names import interface_names
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
 
 __all__ = [
     "action_names",
@@ -17,6 +16,7 @@ __all__ = [
     "arguments_of_executable",
     "container_node_names",
     "executables",
+    "executables_of",
     "files",
     "folders",
     "frame_names",
@@ -29,6 +29,7 @@ __all__ = [
     "node_names",
     "packages",
     "parameter_names",
+    "prototype",
     "request_values",
     "service_names",
     "service_types",
@@ -49,9 +50,14 @@ def packages(**_: Any) -> list[str]:
 
 def executables(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Names of the executables of the package on the command line."""
+    return executables_of(parsed_args.package_name)
+
+
+def executables_of(package: str) -> list[str]:
+    """Names of the executables of a package; empty if there is no such package."""
     from turtlewire_ros.executables import executable_paths
 
-    return [os.path.basename(path) for path in executable_paths(parsed_args.package_name) or ()]
+    return [os.path.basename(path) for path in executable_paths(package) or ()]
 
 
 def interface_packages(**_: Any) -> list[str]:
@@ -121,30 +127,35 @@ def folders(prefix: str, **_: Any) -> list[str]:
 
 def message_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """The default values of the message type on the command line."""
-    from rosidl_runtime_py.utilities import get_message
-
-    return _prototype(get_message, parsed_args.message_type)
+    return prototype("msg", parsed_args.message_type)
 
 
 def request_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """The default values of a request of the service type on the command line."""
-    from rosidl_runtime_py.utilities import get_service
-
-    return _prototype(lambda name: get_service(name).Request, parsed_args.service_type)
+    return prototype("srv", parsed_args.service_type)
 
 
 def goal_values(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """The default values of a goal of the action type on the command line."""
-    from rosidl_runtime_py.utilities import get_action
-
-    return _prototype(lambda name: get_action(name).Goal, parsed_args.action_type)
+    return prototype("action", parsed_args.action_type)
 
 
-def _prototype(find_class: Callable[[str], Any], type_name: str) -> list[str]:
-    from rosidl_runtime_py import message_to_yaml
+def prototype(kind: str, type_name: str) -> list[str]:
+    """The default values of a message, request or goal; empty for an unknown type.
+
+    Args:
+        kind: ``msg``, ``srv`` or ``action``.
+        type_name: Name of the interface.
+    """
+    from rosidl_runtime_py import message_to_yaml, utilities
 
     try:
-        message = find_class(type_name)()
+        if kind == "srv":
+            message = utilities.get_service(type_name).Request()
+        elif kind == "action":
+            message = utilities.get_action(type_name).Goal()
+        else:
+            message = utilities.get_message(type_name)()
     except (AttributeError, ModuleNotFoundError, ValueError):
         return []
     fields = message_to_yaml(message, flow_style=True).splitlines()

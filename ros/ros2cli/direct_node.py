@@ -51,6 +51,18 @@ class DirectNode:
             )
         self._spin_time: float | None = getattr(args, "spin_time", None)
 
+    @classmethod
+    def around(cls, node: Any) -> DirectNode:
+        """What can be done with a node that somebody else made and will destroy.
+
+        Args:
+            node: A node of rclpy, or a thing with one in its attribute ``node``.
+        """
+        direct = DirectNode.__new__(DirectNode)
+        direct.node = getattr(node, "node", node)
+        direct._spin_time = None
+        return direct
+
     @property
     def graph(self) -> Graph:
         """The graph."""

@@ -1,8 +1,8 @@
-"""Names of the interfaces that are installed."""
+"""Names of the interfaces that are installed, and their default values."""
 
 from __future__ import annotations
 
-__all__ = ["interface_names"]
+__all__ = ["interface_names", "prototype"]
 
 
 def interface_names(kind: str = "") -> list[str]:
@@ -16,3 +16,25 @@ def interface_names(kind: str = "") -> list[str]:
         if part == kind or not kind
         for name in names
     )
+
+
+def prototype(name: str) -> str:
+    """Default values of a message, of a service's request or of an action's goal, as YAML.
+
+    Args:
+        name: Full name of the interface, for example ``geometry_msgs/msg/Twist``.
+
+    Raises:
+        ValueError: It is not the name of an interface.
+        ModuleNotFoundError: The package is unknown.
+        AttributeError: The package has no such interface.
+    """
+    from rosidl_runtime_py import message_to_yaml
+    from rosidl_runtime_py.utilities import get_interface, is_action, is_service
+
+    interface = get_interface(name)
+    if is_service(interface):
+        interface = interface.Request
+    elif is_action(interface):
+        interface = interface.Goal
+    return message_to_yaml(interface())

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from types import ModuleType
     from typing import NoReturn
 
-__all__ = ["main", "make_parser"]
+__all__ = ["define", "main", "make_parser"]
 
 _EXIT_INTERRUPTED = 2  # the number of SIGINT
 _EXIT_READER_GONE = 141  # what a shell shows for a program that wrote into a closed pipe
@@ -123,6 +123,12 @@ def _add_choices(
     """Add commands or verbs, and load the one on the command line."""
     title = "Verbs" if " " in prog else "Commands"
     chosen = next((word for word in words if not word.startswith("-")), None)
+    extensions = {} if chosen in choices else _extensions(prog, chosen)
+    if extensions:
+        from ros2cli.entry_points import get_first_line_doc
+
+        added = {name: get_first_line_doc(extension) for name, extension in extensions.items()}
+        choices = dict(sorted({**choices, **added}.items()))
     group = parser.add_subparsers(
         title=title,
         metavar=f"Call `{prog} <command> -h` for more detailed usage.",
@@ -132,9 +138,22 @@ def _add_choices(
         sub = group.add_parser(
             name, help=summary, description=summary, prog=f"{prog} {name}", allow_abbrev=False
         )
-        if name == chosen:
-            rest = words[words.index(name) + 1 :]
-            _load(sub, f"{prog} {name}", rest, f"{package}.{_ALIASES.get(name, name)}")
+        if name != chosen:
+            continue
+        rest = words[words.index(name) + 1 :]
+        if name in extensions:
+            from ros2cli.extension import define_extension
+
+            define_extension(extensions[name], sub, f"{prog} {name}", rest)
+        else:
+            define(sub, f"{prog} {name}", rest, f"{package}.{_ALIASES.get(name, name)}")
+
+
+def _extensions(prog: str, chosen: str | None) -> dict[str, object]:
+    """Commands or verbs of other packages; only the chosen one is loaded if there is one."""
+    from ros2cli.extension import extensions_of_others
+
+    return extensions_of_others(prog, chosen)
 
 
 def _parser_class(choices: dict[str, str], chosen: str | None) -> type[_Parser]:
@@ -150,11 +169,23 @@ def _parser_class(choices: dict[str, str], chosen: str | None) -> type[_Parser]:
     )
 
 
-def _load(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
+def define(parser: argparse.ArgumentParser, prog: str, words: list[str], module_name: str) -> None:
+    """Define the command line of a command or a verb, and of the verb in ``words``.
+
+    Args:
+        parser: Its parser.
+        prog: The words before, for example ``ros2 topic``.
+        words: The words behind ``prog``.
+        module_name: Its module, for example ``ros2cli.commands.topic``.
+    """
     from ros2cli.arguments import add_arguments
 
     module = import_module(module_name)
     add_arguments(parser, getattr(module, "ARGUMENTS", ()))
+    if hasattr(module, "OPTION_GROUP"):
+        from ros2cli.extension import define_options
+
+        define_options(module.OPTION_GROUP, parser, prog, words)
     if hasattr(module, "main"):
         parser.set_defaults(module=module, parser=parser)
     else:

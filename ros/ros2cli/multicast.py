@@ -65,9 +65,16 @@ class MulticastSocket:
         """Send a datagram to the group."""
         self._sender.sendto(data, self._target)
 
-    def receive(self) -> tuple[bytes, tuple[str, int]]:
-        """Wait for a datagram; its bytes, and the address of its sender."""
-        self._receiver.setblocking(True)
+    def receive(self, timeout: float | None = None) -> tuple[bytes, tuple[str, int]]:
+        """Wait for a datagram; its bytes, and the address of its sender.
+
+        Args:
+            timeout: Seconds to wait; None waits without a limit.
+
+        Raises:
+            TimeoutError: None came in time.
+        """
+        self._receiver.settimeout(timeout)
         return self._receiver.recvfrom(_LONGEST)
 
     def received(self) -> Iterator[tuple[bytes, tuple[str, int]]]:

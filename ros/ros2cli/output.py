@@ -9,14 +9,29 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.printable import printable_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-__all__ = ["escaped_output", "tell"]
+__all__ = ["escaped_output", "print_set_results", "tell"]
 
 
 def tell(text: str) -> None:
     """Print a message to stderr; what peers have put into it is escaped."""
     print(printable_lines(text), file=sys.stderr)
+
+
+def print_set_results(parameters: Iterable[Any], results: Iterable[Any]) -> None:
+    """Print whether parameters were set.
+
+    Args:
+        parameters: Messages with the names.
+        results: ``rcl_interfaces/msg/SetParametersResult`` messages, as many.
+    """
+    for parameter, result in zip(parameters, results, strict=True):
+        reason = f": {result.reason}" if result.reason else ""
+        if result.successful:
+            print(f"Set parameter {parameter.name} successful{reason}")
+        else:
+            tell(f"Set parameter {parameter.name} failed{reason}")
 
 
 class _EscapingStream:

@@ -13,8 +13,16 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from turtlewire.wire.base import Graph
 
-__all__ = ["QOS_ARGUMENTS", "asked_for", "matching_publishers", "with_options"]
+__all__ = [
+    "QOS_ARGUMENTS",
+    "asked_for",
+    "configure",
+    "matching_publishers",
+    "preset",
+    "with_options",
+]
 
+_POLICIES = ("history", "reliability", "durability", "liveliness")
 _PROFILES = (
     *("unknown", "default", "system_default", "sensor_data", "services_default", "parameters"),
     *("parameter_events", "action_status_default", "best_available"),
@@ -56,33 +64,56 @@ def with_options(args: argparse.Namespace, default: str) -> QoSProfile:
         args: The command line.
         default: Name of the profile when none is given.
     """
-    from rclpy import qos
-    from rclpy.duration import Duration
+    profile = preset(args.qos_profile or default)
+    texts = {name: getattr(args, f"qos_{name}") for name in _POLICIES}
+    configure(profile, texts, args.qos_depth, args.qos_liveliness_lease_duration_seconds)
+    return profile
 
-    chosen = qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or default)
-    profile = qos.QoSProfile(
+
+def preset(name: str) -> QoSProfile:
+    """A copy of a named profile.
+
+    Raises:
+        ValueError: There is none of that name.
+    """
+    from rclpy import qos
+
+    chosen = qos.QoSPresetProfiles.get_from_short_key(name)
+    return qos.QoSProfile(
         **{
             name: getattr(chosen, name)
             for name in ("history", "depth", "reliability", "durability", "liveliness")
         }
     )
-    kinds = {
-        "history": qos.HistoryPolicy,
-        "reliability": qos.ReliabilityPolicy,
-        "durability": qos.DurabilityPolicy,
-    }
-    for name, kind in {**kinds, "liveliness": qos.LivelinessPolicy}.items():
-        text = getattr(args, f"qos_{name}")
+
+
+def configure(
+    profile: QoSProfile, texts: dict[str, str | None], depth: int | None, lease: float | None
+) -> None:
+    """Change a profile.
+
+    Args:
+        profile: The profile.
+        texts: Names of values by policy: history, reliability, durability, liveliness.
+        depth: Length of the queue.
+        lease: Seconds of the liveliness lease.
+
+    Raises:
+        ValueError: A policy has no value of that name.
+    """
+    from rclpy import qos
+    from rclpy.duration import Duration
+
+    for name, text in texts.items():
         if text is not None:
+            kind = getattr(qos, f"{name.title()}Policy")
             setattr(profile, name, kind.get_from_short_key(text))
-    if args.qos_depth is not None:
-        profile.depth = args.qos_depth
-    elif args.qos_durability == "transient_local" and profile.depth == 0:
+    if depth is not None:
+        profile.depth = depth
+    elif texts["durability"] == "transient_local" and profile.depth == 0:
         profile.depth = 1
-    lease = args.qos_liveliness_lease_duration_seconds
     if lease is not None:
         profile.liveliness_lease_duration = Duration(seconds=lease)
-    return profile
 
 
 def matching_publishers(graph: Graph, topic: str) -> QoSProfile:

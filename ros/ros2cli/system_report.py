@@ -9,14 +9,19 @@ import os
 import platform
 import sys
 
-__all__ = ["system_report"]
+__all__ = ["sections", "system_report"]
 
 
 def system_report() -> str:
     """All sections, each with a title and a line for every fact."""
+    return "\n".join(_block(title, facts) for title, facts in sections())
+
+
+def sections() -> list[tuple[str, list[tuple[str, object]]]]:
+    """Titles and facts: pairs of name and value."""
     from turtlewire.wire.environment import middleware_name
 
-    sections: dict[str, dict[str, object]] = {
+    found: dict[str, dict[str, object]] = {
         "PLATFORM INFORMATION": {
             "system": platform.system(),
             "platform info": platform.platform(),
@@ -27,14 +32,13 @@ def system_report() -> str:
         "RMW MIDDLEWARE": {"middleware name": middleware_name()},
         "ROS 2 INFORMATION": _ros_information(),
     }
-    blocks = [_block(title, [facts]) for title, facts in sections.items()]
-    return "\n".join([*blocks, _block("TOPIC LIST", _topics())])
+    listed = [(title, list(facts.items())) for title, facts in found.items()]
+    return [*listed, ("TOPIC LIST", _topics())]
 
 
-def _block(title: str, groups: list[dict[str, object]]) -> str:
-    width = max((len(name) for facts in groups for name in facts), default=0)
-    lines = [f"{name:{width}} : {value}" for facts in groups for name, value in facts.items()]
-    return "\n".join([f"\n   {title}", *lines])
+def _block(title: str, facts: list[tuple[str, object]]) -> str:
+    width = max((len(name) for name, _ in facts), default=0)
+    return "\n".join([f"\n   {title}", *(f"{name:{width}} : {value}" for name, value in facts)])
 
 
 def _ros_information() -> dict[str, object]:
@@ -54,19 +58,20 @@ def _ros_information() -> dict[str, object]:
     }
 
 
-def _topics() -> list[dict[str, object]]:
+def _topics() -> list[tuple[str, object]]:
     from ros2cli.discovery import GraphNode
     from ros2cli.graph import endpoints_of_topic, topics
 
     own = ("/parameter_events", "/rosout")
     with GraphNode() as graph:
-        found: list[dict[str, object]] = [
-            {
-                "topic": name,
-                "publisher count": len(endpoints_of_topic(graph, name, "publisher")),
-                "subscriber count": len(endpoints_of_topic(graph, name, "subscription")),
-            }
+        found: list[tuple[str, object]] = [
+            fact
             for name, _ in topics(graph)
             if name not in own
+            for fact in (
+                ("topic", name),
+                ("publisher count", len(endpoints_of_topic(graph, name, "publisher"))),
+                ("subscriber count", len(endpoints_of_topic(graph, name, "subscription"))),
+            )
         ]
-    return found or [{"topic": "none", "publisher count": 0, "subscriber count": 0}]
+    return found or [("topic", "none"), ("publisher count", 0), ("subscriber count", 0)]

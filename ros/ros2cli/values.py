@@ -70,9 +70,9 @@ def assignment(text: str) -> tuple[str, str]:
     return name, value
 
 
-def positive_float(text: str) -> float:
+def positive_float(inval: str) -> float:
     """A number above zero, for argparse."""
-    value = float(text)
+    value = float(inval)
     if not value > 0:
         raise argparse.ArgumentTypeError("value must be positive")
     return value
@@ -93,9 +93,9 @@ def regular_expression(text: str) -> str:
     return text
 
 
-def positive_int(text: str) -> int:
+def positive_int(string: str) -> int:
     """A whole number above zero, for argparse."""
-    value = int(text)
+    value = int(string)
     if value <= 0:
         raise argparse.ArgumentTypeError("value must be positive")
     return value

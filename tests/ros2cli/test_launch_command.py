@@ -47,7 +47,7 @@ def test_a_file_of_a_package_is_found_below_its_share_folder(tmp_path, monkeypat
 
 
 def test_the_last_of_equal_arguments_counts():
-    assert launch._parsed_arguments(["x:=1", "y:=a:=b", "x:=2"]) == [("x", "2"), ("y", "a:=b")]
+    assert launch.parsed_arguments(["x:=1", "y:=a:=b", "x:=2"]) == [("x", "2"), ("y", "a:=b")]
 
 
 @pytest.mark.parametrize("word", ["x", "x=1", ":=1", "x:="])
@@ -55,7 +55,7 @@ def test_malformed_arguments(word):
     with pytest.raises(
         RuntimeError, match=r"^malformed launch argument '.*', expected format '<name>:=<value>'$"
     ):
-        launch._parsed_arguments([word])
+        launch.parsed_arguments([word])
 
 
 def test_a_path_that_is_not_there(capsys):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 from ros2cli.commands import COMMANDS
+from ros2cli.installed import declared, first_line, load
 
 __all__ = ["EXTENSION_POINTS", "extensions"]
 
@@ -27,11 +28,20 @@ EXTENSION_POINTS = (
 )
 
 
-def extensions(command: str) -> dict[str, str]:
-    """Names and summaries of the verbs of a command, or of all commands if it is empty."""
-    if not command:
-        return COMMANDS
-    if command not in COMMANDS:
+def extensions(point: str, command: str) -> dict[str, tuple[str, str]]:
+    """Summary and module of each verb of a command, or of each command if it is empty.
+
+    Those of other packages are loaded; one that cannot be loaded is one line on stderr.
+    """
+    if command and command not in COMMANDS:
         return {}
-    verbs: dict[str, str] = import_module(f"ros2cli.commands.{command}").VERBS
-    return verbs
+    own: dict[str, str] = (
+        import_module(f"ros2cli.commands.{command}").VERBS if command else COMMANDS
+    )
+    package = f"ros2cli.commands.{command}" if command else "ros2cli.commands"
+    found = {name: (summary, f"{package}.{name}") for name, summary in own.items()}
+    for name, entry in declared(point).items():
+        cls = load(entry) if name not in own else None
+        if cls is not None:
+            found[name] = (first_line(cls), entry.module)
+    return dict(sorted(found.items()))

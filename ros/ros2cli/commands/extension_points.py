@@ -18,7 +18,7 @@ ARGUMENTS = (
         "-a",
         "--all",
         action="store_true",
-        help="Accepted for compatibility: no extension fails to load",
+        help="Accepted for compatibility: those that fail to load are told anyway",
     ),
     argument("-v", "--verbose", action="store_true", help="Show where the extensions are"),
 )
@@ -27,7 +27,7 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print name and description of each extension point."""
     for name, command, description in EXTENSION_POINTS:
-        if extensions(command):
+        if extensions(name, command):
             print(f"{name}: {description}")
             if args.verbose:
                 print(f"  module: ros2cli.commands{f'.{command}' if command else ''}")

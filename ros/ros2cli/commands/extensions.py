@@ -18,7 +18,7 @@ ARGUMENTS = (
         "-a",
         "--all",
         action="store_true",
-        help="Accepted for compatibility: no extension fails to load",
+        help="Accepted for compatibility: those that fail to load are told anyway",
     ),
     argument("-v", "--verbose", action="store_true", help="Show the modules of the extensions"),
 )
@@ -27,11 +27,10 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print the commands and verbs below their extension points."""
     for point, command, _ in EXTENSION_POINTS:
-        found = extensions(command)
+        found = extensions(point, command)
         if found:
             print(point)
-        for name, summary in found.items():
+        for name, (summary, module) in found.items():
             print(f"  {name}: {summary}")
             if args.verbose:
-                path = f"{command}.{name}" if command else name
-                print(f"    module: ros2cli.commands.{path}")
+                print(f"    module: {module}")

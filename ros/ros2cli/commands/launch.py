@@ -13,14 +13,28 @@ from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
-__all__ = ["ARGUMENTS", "PASSES_COLOURS_ON", "main"]
+__all__ = [
+    "ARGUMENTS",
+    "LAUNCH_OPTIONS",
+    "OPTION_GROUP",
+    "PASSES_COLOURS_ON",
+    "SUFFIXES",
+    "description_of",
+    "launch",
+    "launch_files",
+    "main",
+    "named",
+    "parsed_arguments",
+    "print_description",
+    "show_arguments",
+]
 
 PASSES_COLOURS_ON = True
-_SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+SUFFIXES = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 
 
 def _at_terminal() -> bool:
@@ -29,11 +43,12 @@ def _at_terminal() -> bool:
 
 def _files_in(share: str) -> list[str]:
     return sorted(
-        file for _, _, files in os.walk(share) for file in files if file.endswith(_SUFFIXES)
+        file for _, _, files in os.walk(share) for file in files if file.endswith(SUFFIXES)
     )
 
 
-def _launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+def launch_files(*, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Names of the launch files of the package on the command line."""
     from turtlewire_ros.prefix import share_directory
 
     share = share_directory(parsed_args.package_name)
@@ -85,38 +100,64 @@ ARGUMENTS = (
         help="Name of the package, or path of a launch file",
         completer=_packages_and_files,
     ),
-    argument(
-        "launch_file_name", nargs="?", help="Name of the launch file", completer=_launch_files
-    ),
+    argument("launch_file_name", nargs="?", help="Name of the launch file", completer=launch_files),
     argument("launch_arguments", nargs="*", help="Arguments of the launch file, as name:=value"),
 )
 
 
+#: Options that change what is launched.
+LAUNCH_OPTIONS = ("show_all_subprocesses_output", "launch_prefix", "launch_prefix_filter")
+#: Group of the entry points of options that other packages add.
+OPTION_GROUP = "ros2launch.option"
+
+
 def main(args: argparse.Namespace) -> int | str | None:
     """Launch."""
-    path, words = _file_and_arguments(args)
-    arguments = _parsed_arguments(words)
-    if args.show_all_subprocesses_output:
+    path, args.launch_arguments = _file_and_arguments(args)
+    parsed_arguments(args.launch_arguments)  # refused before anything is started
+    if args.show_args or args.print:
+        return (show_arguments if args.show_args else print_description)(description_of(path))
+    extensions = getattr(args, "option_extensions", {})
+    return launch(path, args, args, extensions)
+
+
+def launch(path: str, options: argparse.Namespace, args: Any, extensions: Mapping[str, Any]) -> int:
+    """Run a launch file to its end; returns the exit status.
+
+    Args:
+        path: Path of the file.
+        options: The options of ``ros2 launch``.
+        args: The command line, for the extensions.
+        extensions: Options of other packages by name.
+    """
+    for extension in extensions.values():
+        extension.prestart(args)
+    description = _description_to_launch(path, options)
+    for extension in extensions.values():
+        changed = extension.prelaunch(description, args)
+        description = description if changed is None else changed[0]
+    with _terminal_restored():
+        status = _launch(description, options)
+    for extension in extensions.values():
+        extension.postlaunch(status, args)
+    return status
+
+
+def _description_to_launch(path: str, options: argparse.Namespace) -> LaunchDescription:
+    if options.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    arguments = given = parsed_arguments(options.launch_arguments)
     for name in ("launch_prefix", "launch_prefix_filter"):
-        value = getattr(args, name)
+        value = getattr(options, name)
         if value is not None:
-            arguments.append((name.replace("_", "-"), value))
+            arguments = [*arguments, (name.replace("_", "-"), value)]
     from launch import LaunchDescription
     from launch.actions import IncludeLaunchDescription, OpaqueFunction
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     source = AnyLaunchDescriptionSource(path)
-    if args.show_args or args.print:
-        return (_show_arguments if args.show_args else _print_description)(_description(source))
-    check = OpaqueFunction(
-        function=_warn_of_unknown, args=[source, [name for name, _ in _parsed_arguments(words)]]
-    )
-    description = LaunchDescription(
-        [check, IncludeLaunchDescription(source, launch_arguments=arguments)]
-    )
-    with _terminal_restored():
-        return _launch(description, args)
+    check = OpaqueFunction(function=_warn_of_unknown, args=[source, [name for name, _ in given]])
+    return LaunchDescription([check, IncludeLaunchDescription(source, launch_arguments=arguments)])
 
 
 def _warn_of_unknown(
@@ -195,7 +236,7 @@ def _file_and_arguments(args: argparse.Namespace) -> tuple[str, list[str]]:
 
 
 def _looks_like_a_path(word: str) -> bool:
-    return os.path.isdir(word) or os.sep in word or word.endswith(_SUFFIXES)
+    return os.path.isdir(word) or os.sep in word or word.endswith(SUFFIXES)
 
 
 def _no_file(path: str) -> str:
@@ -224,8 +265,13 @@ def _list(files: list[str]) -> str:
     return f"\nLaunch files there: {', '.join(files) or 'none'}"
 
 
+def named(share: str, name: str) -> list[str]:
+    """Paths of the files of a name below a folder."""
+    return [os.path.join(folder, name) for folder, _, files in os.walk(share) if name in files]
+
+
 def _in_share(package: str, share: str, name: str) -> str:
-    found = [os.path.join(folder, name) for folder, _, files in os.walk(share) if name in files]
+    found = named(share, name)
     if not found:
         from ros2cli.suggestion import did_you_mean
 
@@ -242,7 +288,7 @@ def _in_share(package: str, share: str, name: str) -> str:
     return found[0]
 
 
-def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
+def parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
     """``name:=value`` pairs, the last one of each name.
 
     Raises:
@@ -258,27 +304,30 @@ def _parsed_arguments(words: list[str]) -> list[tuple[str, str]]:
         raise
 
 
-def _description(source: LaunchDescriptionSource) -> LaunchDescription:
-    """The description in the file; errors get a hint with the place in the file."""
+def description_of(path: str) -> LaunchDescription:
+    """The description in a launch file; errors get a hint with the place in the file."""
     from launch import LaunchContext
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
     from launch.utilities.raised_in import raised_in
 
     try:
-        return source.get_launch_description(LaunchContext())
+        return AnyLaunchDescriptionSource(path).get_launch_description(LaunchContext())
     except Exception as error:
         if where := raised_in(error).lstrip("\n"):
             vars(error)["hint"] = where
         raise
 
 
-def _show_arguments(description: LaunchDescription) -> int:
+def show_arguments(description: LaunchDescription) -> int:
+    """Print the arguments that a description declares; returns 0."""
     from launch.utilities.command_line import describe_arguments
 
     print(describe_arguments(description.get_launch_arguments()))
     return 0
 
 
-def _print_description(description: LaunchDescription) -> int:
+def print_description(description: LaunchDescription) -> int:
+    """Print a description as a tree; returns 0."""
     from launch import LaunchIntrospector
 
     print(LaunchIntrospector().format_launch_description(description))

@@ -15,7 +15,7 @@ from ros2cli.completion import arguments_of_executable, executables, packages
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "main", "named", "run_and_tell"]
 
 
 ARGUMENTS = (
@@ -44,21 +44,24 @@ def main(args: argparse.Namespace) -> int | str:
         raise RuntimeError(
             f"Package '{args.package_name}' not found{_suggestion(args.package_name, packages())}"
         )
-    found = [
-        path
-        for path in paths
-        if os.path.basename(path) in (args.executable_name, f"{args.executable_name}.exe")
-    ]
+    found = named(paths, args.executable_name)
     if not found:
         known = [os.path.basename(path) for path in paths]
         return f"No executable found{_suggestion(args.executable_name, known)}"
     if len(found) > 1:
         return "Multiple executables found:" + "".join(f"\n- {path}" for path in found)
     prefix = [] if args.prefix is None else shlex.split(args.prefix)
-    return _run([*prefix, *argv_for(found[0]), *args.argv])
+    return run_and_tell([*prefix, *argv_for(found[0]), *args.argv])
 
 
-def _run(command: list[str]) -> int:
+def named(paths: list[str], executable: str) -> list[str]:
+    """Those paths whose file has the name of the executable."""
+    names = (executable, f"{executable}.exe")
+    return [path for path in paths if os.path.basename(path) in names]
+
+
+def run_and_tell(command: list[str]) -> int:
+    """Run a command to its end, and print it if the end is a failure; returns the status."""
     status = run(command)
     if status < 0:
         print(f"[ros2run]: {signal.strsignal(-status)}")

@@ -9,9 +9,9 @@ from ros2cli.arguments import argument
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "TITLES", "main", "print_kind"]
 
-_KINDS = (("msg", "Messages"), ("srv", "Services"), ("action", "Actions"))
+TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 ARGUMENTS = (
@@ -23,13 +23,17 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print the names below a headline for each kind."""
+    wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
+    for kind in TITLES:
+        if wanted[kind] or not any(wanted.values()):
+            print_kind(kind)
+
+
+def print_kind(kind: str) -> None:
+    """Print the names of the messages (``msg``), services (``srv``) or actions (``action``)."""
     from turtlewire import msg
 
-    wanted = {"msg": args.only_msgs, "srv": args.only_srvs, "action": args.only_actions}
-    packages = sorted(msg.interface_names().items())
-    for kind, title in _KINDS:
-        if wanted[kind] or not any(wanted.values()):
-            print(f"{title}:")
-            for package, names in packages:
-                for name in sorted(names[kind]):
-                    print(f"    {package}/{kind}/{name}")
+    print(f"{TITLES[kind]}:")
+    for package, names in sorted(msg.interface_names().items()):
+        for name in sorted(names[kind]):
+            print(f"    {package}/{kind}/{name}")

@@ -25,19 +25,13 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the default values as YAML."""
-    from rosidl_runtime_py import message_to_yaml
-    from rosidl_runtime_py.utilities import get_interface, is_action, is_service
+    from ros2cli.interface_names import prototype
 
     try:
-        interface = get_interface(args.type)
+        text = prototype(args.type)
     except (AttributeError, ModuleNotFoundError, ValueError) as error:
         from ros2cli.suggestion import interface_meant
 
         return f"{type(error).__name__}: {error}{interface_meant(args.type)}"
-    if is_service(interface):
-        interface = interface.Request
-    elif is_action(interface):
-        interface = interface.Goal
-    text = message_to_yaml(interface())
     print(text if args.no_quotes else f'"{text}"')
     return None

@@ -11,7 +11,7 @@ from ros2cli.parameters import RemoteParameters
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+__all__ = ["ARGUMENTS", "insert", "main"]
 
 
 ARGUMENTS = (*node_arguments(),)
@@ -29,11 +29,12 @@ def main(args: argparse.Namespace) -> None:
         values = remote.values(names)
     tree: dict[str, Any] = {}
     for name, message in zip(names, values, strict=True):
-        _insert(tree, name.split("."), _plain(parameter_value_to_python(message)))
+        insert(tree, name.split("."), _plain(parameter_value_to_python(message)))
     print(yaml.safe_dump({remote.node_name: {"ros__parameters": tree}}, default_flow_style=False))
 
 
-def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
+def insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
+    """Put a value into nested dictionaries, one for each part of its name."""
     for part in path[:-1]:
         tree = tree.setdefault(part, {})
     tree[path[-1]] = value

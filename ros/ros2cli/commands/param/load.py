@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
 from ros2cli.completion import files
 from ros2cli.direct_node import DirectNode
-from ros2cli.output import tell
+from ros2cli.output import print_set_results
 from ros2cli.parameter_options import node_arguments
 from ros2cli.parameters import RemoteParameters
 
@@ -37,10 +37,5 @@ def main(args: argparse.Namespace) -> None:
         parameters = list(
             parameter_dict_from_yaml_file(args.parameter_file, not args.no_use_wildcard).values()
         )
-        results: list[tuple[Any, Any]] = list(zip(parameters, remote.set(parameters), strict=True))
-    for parameter, result in results:
-        reason = f": {result.reason}" if result.reason else ""
-        if result.successful:
-            print(f"Set parameter {parameter.name} successful{reason}")
-        else:
-            tell(f"Set parameter {parameter.name} failed{reason}")
+        results = remote.set(parameters)
+    print_set_results(parameters, results)

@@ -13,7 +13,9 @@ from ros2cli.values import positive_int
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["ARGUMENTS", "main"]
+    from rclpy.clock import Clock
+
+__all__ = ["ARGUMENTS", "age", "main"]
 
 
 ARGUMENTS = (
@@ -47,11 +49,15 @@ def main(args: argparse.Namespace) -> None:
         clock = direct.node.get_clock()
 
         def note(message: Any) -> None:
-            stamp = message.header.stamp
-            delays.add(
-                (clock.now().nanoseconds - (stamp.sec * 1_000_000_000 + stamp.nanosec)) / 1e9
-            )
+            delays.add(age(message, clock))
 
         direct.node.create_subscription(kind, topic, note, qos_profile_sensor_data)
         direct.node.create_timer(1.0, lambda: print(end=delays.report()))
         direct.spin()
+
+
+def age(message: Any, clock: Clock) -> float:
+    """Seconds since the stamp in the header of a message."""
+    stamp = message.header.stamp
+    stamp_ns: int = stamp.sec * 1_000_000_000 + stamp.nanosec
+    return (clock.now().nanoseconds - stamp_ns) / 1e9

@@ -1,0 +1,167 @@
+"""What a command of ``ros2`` is, and how a command offers its verbs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.entry_points import get_entry_points, get_first_line_doc
+from ros2cli.plugin_system import (
+    PLUGIN_SYSTEM_VERSION,
+    call_add_arguments,
+    instantiate_extensions,
+    named_extensions,
+    satisfies_version,
+)
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterable
+
+__all__ = [
+    "PLUGIN_SYSTEM_VERSION",
+    "CommandExtension",
+    "add_subparsers",
+    "add_subparsers_on_demand",
+    "get_command_extensions",
+    "get_entry_points",
+    "get_first_line_doc",
+    "instantiate_extensions",
+    "satisfies_version",
+]
+
+
+class CommandExtension:
+    """Base of the commands of ``ros2``; entry points in the group ``ros2cli.command``.
+
+    The first line of a command's documentation is its line in ``ros2 --help``.
+    """
+
+    NAME: str | None = None
+    EXTENSION_POINT_VERSION = "0.1"
+
+    def __init__(self) -> None:
+        satisfies_version(PLUGIN_SYSTEM_VERSION, f"^{self.EXTENSION_POINT_VERSION}")
+
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: list[str] | None = None
+    ) -> None:
+        """Define the command line.
+
+        Args:
+            parser: Parser of the command.
+            cli_name: The words before, for example ``ros2 topic``.
+            argv: The words of the command line.
+        """
+
+    def main(self, *, parser: argparse.ArgumentParser, args: Any) -> Any:
+        """Run the command.
+
+        Returns:
+            The exit status, the text of an error, or None.
+        """
+        raise NotImplementedError
+
+
+def get_command_extensions(
+    group_name: str, *, exclude_names: Iterable[str] | None = None
+) -> dict[str, Any]:
+    """Instances of the commands of a group by name."""
+    return named_extensions(group_name, exclude_names)
+
+
+def add_subparsers(
+    parser: argparse.ArgumentParser,
+    cli_name: str,
+    dest: str,
+    command_extensions: dict[str, Any],
+    hide_extensions: Iterable[str] | None = None,
+    required: bool = True,
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+    """Add a parser for each of the extensions, which are all loaded.
+
+    Args:
+        parser: Parser of the command.
+        cli_name: The words before, for example ``ros2 topic``.
+        dest: Attribute of the parsed arguments that becomes the chosen extension.
+        command_extensions: Extensions by name.
+        hide_extensions: Names that the help leaves out.
+        required: Whether one has to be chosen.
+    """
+    group = _group(parser, cli_name, required=required)
+    for name, extension in command_extensions.items():
+        extension.NAME = name
+        sub = _add_parser(group, cli_name, name, extension, hide_extensions)
+        sub.set_defaults(**{dest: extension})
+        call_add_arguments(extension, sub, f"{cli_name} {name}", [])
+    return group
+
+
+def add_subparsers_on_demand(
+    parser: argparse.ArgumentParser,
+    cli_name: str,
+    dest: str,
+    group_name: str,
+    hide_extensions: Iterable[str] | None = None,
+    required: bool = True,
+    argv: list[str] | None = None,
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+    """Add a parser for each extension of a group; loads only the one on the command line.
+
+    Args:
+        parser: Parser of the command.
+        cli_name: The words before, for example ``ros2 topic``.
+        dest: Attribute of the parsed arguments that becomes the chosen extension.
+        group_name: The group, for example ``ros2topic.verb``.
+        hide_extensions: Names that the help leaves out.
+        required: Whether one has to be chosen.
+        argv: The words behind ``cli_name``; those of this process by default.
+    """
+    group = _group(parser, cli_name, required=required)
+    words = _words_after(cli_name) if argv is None else argv
+    entries = get_entry_points(group_name)
+    chosen = next((word for word in words if not word.startswith("-")), None)
+    load = {chosen} if chosen in entries else set(entries)
+    loaded = get_command_extensions(group_name, exclude_names=set(entries) - load)
+    for name in sorted(entries):
+        extension = loaded.get(name)
+        if extension is None and name in load:
+            continue  # it has been said that it is broken
+        sub = _add_parser(group, cli_name, name, extension, hide_extensions)
+        if extension is not None:
+            sub.set_defaults(**{dest: extension})
+        if name == chosen and extension is not None:
+            rest = words[words.index(name) + 1 :]
+            call_add_arguments(extension, sub, f"{cli_name} {name}", rest)
+    return group
+
+
+def _group(
+    parser: argparse.ArgumentParser, cli_name: str, *, required: bool
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+    hint = f"Call `{cli_name} <command> -h` for more detailed usage."
+    group = parser.add_subparsers(title="Commands", description="", metavar=hint)
+    group.required = required
+    return group
+
+
+def _words_after(cli_name: str) -> list[str]:
+    """The words of this process behind the last one of ``cli_name``."""
+    import sys
+
+    command = cli_name.rpartition(" ")[2]
+    words = sys.argv[1:]
+    return words[words.index(command) + 1 :] if command in words else words
+
+
+def _add_parser(
+    group: argparse._SubParsersAction[argparse.ArgumentParser],
+    cli_name: str,
+    name: str,
+    extension: Any,
+    hidden: Iterable[str] | None,
+) -> argparse.ArgumentParser:
+    summary = get_first_line_doc(extension) if extension is not None else ""
+    prog = f"{cli_name} {name}"
+    if name in (hidden or ()):
+        return group.add_parser(name, description=summary, prog=prog)
+    return group.add_parser(name, help=summary, description=summary, prog=prog)

@@ -1,0 +1,8 @@
+"""Nodes that commands look at the graph with."""
+
+from __future__ import annotations
+
+__all__ = ["HIDDEN_NODE_PREFIX", "NODE_NAME_PREFIX"]
+
+HIDDEN_NODE_PREFIX = "_"
+NODE_NAME_PREFIX = HIDDEN_NODE_PREFIX + "ros2cli"

@@ -1,0 +1,122 @@
+"""Extensions: their versions, and instances of all in a group."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.entry_points import load_entry_points
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Iterable
+
+__all__ = [
+    "PLUGIN_SYSTEM_VERSION",
+    "PluginException",
+    "call_add_arguments",
+    "get_upper_bound_caret_version",
+    "instantiate_extensions",
+    "named_extensions",
+    "order_extensions",
+    "order_extensions_by_name",
+    "satisfies_version",
+]
+
+PLUGIN_SYSTEM_VERSION = "0.1"
+
+_instances: dict[tuple[str, str], Any] = {}
+
+
+class PluginException(Exception):
+    """An extension is for another version of the command line."""
+
+
+def instantiate_extensions(
+    group_name: str,
+    *,
+    exclude_names: Iterable[str] | None = None,
+    unique_instance: bool = False,
+) -> dict[str, Any]:
+    """Instances of the extensions of a group by name; one that fails is one line on stderr.
+
+    Args:
+        group_name: Name of the group, for example ``ros2topic.verb``.
+        exclude_names: Extensions to leave out.
+        unique_instance: Whether to make new instances; by default there is one for each process.
+    """
+    found = {}
+    for name, cls in load_entry_points(group_name, exclude_names=exclude_names).items():
+        if not unique_instance and (group_name, name) in _instances:
+            found[name] = _instances[group_name, name]
+            continue
+        try:
+            found[name] = cls()
+        # Another's constructor may fail in any way; the other extensions still work.
+        except Exception as error:  # noqa: BLE001
+            from ros2cli.output import tell
+
+            tell(f"Failed to instantiate '{group_name}' extension '{name}': {error}")
+            continue
+        if not unique_instance:
+            _instances[group_name, name] = found[name]
+    return found
+
+
+def named_extensions(group_name: str, exclude_names: Iterable[str] | None = None) -> dict[str, Any]:
+    """`instantiate_extensions`, each of which knows its name."""
+    extensions = instantiate_extensions(group_name, exclude_names=exclude_names)
+    for name, extension in extensions.items():
+        extension.NAME = name
+    return extensions
+
+
+def order_extensions(
+    extensions: dict[str, Any], key_function: Callable[[str, Any], Any], *, reverse: bool = False
+) -> dict[str, Any]:
+    """The extensions sorted by a function of name and instance."""
+    ordered = sorted(extensions.items(), key=lambda item: key_function(*item), reverse=reverse)
+    return dict(ordered)
+
+
+def order_extensions_by_name(extensions: dict[str, Any]) -> dict[str, Any]:
+    """The extensions sorted by name."""
+    return order_extensions(extensions, lambda name, _: name)
+
+
+def satisfies_version(version: str, caret_range: str) -> None:
+    """Check that a version is in a caret range.
+
+    Args:
+        version: For example ``0.1``.
+        caret_range: For example ``^0.1``: the same until the first number that is not zero.
+
+    Raises:
+        PluginException: It is too old or too new.
+    """
+    assert caret_range.startswith("^"), "expected a range that begins with ^"
+    lower = _numbers(caret_range[1:])
+    if _numbers(version) < lower:
+        raise PluginException(f"Extension point version {version} is too old for {caret_range}")
+    if _numbers(version) >= _numbers(get_upper_bound_caret_version(caret_range[1:])):
+        raise PluginException(f"Extension point version {version} is too new for {caret_range}")
+
+
+def get_upper_bound_caret_version(version: str) -> str:
+    """The first version that is outside of a caret range: ``0.2`` for ``0.1``."""
+    numbers = _numbers(version)
+    place = next((index for index, number in enumerate(numbers) if number), len(numbers) - 1)
+    upper = [*numbers[:place], numbers[place] + 1, *[0] * (len(numbers) - place - 1)]
+    return ".".join(map(str, upper))
+
+
+def _numbers(version: str) -> list[int]:
+    return [int(part) for part in version.split(".")]
+
+
+def call_add_arguments(
+    extension: Any, parser: argparse.ArgumentParser, cli_name: str, argv: list[str]
+) -> None:
+    """Call ``add_arguments`` of a command or a verb; those of verbs do not take ``argv``."""
+    takes_argv = "argv" in inspect.signature(extension.add_arguments).parameters
+    extension.add_arguments(parser, cli_name, **({"argv": argv} if takes_argv else {}))

@@ -1,0 +1,54 @@
+"""What a verb of a command is, for example ``list`` of ``ros2 topic``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli.plugin_system import (
+    PLUGIN_SYSTEM_VERSION,
+    instantiate_extensions,
+    named_extensions,
+    satisfies_version,
+)
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = [
+    "PLUGIN_SYSTEM_VERSION",
+    "VerbExtension",
+    "get_verb_extensions",
+    "instantiate_extensions",
+    "satisfies_version",
+]
+
+
+class VerbExtension:
+    """Base of all verbs; the first line of a verb's documentation is its line in the help."""
+
+    NAME: str | None = None
+    EXTENSION_POINT_VERSION = "0.1"
+
+    def __init__(self) -> None:
+        satisfies_version(PLUGIN_SYSTEM_VERSION, f"^{self.EXTENSION_POINT_VERSION}")
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Define the command line.
+
+        Args:
+            parser: Parser of the verb.
+            cli_name: The words before, for example ``ros2 topic``.
+        """
+
+    def main(self, *, args: Any) -> Any:
+        """Run the verb.
+
+        Returns:
+            The exit status, the text of an error, or None.
+        """
+        raise NotImplementedError
+
+
+def get_verb_extensions(name: str) -> dict[str, Any]:
+    """Instances of the verbs of a group by name."""
+    return named_extensions(name)

@@ -1,0 +1,12 @@
+"""Verbs of ``ros2 daemon``; entry points in the group ``ros2cli.daemon.verb``."""
+
+from __future__ import annotations
+
+from ros2cli import verb
+from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION, satisfies_version
+
+__all__ = ["PLUGIN_SYSTEM_VERSION", "VerbExtension", "satisfies_version"]
+
+
+class VerbExtension(verb.VerbExtension):
+    """Base of the verbs of ``ros2 daemon``."""

@@ -1,0 +1,34 @@
+"""Interfaces as YAML, completions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ros2cli import completion
+from ros2cli.interface_names import prototype
+
+__all__ = ["interface_to_yaml", "package_name_completer", "type_completer"]
+
+
+def interface_to_yaml(identifier: str) -> str:
+    """Default values of a message, of a service's request or of an action's goal, as YAML.
+
+    Args:
+        identifier: Name of the interface, for example ``geometry_msgs/msg/Twist``.
+
+    Raises:
+        ValueError: It is not the name of an interface.
+        ModuleNotFoundError: The package is unknown.
+        AttributeError: The package has no such interface.
+    """
+    return prototype(identifier)
+
+
+def package_name_completer(**kwargs: Any) -> list[str]:
+    """Names of the packages that have interfaces."""
+    return completion.interface_packages(**kwargs)
+
+
+def type_completer(**kwargs: Any) -> list[str]:
+    """Full names of all interfaces."""
+    return completion.interfaces(**kwargs)

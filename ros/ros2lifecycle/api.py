@@ -1,0 +1,97 @@
+"""States and transitions of managed nodes.
+
+The calls take names of several nodes and return a dictionary by these names. The value of a node
+that failed to answer is the exception.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli import managed_nodes
+from ros2cli.direct_node import DirectNode
+from ros2node.api import parse_node_name
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
+    from ros2node.api import NodeName
+
+__all__ = [
+    "call_change_states",
+    "call_get_available_transitions",
+    "call_get_states",
+    "call_get_transition_graph",
+    "get_node_names",
+]
+
+
+def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
+    """Names of the managed nodes that a node sees, sorted."""
+    graph = DirectNode.around(node).graph
+    names = managed_nodes.managed_nodes(graph, hidden=include_hidden_nodes)
+    return [parse_node_name(name) for name in names]
+
+
+def call_get_states(*, node: Any, node_names: Collection[str]) -> dict[str, Any]:
+    """States by node: ``lifecycle_msgs/msg/State`` messages."""
+    from lifecycle_msgs.srv import GetState
+
+    requests = {name: GetState.Request() for name in node_names}
+    answers = _ask_all(node, GetState, "get_state", requests)
+    return {name: getattr(answer, "current_state", answer) for name, answer in answers.items()}
+
+
+def call_change_states(*, node: Any, transitions: Mapping[str, Any]) -> dict[str, Any]:
+    """Trigger transitions.
+
+    Args:
+        node: The node that asks.
+        transitions: ``lifecycle_msgs/msg/Transition`` messages by node.
+
+    Returns:
+        Whether each of them succeeded, by node.
+    """
+    from lifecycle_msgs.srv import ChangeState
+
+    requests = {name: ChangeState.Request(transition=each) for name, each in transitions.items()}
+    answers = _ask_all(node, ChangeState, "change_state", requests)
+    return {name: getattr(answer, "success", answer) for name, answer in answers.items()}
+
+
+def call_get_available_transitions(*, node: Any, states: Mapping[str, Any]) -> dict[str, Any]:
+    """Transitions that are possible now, by node: lists of ``TransitionDescription`` messages.
+
+    Args:
+        node: The node that asks.
+        states: The keys are the names of the nodes.
+    """
+    return _transitions(node, states, "get_available_transitions")
+
+
+def call_get_transition_graph(*, node: Any, states: Mapping[str, Any]) -> dict[str, Any]:
+    """All transitions by node, as `call_get_available_transitions`."""
+    return _transitions(node, states, "get_transition_graph")
+
+
+def _transitions(node: Any, states: Mapping[str, Any], service: str) -> dict[str, Any]:
+    from lifecycle_msgs.srv import GetAvailableTransitions
+
+    requests = {name: GetAvailableTransitions.Request() for name in states}
+    answers = _ask_all(node, GetAvailableTransitions, service, requests)
+    return {
+        name: getattr(answer, "available_transitions", answer) for name, answer in answers.items()
+    }
+
+
+def _ask_all(
+    node: Any, service_class: Any, service: str, requests: Mapping[str, Any]
+) -> dict[str, Any]:
+    direct = DirectNode.around(node)
+    answers: dict[str, Any] = {}
+    for name, request in requests.items():
+        try:
+            answers[name] = managed_nodes.ask(direct, service_class, f"{name}/{service}", request)
+        except RuntimeError as error:  # noqa: PERF203  each node may fail on its own
+            answers[name] = error
+    return answers

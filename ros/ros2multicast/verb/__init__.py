@@ -1,0 +1,39 @@
+"""Verbs of ``ros2 multicast``; entry points in the group ``ros2multicast.verb``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ros2cli import verb
+from ros2cli.arguments import add_arguments
+from ros2cli.multicast import GROUP_ARGUMENTS
+from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
+from ros2cli.values import positive_int
+from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = [
+    "DEFAULT_GROUP",
+    "DEFAULT_PORT",
+    "PLUGIN_SYSTEM_VERSION",
+    "VerbExtension",
+    "add_group_argument",
+    "add_port_argument",
+    "positive_int",
+]
+
+
+class VerbExtension(verb.VerbExtension):
+    """Base of the verbs of ``ros2 multicast``."""
+
+
+def add_group_argument(parser: argparse.ArgumentParser) -> None:
+    """Add ``--group``."""
+    add_arguments(parser, GROUP_ARGUMENTS[:1])
+
+
+def add_port_argument(parser: argparse.ArgumentParser) -> None:
+    """Add ``--port``."""
+    add_arguments(parser, GROUP_ARGUMENTS[1:])

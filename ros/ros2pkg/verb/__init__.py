@@ -1,0 +1,12 @@
+"""Verbs of ``ros2 pkg``; entry points in the group ``ros2pkg.verb``."""
+
+from __future__ import annotations
+
+from ros2cli import verb
+from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
+
+__all__ = ["PLUGIN_SYSTEM_VERSION", "VerbExtension"]
+
+
+class VerbExtension(verb.VerbExtension):
+    """Base of the verbs of ``ros2 pkg``."""

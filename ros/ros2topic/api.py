@@ -1,0 +1,188 @@
+"""Topics of the graph and their message classes, QoS on the command line, completions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ros2cli import completion
+from ros2cli.direct_node import DirectNode
+from ros2cli.node.strategy import NodeStrategy
+from ros2cli.values import positive_float, positive_int
+
+if TYPE_CHECKING:
+    import argparse
+
+    from rclpy.qos import QoSProfile
+
+__all__ = [
+    "TopicMessagePrototypeCompleter",
+    "TopicNameCompleter",
+    "TopicTypeCompleter",
+    "add_qos_arguments",
+    "get_msg_class",
+    "get_topic_names",
+    "get_topic_names_and_types",
+    "message_type_completer",
+    "positive_float",
+    "positive_int",
+    "profile_configure_short_keys",
+    "qos_profile_from_short_keys",
+]
+
+
+def get_topic_names_and_types(
+    *, node: Any, include_hidden_topics: bool = False
+) -> list[tuple[str, list[str]]]:
+    """Names and types of the topics that a node sees, sorted by name."""
+    from turtlewire.wire.names import is_hidden
+
+    found: list[tuple[str, list[str]]] = node.get_topic_names_and_types()
+    return [each for each in found if include_hidden_topics or not is_hidden(each[0])]
+
+
+def get_topic_names(*, node: Any, include_hidden_topics: bool = False) -> list[str]:
+    """Names of the topics that a node sees, sorted."""
+    found = get_topic_names_and_types(node=node, include_hidden_topics=include_hidden_topics)
+    return [name for name, _ in found]
+
+
+def get_msg_class(
+    node: Any,
+    topic: str,
+    blocking: bool = False,
+    include_hidden_topics: bool = False,
+) -> Any:
+    """Message class of a topic; None if there is no such topic.
+
+    Args:
+        node: The node that looks.
+        topic: Name of the topic; relative to the node's namespace unless it starts with a slash.
+        blocking: Whether to wait for the topic.
+        include_hidden_topics: Accepted as in ROS 2.
+
+    Raises:
+        RuntimeError: The topic has several types, or one that is not installed.
+    """
+    from ros2cli.topic_type import type_of_topic
+
+    direct = DirectNode.around(node)
+    return type_of_topic(direct, direct.node.resolve_topic_name(topic), blocking=blocking)
+
+
+class TopicNameCompleter:
+    """Offers names of topics to the shell.
+
+    Args:
+        include_hidden_topics_key: Attribute of the command line that asks for hidden topics.
+    """
+
+    def __init__(self, *, include_hidden_topics_key: str | None = None) -> None:
+        self.include_hidden_topics_key = include_hidden_topics_key
+
+    def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
+        """Names of the topics there are now."""
+        hidden = getattr(parsed_args, self.include_hidden_topics_key or "", False)
+        with NodeStrategy(parsed_args) as node:
+            return get_topic_names(node=node, include_hidden_topics=hidden)
+
+
+class TopicTypeCompleter:
+    """Offers the type of the topic on the command line to the shell.
+
+    Args:
+        topic_name_key: Attribute of the command line that is the topic.
+    """
+
+    def __init__(self, *, topic_name_key: str | None = None) -> None:
+        self.topic_name_key = topic_name_key
+
+    def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
+        """The type of the topic, or all messages."""
+        topic = getattr(parsed_args, self.topic_name_key or "", None)
+        with NodeStrategy(parsed_args) as node:
+            found = get_topic_names_and_types(node=node, include_hidden_topics=True)
+        return dict(found).get(topic or "") or message_type_completer()
+
+
+class TopicMessagePrototypeCompleter:
+    """Offers the default values of the message type on the command line to the shell.
+
+    Args:
+        topic_type_key: Attribute of the command line that is the type.
+    """
+
+    def __init__(self, *, topic_type_key: str | None = None) -> None:
+        self.topic_type_key = topic_type_key
+
+    def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
+        """The default values, as YAML."""
+        return completion.prototype("msg", getattr(parsed_args, self.topic_type_key or ""))
+
+
+def message_type_completer(**kwargs: Any) -> list[str]:
+    """Full names of all messages."""
+    return completion.message_types(**kwargs)
+
+
+def add_qos_arguments(
+    parser: argparse.ArgumentParser,
+    subscribe_or_publish: str,
+    default_profile_str: str,
+) -> None:
+    """Add ``--qos-profile``, ``--qos-depth`` and the other policies.
+
+    Args:
+        parser: The parser.
+        subscribe_or_publish: What the policies are for, for the help.
+        default_profile_str: Name of the profile that is used without options, for the help.
+    """
+    from ros2cli.arguments import add_arguments
+    from ros2cli.qos_options import QOS_ARGUMENTS
+
+    title = f"QoS to {subscribe_or_publish} with (default: {default_profile_str})"
+    add_arguments(parser.add_argument_group(title), QOS_ARGUMENTS)
+
+
+def profile_configure_short_keys(
+    profile: QoSProfile | None = None,
+    reliability: str | None = None,
+    durability: str | None = None,
+    depth: int | None = None,
+    history: str | None = None,
+    liveliness: str | None = None,
+    liveliness_lease_duration_s: float | None = None,
+) -> None:
+    """Change a profile by the names of policies on a command line.
+
+    Raises:
+        ValueError: There is no profile, or no policy of a name.
+    """
+    from ros2cli.qos_options import configure
+
+    if profile is None:
+        raise ValueError("expected a profile to change, got None")
+    texts = {"reliability": reliability, "durability": durability, "history": history}
+    configure(profile, {**texts, "liveliness": liveliness}, depth, liveliness_lease_duration_s)
+
+
+def qos_profile_from_short_keys(
+    preset_profile: str,
+    reliability: str | None = None,
+    durability: str | None = None,
+    depth: int | None = None,
+    history: str | None = None,
+    liveliness: str | None = None,
+    liveliness_lease_duration_s: float | None = None,
+) -> QoSProfile:
+    """A named profile, changed by the names of policies on a command line.
+
+    Raises:
+        ValueError: There is no profile or policy of a name.
+    """
+    from ros2cli.qos_options import preset
+
+    profile = preset(preset_profile)
+    profile_configure_short_keys(
+        profile, reliability, durability, depth, history, liveliness, liveliness_lease_duration_s
+    )
+    return profile

@@ -1,0 +1,165 @@
+"""Commands, verbs and options that other packages add by entry points, as ROS 2's do."""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+
+import pytest
+
+ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
+
+ENTRY_POINTS = """
+[ros2cli.command]
+greet = greeting.command:GreetCommand
+broken = greeting.missing:BrokenCommand
+
+[ros2greet.verb]
+world = greeting.verbs:WorldVerb
+
+[ros2topic.verb]
+shout = greeting.verbs:ShoutVerb
+list = greeting.missing:ListVerb
+
+[ros2launch.option]
+say = greeting.option:SayOption
+"""
+
+COMMAND = '''
+from ros2cli.command import CommandExtension, add_subparsers_on_demand
+
+
+class GreetCommand(CommandExtension):
+    """Greet others."""
+
+    def add_arguments(self, parser, cli_name):
+        self._subparser = parser
+        add_subparsers_on_demand(parser, cli_name, "_verb", "ros2greet.verb", required=False)
+
+    def main(self, *, parser, args):
+        if not hasattr(args, "_verb"):
+            self._subparser.print_help()
+            return 0
+        return args._verb.main(args=args)
+'''
+
+VERBS = '''
+from ros2cli.node.strategy import NodeStrategy, add_arguments
+from ros2cli.verb import VerbExtension
+from ros2topic.api import get_topic_names_and_types
+from ros2topic.verb import VerbExtension as TopicVerbExtension
+
+
+class WorldVerb(VerbExtension):
+    """Greet the world."""
+
+    def add_arguments(self, parser, cli_name):
+        parser.add_argument("--loud", action="store_true")
+
+    def main(self, *, args):
+        print("HELLO" if args.loud else "hello")
+        return 3
+
+
+class ShoutVerb(TopicVerbExtension):
+    """Shout the names of the topics."""
+
+    def add_arguments(self, parser, cli_name):
+        add_arguments(parser)
+        parser.add_argument("wanted", nargs="?")
+
+    def main(self, *, args):
+        with NodeStrategy(args) as node:
+            names = [name for name, _ in get_topic_names_and_types(node=node)]
+        if args.wanted and args.wanted not in names:
+            return f"no topic '{args.wanted}'"
+        print(*(name.upper() for name in names))
+'''
+
+OPTION = """
+from launch import LaunchDescription
+from launch.actions import LogInfo
+from ros2launch.option import OptionExtension
+
+
+class SayOption(OptionExtension):
+    def add_arguments(self, parser, cli_name, *, argv=None):
+        parser.add_argument("--say", default="")
+
+    def prelaunch(self, launch_description, args):
+        return (LaunchDescription([LogInfo(msg=f"said {args.say}"), launch_description]),)
+
+    def postlaunch(self, launch_return_code, args):
+        print("ended", launch_return_code)
+"""
+
+
+@pytest.fixture
+def ros2(run, tmp_path):
+    package = tmp_path / "greeting"
+    package.mkdir()
+    for name, text in {
+        "__init__": "",
+        "command": COMMAND,
+        "verbs": VERBS,
+        "option": OPTION,
+    }.items():
+        (package / f"{name}.py").write_text(textwrap.dedent(text))
+    metadata = tmp_path / "greeting-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: greeting\nVersion: 1.0\n")
+    (metadata / "entry_points.txt").write_text(ENTRY_POINTS)
+    environment = {"PYTHONPATH": str(tmp_path), "COLUMNS": "200"}
+
+    def start(*words):
+        program = run(sys.executable, "-c", ROS2, *words, environment=environment)
+        return program.wait(), f"{program.text}\n"
+
+    return start
+
+
+def test_a_command_is_in_the_help_and_runs(ros2):
+    status, shown = ros2("--help")
+    assert status == 0
+    assert "    greet               Greet others\n" in shown
+    assert "Failed to load entry point 'broken': ModuleNotFoundError: No module named" in shown
+    status, shown = ros2("greet")
+    assert status == 0
+    assert "    world               Greet the world\n" in shown
+    assert ros2("greet", "world", "--loud") == (3, "HELLO\n")
+    status, shown = ros2("greet", "wurld")
+    assert status == 2
+    assert "invalid choice: 'wurld'" in shown
+
+
+def test_a_broken_command_is_one_line_and_no_choice(ros2):
+    status, shown = ros2("broken")
+    assert status == 2
+    assert shown.startswith("Failed to load entry point 'broken': ModuleNotFoundError")
+    assert "Traceback" not in shown
+    assert "invalid choice: 'broken'" in shown
+
+
+def test_a_verb_is_added_and_none_is_replaced(ros2):
+    assert "    shout               Shout the names of the topics\n" in ros2("topic", "-h")[1]
+    assert ros2("topic", "shout") == (0, "/PARAMETER_EVENTS /ROSOUT\n")
+    assert ros2("topic", "shout", "/none") == (1, "no topic '/none'\n")
+    assert ros2("topic", "list") == (0, "/parameter_events\n/rosout\n")
+
+
+def test_extensions_are_listed(ros2):
+    status, shown = ros2("extensions", "-v")
+    assert status == 0
+    assert "  greet: Greet others\n    module: greeting.command\n" in shown
+    assert "  shout: Shout the names of the topics\n    module: greeting.verbs\n" in shown
+    assert "  list: List the topics\n    module: ros2cli.commands.topic.list\n" in shown
+
+
+def test_an_option_of_launch(ros2, tmp_path):
+    file = tmp_path / "nothing.launch.xml"
+    file.write_text("<launch/>")
+    assert "--say SAY" in ros2("launch", "-h")[1]
+    status, shown = ros2("launch", "--say", "hello", str(file))
+    assert status == 0
+    assert "said hello" in shown
+    assert shown.endswith("ended 0\n")
