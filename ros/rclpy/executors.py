@@ -89,12 +89,7 @@ class Executor:
         Raises:
             TypeError: It is no node.
         """
-        from .node import Node
-
-        if not isinstance(node, Node):
-            raise TypeError(
-                f"An executor serves nodes, such as Node('name'), not {described(node)}"
-            )
+        node = _node_of(node)
         with self._rclpy_scheduler.lock:
             if node in self._nodes:
                 return False
@@ -106,6 +101,7 @@ class Executor:
 
     def remove_node(self, node: Node) -> None:
         """Serve ``node`` no longer; nothing happens when it does not."""
+        node = _node_of(node)
         with self._rclpy_scheduler.lock:
             if self._nodes.pop(node, None) is None:
                 return
@@ -260,6 +256,20 @@ class Executor:
             self.remove_node(node)
         self._rclpy_scheduler.close()
         return True
+
+
+def _node_of(node: Any) -> Node:
+    """The node, or the one in the attribute ``node``, as the nodes of ros2cli have it.
+
+    Raises:
+        TypeError: It is no node.
+    """
+    from .node import Node
+
+    found = node if isinstance(node, Node) else getattr(node, "node", None)
+    if not isinstance(found, Node):
+        raise TypeError(f"An executor serves nodes, such as Node('name'), not {described(node)}")
+    return found
 
 
 class SingleThreadedExecutor(Executor):

@@ -1,0 +1,253 @@
+"""The functions and classes that programs import from ros2cli's packages."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+
+import pytest
+
+import rclpy
+from ros2cli import direct_node, helpers, plugin_system
+from ros2cli.commands import COMMANDS
+from ros2cli.entry_points import get_entry_points, get_first_line_doc
+from ros2cli.node.daemon import DaemonNode, is_daemon_running, shutdown_daemon, spawn_daemon
+from ros2cli.node.direct import DirectNode
+from ros2cli.node.strategy import NodeStrategy
+
+GROUPS = ["ros2cli.command", "ros2cli.daemon.verb"]
+GROUPS += [f"ros2{name}.verb" for name in COMMANDS if name not in ("daemon", "wtf")]
+
+PEER = """
+import sys, threading
+import rclpy
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.lifecycle import LifecycleNode
+from std_msgs.msg import String
+from std_srvs.srv import Empty
+rclpy.init()
+node = LifecycleNode("peer", namespace="far")
+node.declare_parameter("speed", 2.5, ParameterDescriptor(description="of what"))
+node.create_subscription(String, "words", print, 10)
+node.create_service(Empty, "reset", lambda _, answer: answer)
+publisher = node.create_publisher(String, "/said", 10)
+node.create_timer(0.02, lambda: publisher.publish(String(data="12345678")))
+print("ready", flush=True)
+threading.Thread(target=lambda: (sys.stdin.read(), rclpy.try_shutdown()), daemon=True).start()
+try:
+    rclpy.spin(node)
+except rclpy.executors.ExternalShutdownException:
+    pass
+"""
+
+
+@pytest.fixture
+def peer():
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    process = subprocess.Popen([sys.executable, "-c", PEER], **pipes)
+    assert process.stdout.readline() == b"ready\n"
+    yield "/far/peer"
+    process.communicate(timeout=60)
+
+
+@pytest.fixture(params=[NodeStrategy, DirectNode])
+def node(request, peer):
+    with request.param(None) as node:
+        yield node
+
+
+def test_topics_services_and_nodes(node, peer):
+    from ros2node import api as nodes
+    from ros2service import api as services
+    from ros2topic import api as topics
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    assert nodes.wait_for_node(node, peer, timeout=60.0)
+    assert ("/said", ["std_msgs/msg/String"]) in topics.get_topic_names_and_types(node=node)
+    assert "/far/words" in topics.get_topic_names(node=node)
+    assert topics.get_msg_class(node, "/said", blocking=True) is String
+    assert "/far/reset" in services.get_service_names(node=node)
+    assert services.get_service_class(node, "/far/reset", False) is Empty
+    assert services.get_service_class(node, "/none", False) is None
+    assert nodes.NodeName("peer", "/far", peer) in nodes.get_node_names(node=node)
+    own = {each.name for each in nodes.get_node_names(node=node, include_hidden_nodes=True)}
+    assert node.get_name() in own
+    said = nodes.TopicInfo("/said", ["std_msgs/msg/String"])
+    where = {"node": node, "remote_node_name": peer}
+    # The graph may know a publisher before it knows whose it is.
+    graph = direct_node.DirectNode.around(node)
+    assert graph.wait_for(lambda: said in nodes.get_publisher_info(**where), timeout=60)
+    heard = [each.name for each in nodes.get_subscriber_info(**where)]
+    assert heard == ["/far/words"]
+
+
+def test_parameters_and_states(node, peer):
+    from lifecycle_msgs.msg import Transition
+    from rclpy.parameter import Parameter
+    from ros2lifecycle import api as lifecycle
+    from ros2param import api
+
+    where = {"node": node, "node_name": peer}
+    assert "speed" in api.call_list_parameters(**where).result.names
+    (value,) = api.call_get_parameters(**where, parameter_names=["speed"]).values
+    assert api.get_value(parameter_value=value) == 2.5
+    assert api.get_parameter_type_string(value.type) == "double"
+    new = [Parameter("speed", value=1.0).to_parameter_msg()]
+    assert api.call_set_parameters(**where, parameters=new).results[0].successful
+    (found,) = api.call_describe_parameters(**where, parameter_names=["speed"]).descriptors
+    assert found.description == "of what"
+    assert [each.full_name for each in lifecycle.get_node_names(node=node)] == [peer]
+    states = lifecycle.call_get_states(node=node, node_names=[peer])
+    assert states[peer].label == "unconfigured"
+    configure = Transition(id=Transition.TRANSITION_CONFIGURE)
+    assert lifecycle.call_change_states(node=node, transitions={peer: configure}) == {peer: True}
+    possible = lifecycle.call_get_available_transitions(node=node, states={peer: None})[peer]
+    assert "activate" in [each.transition.label for each in possible]
+
+
+def test_rate_and_bandwidth_of_a_topic(node, capsys):
+    """As rqt_topic uses them: callbacks of a node that the program spins."""
+    from ros2topic.verb.bw import ROSTopicBandwidth
+    from ros2topic.verb.hz import ROSTopicHz
+    from std_msgs.msg import String
+
+    rate, bandwidth = ROSTopicHz(node, 10), ROSTopicBandwidth(node, 10)
+    assert rate.get_hz("/said") is bandwidth.get_bw() is None
+    node.create_subscription(String, "/said", lambda m: rate.callback_hz(m, "/said"), 10)
+    node.create_subscription(String, "/said", bandwidth.callback, 10, raw=True)
+    while len(rate.get_times("/said")) < 9 or bandwidth.get_bw() is None:
+        rclpy.spin_once(node)
+    per_ns, shortest, longest, _, count = rate.get_hz("/said")
+    assert shortest * 0.99 <= 1 / per_ns <= longest * 1.01
+    assert count == 9
+    _, count, mean, least, most = bandwidth.get_bw()
+    assert count > 1
+    assert (mean, least, most) == (20.0, 20, 20)
+    assert rate.get_hz("/said") is None, "nothing came since"
+    rate.callback_hz(String(), "/said")
+    rate.print_hz("/said")
+    assert capsys.readouterr().out.endswith("window: 10\n")
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_every_command_and_verb_has_its_class(group):
+    """Each has ROS 2's base, its line in the help, and defines its command line."""
+    entries = get_entry_points(group)
+    for name, cls in ((name, entry.load()) for name, entry in entries.items()):
+        assert cls.__name__ == f"{name.title().replace('_', '')}{group.split('.')[-1].title()}"
+        extension = cls()
+        assert get_first_line_doc(extension)
+        parser = argparse.ArgumentParser()
+        extension.add_arguments(parser, f"ros2 {name}")
+        with pytest.raises(SystemExit):
+            parser.parse_args(["--no-such-option-of-any-verb"])
+
+
+def test_a_verb_runs_by_its_class(capsys, tmp_path):
+    from ros2pkg.command.pkg import PkgCommand
+    from ros2pkg.verb.prefix import PrefixVerb
+
+    parser = argparse.ArgumentParser()
+    PrefixVerb().add_arguments(parser, "ros2 pkg")
+    assert (
+        PrefixVerb()
+        .main(args=parser.parse_args(["no_such_package"]))
+        .startswith("Package not found")
+    )
+    parser = argparse.ArgumentParser()
+    command = PkgCommand()
+    command.add_arguments(parser, "ros2 pkg", argv=["executables", "turtlesim"])
+    args = parser.parse_args(["executables", "turtlesim"])
+    assert not command.main(parser=parser, args=args)
+    assert "turtlesim turtlesim_node\n" in capsys.readouterr().out
+
+
+def test_there_is_no_daemon():
+    assert not is_daemon_running(None)
+    assert not spawn_daemon(None)
+    assert not shutdown_daemon(None)
+    with DaemonNode(None) as daemon:
+        assert not daemon.connected
+        with pytest.raises(ConnectionRefusedError):
+            assert daemon.methods
+
+
+@pytest.mark.parametrize(
+    ("version", "wanted", "fits"),
+    [
+        ("0.1", "^0.1", True),
+        ("0.1.5", "^0.1", True),
+        ("0.2", "^0.1", False),
+        ("0.0", "^0.1", False),
+        ("1.9", "^1.2", True),
+        ("2.0", "^1.2", False),
+    ],
+)
+def test_versions_of_extensions(version, wanted, fits):
+    if fits:
+        plugin_system.satisfies_version(version, wanted)
+    else:
+        with pytest.raises(plugin_system.PluginException, match=version):
+            plugin_system.satisfies_version(version, wanted)
+
+
+def test_helpers(capsys, monkeypatch):
+    said = []
+    hooked = helpers.before_invocation(lambda word: word.upper(), said.append)
+    assert hooked("a") == "A"
+    assert said == ["a"]
+    helpers.pretty_print_call(test_helpers, 1, name="x")
+    assert capsys.readouterr().out == "test_helpers(1, name='x')\n"
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7")
+    assert helpers.get_ros_domain_id() == 7
+    answers = iter([False, False, True])
+    assert helpers.wait_for(lambda: next(answers), timeout=60, period=0.001)
+    assert not helpers.wait_for(lambda: False, timeout=0)
+
+
+def test_a_program_of_one_command(capsys):
+    from ros2cli.cli import main
+    from ros2interface.command.interface import InterfaceCommand
+
+    assert not main(
+        script_name="interfaces",
+        argv=["proto", "std_msgs/msg/Bool", "--no-quotes"],
+        extension=InterfaceCommand(),
+    )
+    assert capsys.readouterr().out == "data: false\n\n"
+    assert main(argv=["pkg", "prefix", "no_such_package"]) == 1
+
+
+def test_only_this_host_may_call():
+    from ros2cli.xmlrpc.client import ServerProxy
+    from ros2cli.xmlrpc.local_server import LocalXMLRPCServer
+
+    with LocalXMLRPCServer(("127.0.0.1", 0), logRequests=False) as server:
+        import threading
+
+        server.register_function(lambda a, b: a + b, "add")
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        with ServerProxy(f"http://127.0.0.1:{server.server_address[1]}") as proxy:
+            assert proxy.add(2, 3) == 5
+        assert server.verify_request(None, ("127.0.0.1", 1))
+        assert not server.verify_request(None, ("192.0.2.1", 1))
+        server.shutdown()
+        thread.join()
+
+
+def test_qos_of_a_command_line():
+    from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+    from ros2topic.api import add_qos_arguments, qos_profile_from_short_keys
+
+    parser = argparse.ArgumentParser()
+    add_qos_arguments(parser, "subscribe", "sensor_data")
+    args = parser.parse_args(["--qos-durability", "transient_local", "--qos-depth", "3"])
+    profile = qos_profile_from_short_keys(
+        "sensor_data", durability=args.qos_durability, depth=args.qos_depth
+    )
+    assert profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    assert profile.reliability == ReliabilityPolicy.BEST_EFFORT
+    assert profile.depth == 3
