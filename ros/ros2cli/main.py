@@ -70,9 +70,11 @@ def main(argv: list[str] | None = None) -> int:
     try:
         return _run(words)
     except KeyboardInterrupt:
-        if argv is None:
-            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a second one ends it without a word
         return _EXIT_INTERRUPTED
+    finally:
+        if argv is None:
+            # Nothing is left to do: an interrupt ends the process without a word.
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _run(words: list[str]) -> int:
