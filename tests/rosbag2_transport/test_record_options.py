@@ -122,6 +122,37 @@ def test_words_become_options_of_the_storage(words, expected):
 
 
 @pytest.mark.parametrize(
+    ("words", "error", "warning"),
+    [
+        ("", "Need to specify at least one option out of --all, --all-topics, --all-services", ""),
+        ("-a --topics /a", None, "--all or --all-topics will override --topics"),
+        ("-a --topic-types a/msg/B", None, "--all or --all-topics will override --topic-types"),
+        ("-a --services /a", None, "--all or --all-services will override --services"),
+        ("-a -e x", None, "--all, --all-topics or --all-services will override --regex"),
+        ("-a -o {folder}", "Output folder '{folder}' already exists.", ""),
+        (
+            "-a --use-sim-time --no-discovery",
+            "--use-sim-time and --no-discovery both set, but are incompatible settings. The /clock",
+            "",
+        ),
+        (
+            "-a --compression-format zstd",
+            "Invalid choice: Cannot specify compression format without a compression mode.",
+            "",
+        ),
+        ("--services /a --exclude-regex x", "--exclude-regex argument requires either --all", ""),
+        ("--services /a --exclude-services x", "--exclude-services argument requires", ""),
+        ("--topics /a --exclude-topic-types x", "--exclude-topic-types argument requires", ""),
+    ],
+)
+def test_words_that_do_not_fit_together(words, error, warning, tmp_path, capsys):
+    found = record._wrong_combination(parsed(words.format(folder=tmp_path)))
+    assert (found or "").startswith((error or "").format(folder=tmp_path))
+    assert (found is None) == (error is None)
+    assert capsys.readouterr().out == (f"[WARN] [ros2bag]: {warning}\n" if warning else "")
+
+
+@pytest.mark.parametrize(
     ("options", "expected"),
     [
         ({"all_topics": True}, "/a /ab /number /leaf"),
