@@ -5,8 +5,19 @@ from __future__ import annotations
 import pytest
 from tests.bag.conftest import SECOND, START, contents, write_bag
 
-from turtlewire.bag import open_bag
-from turtlewire.errors import BagError
+from turtlewire.bag import BagWriter, open_bag
+from turtlewire.errors import BagError, InterfaceError
+
+
+def test_a_definition_that_cannot_be_parsed_is_named(tmp_path):
+    with BagWriter(tmp_path / "own") as writer:
+        writer.add_topic("/own", "bag_only/msg/Broken", definition=("ros2msg", "int32"))
+        writer.write("/own", bytes(8), 1)
+    with open_bag(tmp_path / "own") as bag:
+        (message,) = bag
+        assert "own_0.mcap: the definition of bag_only/msg/Broken: " in bag.problems[0]
+        with pytest.raises(InterfaceError):
+            message.decode()
 
 
 def test_topics_types_and_times(bag_path):
@@ -53,7 +64,6 @@ def test_a_single_file_is_a_bag(bag_path):
 
 
 def test_messages_are_in_order_of_time_across_overlapping_chunks_and_files(tmp_path):
-    from turtlewire.bag import BagWriter
 
     times = [(7 * i) % 101 for i in range(101)]
     with BagWriter(tmp_path / "mixed", chunk_bytes=200, max_file_bytes=2000) as writer:
@@ -109,7 +119,6 @@ def test_decompressed_copies_are_deleted(tmp_path, monkeypatch):
 
 def test_types_that_only_the_bag_defines(tmp_path):
     from turtlewire import msg
-    from turtlewire.bag import BagWriter
 
     text = (
         "uint8 A=1\nThing[] things\nother_only/Inner inner\n"
@@ -125,7 +134,6 @@ def test_types_that_only_the_bag_defines(tmp_path):
         writer.add_topic("/own", "bag_only/msg/Own", definition=("ros2msg", text))
         writer.write("/own", cdr, 1)
     with open_bag(tmp_path / "own") as bag:
-        bag.learn_types()
         (message,) = bag
         own = message.decode()
     assert own.things[0].name == "hi"

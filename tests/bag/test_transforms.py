@@ -154,6 +154,15 @@ def test_a_window_that_ends_before_it_begins(tmp_path):
         load_trajectory(path, "/tf", start_ns=5, end_ns=4)
 
 
+def test_a_window_beside_the_bag_is_told(tmp_path):
+    path = write_bag(tmp_path / "made")
+    _, report = load_transforms(path, start_ns=START + 100 * SECOND)
+    (problem,) = report.problems
+    assert f"window, from {START + 100 * SECOND} on: the bag covers {START} to " in problem
+    assert load_transforms(path, end_ns=1)[1].problems
+    assert load_transforms(path, start_ns=START + SECOND // 2)[1].problems == []
+
+
 def test_a_pickled_buffer_keeps_its_report(tmp_path):
     import copy
     import pickle

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import make_reader
@@ -182,3 +183,48 @@ def test_messages_and_bytes_are_the_same(tmp_path):
     with open_bag(tmp_path / "made") as bag:
         first, second = (message.data for message in bag)
         assert first == second
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+@pytest.mark.parametrize("version", range(1, 10))
+def test_every_version_of_the_metadata(tmp_path, version, storage):
+    """What a version has no key for is not written, and is read as if it were empty."""
+    path = write_bag(
+        tmp_path / "made",
+        storage=storage,
+        metadata_version=version,
+        ros_distro="jazzy",
+        custom_data={"robot": "r1"},
+        max_file_bytes=5000,
+    )
+    text = (path / "metadata.yaml").read_text()
+    written = yaml.safe_load(text)["rosbag2_bagfile_information"]
+    topics = {
+        each["topic_metadata"]["name"]: each["topic_metadata"]
+        for each in written["topics_with_message_count"]
+    }
+    offered = topics["/tf"].get("offered_qos_profiles")
+    since = {"compression_mode": 3, "files": 5, "custom_data": 6, "ros_distro": 8}
+    assert {key for key in since if key in written} == {k for k, v in since.items() if v <= version}
+    assert ("type_description_hash" in topics["/tf"]) == (version >= 7)
+    assert (offered is None) == (version < 4)
+    if offered is not None:
+        assert isinstance(offered, str) == (version < 9)
+        (profile,) = yaml.safe_load(offered) if version < 9 else offered
+        keep_last = "keep_last" if version > 8 else 1
+        assert (profile["history"], profile["depth"]) == (keep_last, 100)
+    with open_bag(path) as bag:
+        assert (bag.metadata.version, len(bag), len(list(bag))) == (version, 111, 111)
+        assert bag.metadata.custom_data == ({"robot": "r1"} if version >= 6 else {})
+        depths = [qos.depth for qos in bag.topics["/tf"].qos]
+        assert depths == ([100] if version >= 4 else [])
+    with AnyReader([path]) as reader:
+        assert sum(1 for _ in reader.messages()) == 111
+    (path / "metadata.yaml").unlink()  # the QoS in the files is in the same style
+    with open_bag(path) as bag:
+        assert [qos.depth for qos in bag.topics["/tf"].qos] == depths
+
+
+def test_an_unknown_version_of_the_metadata(tmp_path):
+    with pytest.raises(BagError, match="unknown version 10 of the metadata"):
+        BagWriter(tmp_path / "made", metadata_version=10)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.registry import Definition
 
-__all__ = ["ENCODING", "definition_text", "learn_types"]
+__all__ = ["ENCODING", "definition_text", "has_interface", "learn_types"]
 
 ENCODING = "ros2msg"
 
@@ -48,6 +48,15 @@ def learn_types(type_name: str, text: str) -> None:
             raise InterfaceError(f"the definition of {type_name} lacks a line 'MSG: name'")
         _define(_full_name(heading[1]), part[heading.end() :])
     _define(type_name, first)
+
+
+def has_interface(type_name: str) -> bool:
+    """Whether a file defines the type, installed or among ours; nothing is parsed."""
+    try:
+        interface_path(_owner(type_name))
+    except (InterfaceError, ValueError):  # names of damaged bags are no names of types
+        return False
+    return True
 
 
 def _define(full_name: str, text: str) -> None:

@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml, qos_to_yaml
+from turtlewire.bag.qos_yaml import (
+    load_yaml,
+    profiles_from_yaml,
+    profiles_to_text,
+    qos_to_yaml,
+)
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -36,6 +41,16 @@ METADATA_FILE = "metadata.yaml"
 NEWEST_VERSION = 9
 
 _KEY = "rosbag2_bagfile_information"
+#: The version in which each key came, of those that were not there from the start.
+_SINCE = {
+    "compression_format": 3,
+    "compression_mode": 3,
+    "offered_qos_profiles": 4,
+    "files": 5,
+    "custom_data": 6,
+    "type_description_hash": 7,
+    "ros_distro": 8,
+}
 #: The start time that rosbag2 writes while there are no messages.
 _UNKNOWN_START = (1 << 63) - 1
 
@@ -89,7 +104,7 @@ class BagMetadata:
         start_ns: Log time of the oldest message, nanoseconds since 1970; 0 without messages.
         duration_ns: From the oldest to the newest message.
         message_count: Number of all messages.
-        version: Version of the metadata as it was read.
+        version: Version of the metadata, as it was read and as it is written.
         compression_format: ``zstd`` or empty: compression of whole files or single messages.
         compression_mode: ``FILE``, ``MESSAGE`` or empty.
         custom_data: What the user attached.
@@ -184,7 +199,7 @@ def _topic(entry: dict[str, Any]) -> TopicInfo:
 
 
 def write_metadata(folder: str, metadata: BagMetadata) -> None:
-    """Write ``metadata.yaml`` (version 9) into a bag's folder: the whole of it, or nothing.
+    """Write ``metadata.yaml`` into a bag's folder: the whole of it, or nothing.
 
     Raises:
         OSError: The disk is full, for example. A former ``metadata.yaml`` stays as it was.
@@ -203,14 +218,14 @@ def write_metadata(folder: str, metadata: BagMetadata) -> None:
 
 
 def dump_metadata(metadata: BagMetadata) -> str:
-    """The YAML of version 9 without its top key."""
+    """The YAML of the metadata's version without its top key."""
     # yaml-cpp reads an unquoted empty text as null and refuses it, so PyYAML's '' is right here.
     return yaml.dump(_as_yaml(metadata), Dumper=_Dumper, sort_keys=False, width=1 << 20)
 
 
 def _as_yaml(metadata: BagMetadata) -> dict[str, Any]:
-    return {
-        "version": NEWEST_VERSION,
+    content = {
+        "version": metadata.version,
         "storage_identifier": metadata.storage,
         "duration": {"nanoseconds": metadata.duration_ns},
         "starting_time": {
@@ -221,13 +236,7 @@ def _as_yaml(metadata: BagMetadata) -> dict[str, Any]:
         "message_count": metadata.message_count,
         "topics_with_message_count": [
             {
-                "topic_metadata": {
-                    "name": topic.name,
-                    "type": topic.type,
-                    "serialization_format": topic.serialization_format,
-                    "offered_qos_profiles": [qos_to_yaml(qos) for qos in topic.qos],
-                    "type_description_hash": topic.type_hash,
-                },
+                "topic_metadata": _topic_as_yaml(topic, metadata.version),
                 "message_count": topic.message_count,
             }
             for topic in metadata.topics
@@ -247,3 +256,17 @@ def _as_yaml(metadata: BagMetadata) -> dict[str, Any]:
         "custom_data": metadata.custom_data or None,
         "ros_distro": metadata.ros_distro,
     }
+    return {key: value for key, value in content.items() if metadata.version >= _SINCE.get(key, 1)}
+
+
+def _topic_as_yaml(topic: TopicInfo, version: int) -> dict[str, Any]:
+    content: dict[str, Any] = {
+        "name": topic.name,
+        "type": topic.type,
+        "serialization_format": topic.serialization_format,
+        "offered_qos_profiles": profiles_to_text(topic.qos, version)
+        if version < NEWEST_VERSION
+        else [qos_to_yaml(qos, version) for qos in topic.qos],
+        "type_description_hash": topic.type_hash,
+    }
+    return {key: value for key, value in content.items() if version >= _SINCE.get(key, 1)}

@@ -6,16 +6,22 @@ profile uses shows its ``history``, as in rosbag2.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
 
-__all__ = ["load_yaml", "profiles_from_yaml", "qos_to_yaml"]
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from enum import IntEnum
+
+__all__ = ["load_yaml", "profiles_from_yaml", "profiles_to_text", "qos_to_yaml"]
 
 _SECOND = 1_000_000_000
+_QOS_SINCE = 4
+_WORDS_SINCE = 9
 #: Metadata nest five levels.
 _DEEPEST = 50
 #: From this number of seconds on a duration means "infinite": DDS implementations and versions of
@@ -85,16 +91,31 @@ def _profile(profile: dict[str, Any]) -> QoS:
     )
 
 
-def qos_to_yaml(qos: QoS) -> dict[str, Any]:
-    """A profile as metadata version 9 writes it."""
+def profiles_to_text(profiles: Iterable[QoS], version: int) -> str:
+    """Profiles as YAML in a text; an empty one without profiles, and before version 4.
+
+    Args:
+        profiles: What the publishers of a topic offer.
+        version: Of the metadata.
+    """
+    rows = [qos_to_yaml(qos, version) for qos in profiles if version >= _QOS_SINCE]
+    return str(yaml.safe_dump(rows, sort_keys=False)) if rows else ""
+
+
+def qos_to_yaml(qos: QoS, version: int) -> dict[str, Any]:
+    """A profile as this version of the metadata writes it: numbers up to 8, then words."""
+
+    def policy(value: IntEnum) -> str | int:
+        return value.name.lower() if version >= _WORDS_SINCE else int(value)
+
     return {
-        "history": qos.history.name.lower(),
+        "history": policy(qos.history),
         "depth": qos.depth,
-        "reliability": qos.reliability.name.lower(),
-        "durability": qos.durability.name.lower(),
+        "reliability": policy(qos.reliability),
+        "durability": policy(qos.durability),
         "deadline": _seconds(qos.deadline_ns),
         "lifespan": _seconds(qos.lifespan_ns),
-        "liveliness": qos.liveliness.name.lower(),
+        "liveliness": policy(qos.liveliness),
         "liveliness_lease_duration": _seconds(qos.liveliness_lease_ns),
         "avoid_ros_namespace_conventions": qos.avoid_ros_namespace_conventions,
     }

@@ -10,11 +10,11 @@ import weakref
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress, read_zstd_file
-from turtlewire.bag.definitions import learn_types
+from turtlewire.bag.definitions import has_interface, learn_types
 from turtlewire.bag.files import joined, overlapping, storage_files
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata, write_metadata
 from turtlewire.bag.storage import StorageFile, open_storage
-from turtlewire.errors import BagError
+from turtlewire.errors import BagError, InterfaceError
 from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
@@ -61,6 +61,7 @@ class Bag:
         self.problems: list[str] = []
         self._files: dict[str, StorageFile] = {}
         self._scratch: str | None = None
+        self._types_seen: set[str] = set()
         if not os.path.exists(self.path):
             raise FileNotFoundError(f"there is no bag at {self.path}")
         if os.path.isdir(self.path):
@@ -142,7 +143,9 @@ class Bag:
         return found
 
     def learn_types(self) -> None:
-        """Make the message types that only this bag defines known to `turtlewire.msg`.
+        """Make all types that only this bag defines known to `turtlewire.msg`.
+
+        `messages` does that for the types of its messages.
 
         Raises:
             InterfaceError: A definition cannot be parsed.
@@ -201,11 +204,27 @@ class Bag:
         end_ns: int,
         damage: list[BagError],
     ) -> Iterator[BagMessage]:
-        messages = self.file(path).messages(wanted, start_ns, end_ns, damage.append)
+        file = self.file(path)
+        self._learn_unknown_types(file, wanted)
+        messages = file.messages(wanted, start_ns, end_ns, damage.append)
         if self.metadata.compression_mode != "MESSAGE":
             return messages
         unpack = self.metadata.compression_format
         return (message._replace(data=decompress(unpack, message.data)) for message in messages)
+
+    def _learn_unknown_types(self, file: StorageFile, wanted: Callable[[TopicInfo], bool]) -> None:
+        """Make the wanted types known that only the bag defines, so that messages decode."""
+        types = {topic.type for topic in self.metadata.topics if wanted(topic)}
+        unknown = {name for name in types - self._types_seen if not has_interface(name)}
+        self._types_seen |= types
+        if not unknown:
+            return
+        for name, (encoding, text) in file.definitions().items():
+            if name in unknown and encoding == "ros2msg" and text:
+                try:
+                    learn_types(name, text)
+                except InterfaceError as error:
+                    self.problems.append(f"{file.path}: the definition of {name}: {error}")
 
     def _wanted(
         self, topics: set[str] | None, types: set[str] | None

@@ -115,10 +115,19 @@ def fill_buffer(
             for child, steps in walk.steps_back.items():
                 report.steps_back[child] = StepsBack(*steps)
         tell(1.0)
-        report.problems = bag.problems
+        report.problems = bag.problems + _empty_window(bag, start_ns, end_ns)
         report.part_of = bag.part_of
     describe(buffer, report)
     return report
+
+
+def _empty_window(bag: Bag, start_ns: int, end_ns: int) -> list[str]:
+    """A complaint if no message of the bag lies in the window."""
+    if not len(bag) or (start_ns <= bag.end_ns and end_ns >= bag.start_ns):
+        return []
+    asked = f"{start_ns} to {end_ns}" if end_ns < _FOREVER else f"{start_ns} on"
+    covered = f"{bag.start_ns} to {bag.end_ns}"
+    return [f"no message lies in the window, from {asked}: the bag covers {covered}"]
 
 
 def _names(topics: str | Iterable[str]) -> set[str]:

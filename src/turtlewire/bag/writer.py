@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from turtlewire.bag.compression import compress, write_zstd_file
 from turtlewire.bag.definitions import ENCODING, definition_text
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
@@ -18,7 +16,7 @@ from turtlewire.bag.metadata import (
     dump_metadata,
     write_metadata,
 )
-from turtlewire.bag.qos_yaml import qos_to_yaml
+from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import Message, serialize, type_hash
@@ -61,6 +59,7 @@ class BagWriter:
         checksums: Whether chunks of an MCAP file carry a CRC-32.
         custom_data: Texts to keep in the metadata.
         ros_distro: Name of the distribution in the metadata.
+        metadata_version: 1 to 9; those of an older ROS 2 lack keys and write QoS as numbers.
 
     Attributes:
         path: The folder, absolute.
@@ -87,12 +86,17 @@ class BagWriter:
         checksums: bool = True,
         custom_data: dict[str, str] | None = None,
         ros_distro: str = "",
+        metadata_version: int = NEWEST_VERSION,
     ) -> None:
         if storage not in _ENDINGS:
             raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
         if compression_mode == "MESSAGE" and storage == "mcap":
             raise BagError("MCAP files compress chunks, not messages").with_hint(
                 "Give compression='zstd' instead."
+            )
+        if metadata_version not in range(1, NEWEST_VERSION + 1):
+            raise BagError(f"unknown version {metadata_version} of the metadata").with_hint(
+                f"Known are 1 to {NEWEST_VERSION}."
             )
         self.path = os.path.abspath(os.fspath(path))
         self._chunks: dict[str, Any] = {
@@ -112,6 +116,7 @@ class BagWriter:
         self._file_start_ns: int | None = None
         self.metadata = BagMetadata(
             storage,
+            version=metadata_version,
             compression_format="zstd" if compression_mode else "",
             compression_mode=compression_mode,
             custom_data=dict(custom_data or {}),
@@ -283,7 +288,7 @@ class BagWriter:
     def _define(self, file: McapWriter | SqliteWriter, topic: TopicInfo) -> int:
         """Tell a file of a topic; returns its number there."""
         encoding, text = self._definitions[topic.type]
-        qos = _qos_text(topic.qos)
+        qos = profiles_to_text(topic.qos, self.metadata.version)
         if isinstance(file, SqliteWriter):
             file.add_definition(topic.type, encoding, text, topic.type_hash)
             return file.add_topic(topic.name, topic.type, qos, topic.type_hash)
@@ -338,7 +343,7 @@ class BagWriter:
     def _embed(self, file: McapWriter | SqliteWriter, metadata: BagMetadata) -> None:
         text = dump_metadata(metadata)
         if isinstance(file, SqliteWriter):
-            file.write_metadata(NEWEST_VERSION, text)
+            file.write_metadata(metadata.version, text)
         else:
             file.write_metadata("rosbag2", {"serialized_metadata": text})
 
@@ -373,9 +378,3 @@ def _known_hash(type_name: str) -> str:
         return type_hash(type_name)
     except InterfaceError:
         return ""
-
-
-def _qos_text(profiles: Sequence[QoS]) -> str:
-    if not profiles:
-        return ""
-    return yaml.safe_dump([qos_to_yaml(qos) for qos in profiles], sort_keys=False)
