@@ -287,11 +287,11 @@ class Node:
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a topic, remapped unless ``only_expand``."""
-        return self._rclpy_endpoints.resolve_topic(topic, only_expand=only_expand)
+        return self._rclpy_endpoints.names.resolve_topic(topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """The fully qualified name of a service, remapped unless ``only_expand``."""
-        return self._rclpy_endpoints.resolve_service(service, only_expand=only_expand)
+        return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
     # Endpoints
 
@@ -662,35 +662,35 @@ class Node:
         self, callback: Callable[[list[Parameter]], list[Parameter]]
     ) -> None:
         """Have ``callback`` see, and change, the list of parameters before they are checked."""
-        self._parameters.add_pre_set_parameters_callback(callback)
+        self._parameters.callbacks.before.insert(0, callback)
 
     def add_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
         """Have ``callback`` accept or refuse new values."""
-        self._parameters.add_on_set_parameters_callback(callback)
+        self._parameters.callbacks.deciding.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
         """Have ``callback`` told of parameters that were set."""
-        self._parameters.add_post_set_parameters_callback(callback)
+        self._parameters.callbacks.after.insert(0, callback)
 
     def remove_pre_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], list[Parameter]]
     ) -> None:
-        """Undo :meth:`add_pre_set_parameters_callback`."""
-        self._parameters.remove_pre_set_parameters_callback(callback)
+        """Undo :meth:`add_pre_set_parameters_callback`; ValueError when it was not added."""
+        self._parameters.callbacks.before.remove(callback)
 
     def remove_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
-        """Undo :meth:`add_on_set_parameters_callback`."""
-        self._parameters.remove_on_set_parameters_callback(callback)
+        """Undo :meth:`add_on_set_parameters_callback`; ValueError when it was not added."""
+        self._parameters.callbacks.deciding.remove(callback)
 
     def remove_post_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], None]
     ) -> None:
-        """Undo :meth:`add_post_set_parameters_callback`."""
-        self._parameters.remove_post_set_parameters_callback(callback)
+        """Undo :meth:`add_post_set_parameters_callback`; ValueError when it was not added."""
+        self._parameters.callbacks.after.remove(callback)
 
     # The graph
 

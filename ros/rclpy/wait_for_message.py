@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ._node.endpoints import endpoints_of
 from .callback_groups import MutuallyExclusiveCallbackGroup
 from .executors import ExternalShutdownException, SingleThreadedExecutor
 from .task import Future
@@ -42,7 +43,7 @@ def wait_for_message(
     group = (
         MutuallyExclusiveCallbackGroup()
     )  # the node's own may be held by the callback that waits here
-    subscription = node._rclpy_endpoints.make_subscription(
+    subscription = endpoints_of(node).make_subscription(
         msg_type, topic, came.set_result, qos_profile, group
     )
     with SingleThreadedExecutor(context=node.context) as executor:

@@ -439,31 +439,31 @@ def test_callbacks_run_in_order(recorder):
     def after(parameter_list):
         calls.append(("post", parameters.get_parameter("a").value, len(recorder.events)))
 
-    parameters.add_pre_set_parameters_callback(double)
-    parameters.add_on_set_parameters_callback(older)
-    parameters.add_on_set_parameters_callback(newer)
-    parameters.add_post_set_parameters_callback(after)
+    parameters.callbacks.before.insert(0, double)
+    parameters.callbacks.deciding.insert(0, older)
+    parameters.callbacks.deciding.insert(0, newer)
+    parameters.callbacks.after.insert(0, after)
     assert reason(parameters, "a", 5) == ""
     assert calls == ["pre", ("newer", 10, 1), ("older", 10, 1), ("post", 10, 2)]
-    parameters.remove_pre_set_parameters_callback(double)
-    parameters.remove_on_set_parameters_callback(older)
-    parameters.remove_on_set_parameters_callback(newer)
-    parameters.remove_post_set_parameters_callback(after)
+    parameters.callbacks.before.remove(double)
+    parameters.callbacks.deciding.remove(older)
+    parameters.callbacks.deciding.remove(newer)
+    parameters.callbacks.after.remove(after)
     assert reason(parameters, "a", 6) == ""
     assert values(parameters, "a") == [6]
     assert len(calls) == 4
     with pytest.raises(ValueError):
-        parameters.remove_on_set_parameters_callback(older)
+        parameters.callbacks.deciding.remove(older)
 
 
 def test_a_callback_refuses(recorder):
     parameters = recorder.parameters
     asked = []
-    parameters.add_on_set_parameters_callback(
-        lambda parameter_list: asked.append(parameter_list) or OK
+    parameters.callbacks.deciding.insert(
+        0, lambda parameter_list: asked.append(parameter_list) or OK
     )
-    parameters.add_on_set_parameters_callback(
-        lambda _: SetParametersResult(successful=False, reason="not today")
+    parameters.callbacks.deciding.insert(
+        0, lambda _: SetParametersResult(successful=False, reason="not today")
     )
     with pytest.raises(exceptions.InvalidParameterValueException, match="not today"):
         parameters.declare_parameter("a", 1)
@@ -473,7 +473,7 @@ def test_a_callback_refuses(recorder):
 
 
 def test_a_callback_without_an_answer_is_told(parameters):
-    parameters.add_on_set_parameters_callback(lambda _: None)
+    parameters.callbacks.deciding.insert(0, lambda _: None)
     with pytest.raises(
         TypeError, match="it has to return a SetParametersResult, but returned None"
     ):
@@ -482,14 +482,14 @@ def test_a_callback_without_an_answer_is_told(parameters):
 
 def test_a_refusal_without_a_reason_is_a_refusal(parameters):
     parameters.declare_parameter("a", 1)
-    parameters.add_on_set_parameters_callback(lambda _: SetParametersResult(successful=False))
+    parameters.callbacks.deciding.insert(0, lambda _: SetParametersResult(successful=False))
     assert not parameters.set_parameters_atomically([Parameter("a", value=2)]).successful
     assert values(parameters, "a") == [1]
 
 
 def test_a_pre_set_callback_empties_the_list(parameters):
     parameters.declare_parameter("a", 1)
-    parameters.add_pre_set_parameters_callback(lambda _: [])
+    parameters.callbacks.before.insert(0, lambda _: [])
     assert reason(parameters, "a", 2).startswith(
         "parameter list cannot be empty, this might be due to pre_set_parameters_callback"
     )
@@ -503,7 +503,7 @@ def test_a_callback_may_set_other_parameters(parameters):
         if parameter_list[0].name == "a":
             parameters.set_parameters([Parameter("b", value=parameter_list[0].value)])
 
-    parameters.add_post_set_parameters_callback(follow)
+    parameters.callbacks.after.insert(0, follow)
     assert reason(parameters, "a", 9) == ""
     assert values(parameters, "b") == [9]
 

@@ -5,8 +5,13 @@ module                        what it holds
 ============================  ==================================================================
 `core`                        names, wire, context, logger and command line of one node
 `endpoints`                   makes, keeps and closes what a node owns
+`checks`                      checks of callbacks and of the quality of service
+`names`                       full names of topics and services
 `graph`                       other nodes, topics and services
-`parameters`, `declarations`  parameters of a node, with callbacks and events; their declaration
+`declared`, `parameters`      parameters of a node: read and listed; set, with events
+`declarations`                what a declaration of a parameter means
+`callbacks`                   callbacks that see, change and decide about parameters
+`prefixes`                    prefixes of parameters' names
 `descriptors`                 checks a value against its descriptor: ranges, steps, types
 `rosout`                      the publisher of ``/rosout``
 `views`                       what time source and built-in services need of a node

@@ -11,15 +11,14 @@ import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
+from rclpy._node.checks import check_callable, validate_qos
+from rclpy._node.names import NodeNames
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
-from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.guard_condition import GuardCondition
-from rclpy.hints import described, with_hint
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.timer import Rate, Timer
@@ -30,7 +29,6 @@ from rclpy.type_support import (
     type_id,
 )
 from turtlewire.msg import type_name
-from turtlewire.wire import names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,12 +38,19 @@ if TYPE_CHECKING:
     from rclpy._node.parameters import NodeParameters
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
+    from rclpy.qos import QoSProfile
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
 
-__all__ = ["NodeEndpoints", "QosOverrides", "validate_qos"]
+__all__ = ["NodeEndpoints", "QosOverrides", "endpoints_of"]
 
 _Owned = TypeVar("_Owned")
+
+
+def endpoints_of(node: Any) -> NodeEndpoints:
+    """Those of a node, which programs derive from: the attribute is not for them."""
+    endpoints: NodeEndpoints = node._rclpy_endpoints
+    return endpoints
 
 
 class QosOverrides(NamedTuple):
@@ -68,10 +73,12 @@ class NodeEndpoints:
 
     Attributes:
         default_callback_group: Of entities that are made without one.
+        names: The full names of topics and services.
     """
 
     def __init__(self, core: NodeCore) -> None:
         self._core = core
+        self.names = NodeNames(core)
         self._host: tuple[weakref.ref[Host], int] | None = None
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
@@ -105,7 +112,7 @@ class NodeEndpoints:
         """See :meth:`rclpy.node.Node.create_publisher`."""
         profile = validate_qos(qos_profile)
         if overrides is not None:
-            profile = overrides.apply("publisher", profile, lambda: self.resolve_topic(topic))
+            profile = overrides.apply("publisher", profile, lambda: self.names.resolve_topic(topic))
         publisher = self.make_publisher(msg_type, topic, profile, publisher_class)
         self._own_events(
             publisher, topic, event_callbacks or PublisherEventCallbacks(), callback_group
@@ -122,7 +129,7 @@ class NodeEndpoints:
         """A publisher that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
-        name = self.resolve_topic(topic)
+        name = self.names.resolve_topic(topic)
         self._require_context("publisher")
         wire = self._core.wire.create_publisher(
             name, type_id(type_name(msg_type)), profile.to_wire()
@@ -142,7 +149,7 @@ class NodeEndpoints:
     ) -> Subscription:
         """See :meth:`rclpy.node.Node.create_subscription`."""
         profile = validate_qos(qos_profile)
-        profile = overrides.apply("subscription", profile, lambda: self.resolve_topic(topic))
+        profile = overrides.apply("subscription", profile, lambda: self.names.resolve_topic(topic))
         subscription = self.make_subscription(
             msg_type, topic, callback, profile, callback_group, raw
         )
@@ -163,7 +170,7 @@ class NodeEndpoints:
         """A subscription that the caller owns."""
         check_is_valid_msg_type(msg_type)
         profile = validate_qos(qos_profile)
-        name = self.resolve_topic(topic)
+        name = self.names.resolve_topic(topic)
         self._require_context("subscription")
         wire = self._core.wire.create_subscription(
             name, type_id(type_name(msg_type)), profile.to_wire()
@@ -210,7 +217,7 @@ class NodeEndpoints:
     ) -> Client:
         """A client that the caller owns."""
         check_is_valid_srv_type(srv_type)
-        name = self.resolve_service(srv_name)
+        name = self.names.resolve_service(srv_name)
         self._require_context("client")
         wire = self._core.wire.create_client(
             name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
@@ -249,8 +256,8 @@ class NodeEndpoints:
     ) -> Service:
         """A service that the caller owns."""
         check_is_valid_srv_type(srv_type)
-        _check_callable(callback)
-        name = self.resolve_service(srv_name)
+        check_callable(callback)
+        name = self.names.resolve_service(srv_name)
         self._require_context("service")
         wire = self._core.wire.create_service(
             name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
@@ -276,7 +283,7 @@ class NodeEndpoints:
     ) -> Timer:
         """See :meth:`rclpy.node.Node.create_timer`."""
         if callback is not None:
-            _check_callable(callback)
+            check_callable(callback)
         group = callback_group or self.default_callback_group
         period_ns = int(float(period_sec) * 1_000_000_000)
         return self._own(
@@ -381,65 +388,3 @@ class NodeEndpoints:
             everything = [owned for group in self._owned.values() for owned in group]
         for owned in everything:
             owned.destroy()
-
-    def resolve_topic(self, topic: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a topic, remapped unless ``only_expand``.
-
-        Raises:
-            InvalidTopicNameException: The name breaks the rules.
-            ValueError: It has an unknown substitution.
-        """
-        expanded = self._expand(topic, InvalidTopicNameException)
-        if only_expand:
-            return expanded
-        return self._core.arguments.remap_topic(expanded, self._core.name, self._core.namespace)
-
-    def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
-        """The fully qualified name of a service, remapped unless ``only_expand``.
-
-        Raises:
-            InvalidServiceNameException: The name breaks the rules.
-            ValueError: It has an unknown substitution.
-        """
-        expanded = self._expand(service, InvalidServiceNameException)
-        if only_expand:
-            return expanded
-        return self._core.arguments.remap_service(expanded, self._core.name, self._core.namespace)
-
-    def _expand(
-        self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]
-    ) -> str:
-        if not isinstance(name, str):
-            raise TypeError(f"The name of a topic or service is a str, not {described(name)}")
-        fault = names.validate_topic_name(name)
-        if fault is not None:
-            raise error(name, fault.message, fault.invalid_index)
-        expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
-        fault = names.validate_full_topic_name(expanded)
-        if fault is not None:
-            raise error(expanded, fault.message, fault.invalid_index)
-        return expanded
-
-
-def _check_callable(callback: Any) -> None:
-    if not callable(callback):
-        error = TypeError(f"'{type(callback).__name__}' object is not callable")
-        raise with_hint(
-            error, "Pass the function itself (self.callback), not what it returns (self.callback())"
-        )
-
-
-def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:
-    """A profile as it is, a depth as the default profile with that depth.
-
-    Raises:
-        TypeError: It is neither.
-        ValueError: The depth is negative.
-    """
-    if isinstance(qos_or_depth, QoSProfile):
-        return qos_or_depth
-    if isinstance(qos_or_depth, int):
-        if qos_or_depth < 0:
-            raise ValueError("history depth must be greater than or equal to zero")
-        return QoSProfile(depth=qos_or_depth)
-    raise TypeError(f"Expected QoSProfile or int, but received {type(qos_or_depth)!r}")

@@ -8,14 +8,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node import descriptors as rules
+from rclpy._node.callbacks import ParameterCallbacks
 from rclpy._node.declarations import default, new_descriptor, override, read_declaration, yaml_hint
+from rclpy._node.declared import DeclaredParameters
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
     ParameterAlreadyDeclaredException,
     ParameterImmutableException,
     ParameterNotDeclaredException,
-    ParameterUninitializedException,
 )
 from rclpy.hints import described, with_hint
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
     import rcl_interfaces.msg
     from rcl_interfaces.msg import (
-        ListParametersResult,
         ParameterDescriptor,
         ParameterEvent,
         ParameterValue,
@@ -42,7 +42,7 @@ _EMPTY_LIST = (
 )
 
 
-class NodeParameters:
+class NodeParameters(DeclaredParameters):
     """Holds the parameters of a node.
 
     A change goes through these steps, in ROS 2's order: callbacks before it, which may change the
@@ -57,6 +57,9 @@ class NodeParameters:
         allow_undeclared: Whether parameters may be read and set without a declaration.
         now: Gives the stamp of events.
         publish_event: Takes the events.
+
+    Attributes:
+        callbacks: Of the program, which change and decide about what is set.
     """
 
     def __init__(
@@ -69,7 +72,7 @@ class NodeParameters:
         now: Callable[[], Time],
         publish_event: Callable[[ParameterEvent], None],
     ) -> None:
-        self._node_fqn = node_fqn
+        super().__init__(node_fqn, allow_undeclared=allow_undeclared)
         self._overrides = dict(overrides)
         self._of_command_line = self._overrides.keys() - {
             parameter.name for parameter in constructor_overrides or ()
@@ -77,14 +80,9 @@ class NodeParameters:
         self._overrides.update(
             (parameter.name, parameter.value) for parameter in constructor_overrides or ()
         )
-        self._allow_undeclared = allow_undeclared
         self._now = now
         self._publish_event = publish_event
-        self._parameters: dict[str, Parameter] = {}
-        self._descriptors: dict[str, ParameterDescriptor] = {}
-        self._pre_set_callbacks: list[Callable[[list[Parameter]], list[Parameter]]] = []
-        self._on_set_callbacks: list[Callable[[list[Parameter]], SetParametersResult]] = []
-        self._post_set_callbacks: list[Callable[[list[Parameter]], None]] = []
+        self.callbacks = ParameterCallbacks()
 
     # -- declaring
 
@@ -182,95 +180,6 @@ class NodeParameters:
         del self._parameters[name]
         del self._descriptors[name]
 
-    # -- reading
-
-    def has_parameter(self, name: str) -> bool:
-        """Whether a parameter is declared."""
-        return name in self._parameters
-
-    def get_parameter(self, name: str) -> Parameter:
-        """One parameter.
-
-        Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
-                allowed.
-            ParameterUninitializedException: It was declared with a type alone, and was never set.
-        """
-        parameter = self._parameters.get(name)
-        if parameter is None:
-            if self._allow_undeclared:
-                return Parameter(name, Parameter.Type.NOT_SET)
-            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
-        if parameter.type_ is Parameter.Type.NOT_SET and not self._descriptors[name].dynamic_typing:
-            raise ParameterUninitializedException(name)
-        return parameter
-
-    def get_parameters(self, names: list[str]) -> list[Parameter]:
-        """Several parameters; raises as :meth:`get_parameter`."""
-        if not all(isinstance(name, str) for name in names):
-            raise TypeError("All names must be instances of type str")
-        return [self.get_parameter(name) for name in names]
-
-    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """One parameter, or the alternative when it has no value (None: one that is not set)."""
-        parameter = self._parameters.get(name)
-        if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
-            return parameter
-        return (
-            Parameter(name, Parameter.Type.NOT_SET)
-            if alternative_value is None
-            else alternative_value
-        )
-
-    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """The parameters below ``prefix``, by the rest of their names."""
-        start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
-        return {
-            name[len(start) :]: parameter
-            for name, parameter in list(self._parameters.items())
-            if name.startswith(start)
-        }
-
-    def get_parameter_type(self, name: str) -> int:
-        """The number of a parameter's type.
-
-        Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
-                allowed.
-        """
-        if name not in self._parameters and not self._allow_undeclared:
-            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
-        return int(self.get_parameter_or(name).type_.value)
-
-    def get_parameter_types(self, names: list[str]) -> list[int]:
-        """The types of several parameters; raises as :meth:`get_parameter_type`."""
-        if not all(isinstance(name, str) for name in names):
-            raise TypeError("All names must be instances of type str")
-        return [self.get_parameter_type(name) for name in names]
-
-    def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
-        """The names of parameters, and the prefixes that they have.
-
-        Args:
-            prefixes: Names or beginnings of names up to a dot; all parameters if empty.
-            depth: How many levels below a prefix; 0 means all.
-        """
-        from rcl_interfaces.msg import ListParametersResult
-
-        if not isinstance(prefixes, list):
-            raise TypeError("The prefixes argument must be a list")
-        if not all(isinstance(prefix, str) for prefix in prefixes):
-            raise TypeError("All prefixes must be instances of type str")
-        if not isinstance(depth, int):
-            raise TypeError("The depth must be instance of type int")
-        if depth < 0:
-            raise ValueError("The depth must be greater than or equal to zero")
-        names = [name for name in list(self._parameters) if _is_listed(name, prefixes, depth)]
-        parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
-        return ListParametersResult(
-            names=names, prefixes=list(dict.fromkeys(parent for parent in parents if parent))
-        )
-
     # -- setting
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
@@ -294,10 +203,9 @@ class NodeParameters:
         from rcl_interfaces.msg import SetParametersResult
 
         self._check_declared(parameter_list)
-        for callback in list(self._pre_set_callbacks):
-            parameter_list = callback(parameter_list)
-            if not parameter_list:
-                return SetParametersResult(successful=False, reason=_EMPTY_LIST)
+        parameter_list = self.callbacks.changed_list(parameter_list)
+        if self.callbacks.before and not parameter_list:
+            return SetParametersResult(successful=False, reason=_EMPTY_LIST)
         self._check_declared(parameter_list)
         reason = self._set_atomically(parameter_list)
         return SetParametersResult(successful=not reason, reason=reason)
@@ -332,19 +240,12 @@ class NodeParameters:
             )
             if reason:
                 return reason
-        for callback in list(self._on_set_callbacks):
-            result = callback(parameter_list)
-            if result is None:
-                raise TypeError(
-                    f"{callback!r} decides about parameters: it has to return a "
-                    "SetParametersResult, but returned None"
-                )
-            if not result.successful:
-                return result.reason or "refused by a callback, which gave no reason"
+        reason = self.callbacks.refusal(parameter_list)
+        if reason:
+            return reason
         event = self._store(parameter_list, descriptors, declaring=declarations is not None)
         self._publish_event(event)
-        for after in list(self._post_set_callbacks):
-            after(parameter_list)
+        self.callbacks.tell(parameter_list)
         return ""
 
     def _store(
@@ -374,27 +275,6 @@ class NodeParameters:
         return event
 
     # -- describing
-
-    def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """What was declared of a parameter, with its present type; nothing of an undeclared one.
-
-        Raises:
-            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
-                allowed.
-        """
-        descriptor = self._descriptors.get(name)
-        if descriptor is None:
-            if not self._allow_undeclared:
-                raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
-            return new_descriptor()
-        if descriptor.dynamic_typing:
-            descriptor.type = self._parameters[name].type_.value
-        descriptor.name = name
-        return descriptor
-
-    def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Several descriptors; raises as :meth:`describe_parameter`."""
-        return [self.describe_parameter(name) for name in names]
 
     def set_descriptor(
         self,
@@ -438,48 +318,6 @@ class NodeParameters:
         self._descriptors[name] = descriptor
         return self.get_parameter(name).get_parameter_value()
 
-    # -- callbacks
-
-    def add_pre_set_parameters_callback(
-        self, callback: Callable[[list[Parameter]], list[Parameter]]
-    ) -> None:
-        """Call ``callback(parameters)`` before parameters are set.
-
-        What it returns is set instead.
-        """
-        self._pre_set_callbacks.insert(0, callback)
-
-    def add_on_set_parameters_callback(
-        self, callback: Callable[[list[Parameter]], SetParametersResult]
-    ) -> None:
-        """Let ``callback(parameters)`` decide whether parameters are set or declared.
-
-        It is asked before the older ones.
-        """
-        self._on_set_callbacks.insert(0, callback)
-
-    def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        """Call ``callback(parameters)`` after parameters were set or declared."""
-        self._post_set_callbacks.insert(0, callback)
-
-    def remove_pre_set_parameters_callback(
-        self, callback: Callable[[list[Parameter]], list[Parameter]]
-    ) -> None:
-        """Undo :meth:`add_pre_set_parameters_callback`; ValueError when it was not added."""
-        self._pre_set_callbacks.remove(callback)
-
-    def remove_on_set_parameters_callback(
-        self, callback: Callable[[list[Parameter]], SetParametersResult]
-    ) -> None:
-        """Undo :meth:`add_on_set_parameters_callback`; ValueError when it was not added."""
-        self._on_set_callbacks.remove(callback)
-
-    def remove_post_set_parameters_callback(
-        self, callback: Callable[[list[Parameter]], None]
-    ) -> None:
-        """Undo :meth:`add_post_set_parameters_callback`; ValueError when it was not added."""
-        self._post_set_callbacks.remove(callback)
-
     # -- helpers
 
     def _descriptor(self, name: str) -> ParameterDescriptor:
@@ -488,31 +326,3 @@ class NodeParameters:
             descriptor = new_descriptor()
             descriptor.dynamic_typing = True
         return descriptor
-
-    def _hint(self, name: str) -> str:
-        """Which declared name is meant, perhaps."""
-        import difflib
-
-        near = difflib.get_close_matches(name, self._parameters, n=3)
-        known = (
-            f"did you mean {' or '.join(map(repr, near))}?"
-            if near
-            else f"declared are {sorted(self._parameters)}."
-        )
-        return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
-
-
-def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
-    def is_near(rest: str) -> bool:
-        return depth == 0 or rest.count(PARAMETER_SEPARATOR_STRING) < depth
-
-    if not prefixes:
-        return is_near(name)
-    return any(
-        name == prefix
-        or (
-            name.startswith(f"{prefix}{PARAMETER_SEPARATOR_STRING}")
-            and is_near(name[len(prefix) + 1 :])
-        )
-        for prefix in prefixes
-    )

@@ -8,6 +8,7 @@ import weakref
 from typing import TYPE_CHECKING, Any, Generic
 
 from rclpy._execution.futures import call_when_done
+from rclpy._node.endpoints import endpoints_of
 from rclpy._typing import ActionT_co
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -165,7 +166,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         self._goal_client = self._make_client(impl.SendGoalService, "send_goal", goal_qos)
         self._cancel_client = self._make_client(impl.CancelGoalService, "cancel_goal", cancel_qos)
         self._result_client = self._make_client(impl.GetResultService, "get_result", result_qos)
-        subscribe = self._node._rclpy_endpoints.make_subscription
+        subscribe = endpoints_of(self._node).make_subscription
         name, group = f"{self._action_name}/_action", self.callback_group
         self._feedback = subscribe(
             impl.FeedbackMessage,
@@ -192,7 +193,7 @@ class ActionClient(Waitable, Generic[ActionT_co]):
         ]
 
     def _make_client(self, service_type: Any, name: str, qos: QoSProfile) -> Client:
-        return self._node._rclpy_endpoints.make_client(
+        return endpoints_of(self._node).make_client(
             service_type, f"{self._action_name}/_action/{name}", qos, self.callback_group
         )
 

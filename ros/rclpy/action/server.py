@@ -7,6 +7,7 @@ from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rclpy._node.endpoints import endpoints_of
 from rclpy.executors import await_or_execute
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -167,7 +168,7 @@ class ActionServer(Waitable):
         self._result_service = self._make_service(
             impl.GetResultService, "get_result", self._on_result, result_qos
         )
-        endpoints = self._node._rclpy_endpoints
+        endpoints = endpoints_of(self._node)
         self._feedback_publisher = endpoints.make_publisher(
             impl.FeedbackMessage, f"{self._action_name}/_action/feedback", feedback_qos
         )
@@ -189,7 +190,7 @@ class ActionServer(Waitable):
         self, service_type: Any, name: str, callback: Callable[..., Any], qos: QoSProfile
     ) -> Service:
         full_name = f"{self._action_name}/_action/{name}"
-        return self._node._rclpy_endpoints.make_service(
+        return endpoints_of(self._node).make_service(
             service_type, full_name, callback, qos, self.callback_group, _DeferredService
         )
 

@@ -1,0 +1,147 @@
+"""The declared parameters of a node, to be read, listed and described."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rclpy._node.declarations import new_descriptor
+from rclpy._node.prefixes import is_listed, prefixes_of
+from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
+from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor
+
+__all__ = ["DeclaredParameters"]
+
+
+class DeclaredParameters:
+    """Values and descriptors by name; :class:`NodeParameters` changes them.
+
+    Args:
+        node_fqn: Fully qualified name of the node.
+        allow_undeclared: Whether parameters may be read without a declaration.
+    """
+
+    def __init__(self, node_fqn: str, *, allow_undeclared: bool) -> None:
+        self._node_fqn = node_fqn
+        self._allow_undeclared = allow_undeclared
+        self._parameters: dict[str, Parameter] = {}
+        self._descriptors: dict[str, ParameterDescriptor] = {}
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether a parameter is declared."""
+        return name in self._parameters
+
+    def get_parameter(self, name: str) -> Parameter:
+        """One parameter.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
+            ParameterUninitializedException: It was declared with a type alone, and was never set.
+        """
+        parameter = self._parameters.get(name)
+        if parameter is None:
+            if self._allow_undeclared:
+                return Parameter(name, Parameter.Type.NOT_SET)
+            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+        if parameter.type_ is Parameter.Type.NOT_SET and not self._descriptors[name].dynamic_typing:
+            raise ParameterUninitializedException(name)
+        return parameter
+
+    def get_parameters(self, names: list[str]) -> list[Parameter]:
+        """Several parameters; raises as :meth:`get_parameter`."""
+        if not all(isinstance(name, str) for name in names):
+            raise TypeError("All names must be instances of type str")
+        return [self.get_parameter(name) for name in names]
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        """One parameter, or the alternative when it has no value (None: one that is not set)."""
+        parameter = self._parameters.get(name)
+        if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
+            return parameter
+        return (
+            Parameter(name, Parameter.Type.NOT_SET)
+            if alternative_value is None
+            else alternative_value
+        )
+
+    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
+        """The parameters below ``prefix``, by the rest of their names."""
+        start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
+        return {
+            name[len(start) :]: parameter
+            for name, parameter in list(self._parameters.items())
+            if name.startswith(start)
+        }
+
+    def get_parameter_type(self, name: str) -> int:
+        """The number of a parameter's type.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
+        """
+        if name not in self._parameters and not self._allow_undeclared:
+            raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+        return int(self.get_parameter_or(name).type_.value)
+
+    def get_parameter_types(self, names: list[str]) -> list[int]:
+        """The types of several parameters; raises as :meth:`get_parameter_type`."""
+        if not all(isinstance(name, str) for name in names):
+            raise TypeError("All names must be instances of type str")
+        return [self.get_parameter_type(name) for name in names]
+
+    def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
+        """The names of parameters, and the prefixes that they have.
+
+        Args:
+            prefixes: Names or beginnings of names up to a dot; all parameters if empty.
+            depth: How many levels below a prefix; 0 means all.
+        """
+        from rcl_interfaces.msg import ListParametersResult
+
+        if not isinstance(prefixes, list):
+            raise TypeError("The prefixes argument must be a list")
+        if not all(isinstance(prefix, str) for prefix in prefixes):
+            raise TypeError("All prefixes must be instances of type str")
+        if not isinstance(depth, int):
+            raise TypeError("The depth must be instance of type int")
+        if depth < 0:
+            raise ValueError("The depth must be greater than or equal to zero")
+        names = [name for name in list(self._parameters) if is_listed(name, prefixes, depth)]
+        return ListParametersResult(names=names, prefixes=prefixes_of(names))
+
+    def describe_parameter(self, name: str) -> ParameterDescriptor:
+        """What was declared of a parameter, with its present type; nothing of an undeclared one.
+
+        Raises:
+            ParameterNotDeclaredException: There is none of that name, and undeclared ones are not
+                allowed.
+        """
+        descriptor = self._descriptors.get(name)
+        if descriptor is None:
+            if not self._allow_undeclared:
+                raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
+            return new_descriptor()
+        if descriptor.dynamic_typing:
+            descriptor.type = self._parameters[name].type_.value
+        descriptor.name = name
+        return descriptor
+
+    def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
+        """Several descriptors; raises as :meth:`describe_parameter`."""
+        return [self.describe_parameter(name) for name in names]
+
+    def _hint(self, name: str) -> str:
+        """Which declared name is meant, perhaps."""
+        import difflib
+
+        near = difflib.get_close_matches(name, self._parameters, n=3)
+        known = (
+            f"did you mean {' or '.join(map(repr, near))}?"
+            if near
+            else f"declared are {sorted(self._parameters)}."
+        )
+        return f"Parameter {name!r} of {self._node_fqn} is not declared: {known}"
