@@ -53,10 +53,12 @@ def main(extras: list[str]) -> None:
     if not missing(extras)[1]:
         return
     lock = wait_for_turn()
-    stamp, wanted = missing(extras)
-    if wanted:
-        bring_up_to_date(stamp, wanted)
-    os.close(lock)
+    try:
+        stamp, wanted = missing(extras)
+        if wanted:
+            bring_up_to_date(stamp, wanted)
+    finally:
+        os.close(lock)
 
 
 def parse_extras(arguments: list[str]) -> list[str]:

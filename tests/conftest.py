@@ -72,8 +72,25 @@ BROWSER_FLAGS = [
     "--disable-sync",
 ]
 
-# Runs a command in a terminal; what comes from its own input is typed there.
-IN_TERMINAL = "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))"
+# Runs a command in a terminal; what comes from its own input is typed there. Not with `pty.spawn`:
+# it closes the terminal when Ctrl-C discards output that it is about to read.
+IN_TERMINAL = """
+import os, pty, sys, threading
+pid, terminal = pty.fork()
+if pid == 0:
+    os.execvp(sys.argv[1], sys.argv[1:])
+def type_keys():
+    while keys := os.read(0, 1024):
+        os.write(terminal, keys)
+threading.Thread(target=type_keys, daemon=True).start()
+while True:
+    try:
+        shown = os.read(terminal, 1024)
+    except OSError:  # the command has ended
+        break
+    os.write(1, shown)
+os._exit(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) & 255)
+"""
 
 
 class Program:

@@ -108,13 +108,15 @@ two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
   rclpy/test_init_shutdown.py test_a_spin_within_a_callback_leaves_the_node_where_it_was
 messages without a subscription are encoded all the same
   rclpy/test_topics.py test_what_is_not_encoded_while_nobody_listens
+a client drops the feedback that it has not handled when it gets the result
+  rclpy/test_actions.py test_no_feedback_that_was_sent_after_the_result
 a cancel request whose goals all refuse is answered `ERROR_NONE`
   rclpy/test_actions.py test_a_refused_cancelling
 content filters of subscriptions work with `rmw_fastrtps_cpp`
   rclpy/test_surface.py test_a_subscription_says_that_nothing_is_filtered
 
-Python sees one `ExtrapolationException`
-  tf/test_buffer.py test_classes
+`ExtrapolationException` has a text alone
+  tf/test_errors.py test_attributes
 rotations closer than about 1.5e-8 rad hold the older one between samples
   tf/test_agreement.py test_interpolation_moves_at_one_speed
 values of one stamp are stored without limit

@@ -84,6 +84,8 @@ def test_a_missing_network_is_one_line(setup, monkeypatch, capfd):
     *_, said = capfd.readouterr().err.splitlines()
     assert said.startswith("[setup] no network: ")
     assert "Retrying" not in said
+    monkeypatch.setattr(setup, "pip", lambda *_words: None)
+    assert setup.run([]) == 0  # the folder is not locked any more
 
 
 def test_warnings_of_a_pip_that_succeeds_are_not_shown(setup, capfd):
