@@ -191,6 +191,8 @@ def main() -> int:
         f"[soak] {arguments.minutes:g} minutes; what the processes say goes to {log_path}",
         flush=True,
     )
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # of a shell that started it with "&"
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # or its children would ignore it
     with isolated_domain(), log_path.open("w") as log:
         return soak(arguments.minutes * 60, log, log_path)
 

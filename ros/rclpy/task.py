@@ -288,5 +288,6 @@ _steps = _Steps()
 
 def _running_asyncio_loop() -> Any:
     """The asyncio loop that runs in this thread, if any; never imports asyncio."""
-    asyncio = sys.modules.get("asyncio")
-    return None if asyncio is None else asyncio._get_running_loop()
+    # While another thread imports asyncio, this one runs no loop and the module is not complete.
+    running_loop = getattr(sys.modules.get("asyncio"), "_get_running_loop", None)
+    return None if running_loop is None else running_loop()

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import sys
 import threading
+import types
 
 import pytest
 
@@ -164,6 +166,17 @@ def test_a_bare_yield_runs_again_in_the_next_cycle(executor):
 
     task = executor.create_task(three_steps)
     executor.spin_until_future_complete(task, timeout_sec=60)
+    assert task.result() == "end"
+
+
+def test_a_task_runs_while_another_thread_imports_asyncio(executor, monkeypatch):
+    async def end():
+        return "end"
+
+    task = executor.create_task(end)
+    with monkeypatch.context() as patch:
+        patch.setitem(sys.modules, "asyncio", types.ModuleType("asyncio"))  # its first moment
+        executor.spin_until_future_complete(task, timeout_sec=60)
     assert task.result() == "end"
 
 
