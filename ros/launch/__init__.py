@@ -54,8 +54,11 @@ from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_introspector import LaunchIntrospector
 from launch.launch_service import LaunchService
 from launch.some_actions_type import SomeActionsType
-from launch.some_entities_type import SomeEntitiesType
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType,
+    SomeSubstitutionsType_types_tuple,
+)
 from launch.substitution import Substitution
 
 __all__ = [
@@ -73,7 +76,9 @@ __all__ = [
     "LaunchService",
     "SomeActionsType",
     "SomeEntitiesType",
+    "SomeEntitiesType_types_tuple",
     "SomeSubstitutionsType",
+    "SomeSubstitutionsType_types_tuple",
     "Substitution",
     "actions",
     "conditions",

@@ -26,24 +26,24 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self._condition = condition
 
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+    @staticmethod
+    def parse(entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """Read the attributes that all actions in XML and YAML have: ``if`` and ``unless``."""
         if_text = entity.get_attr("if", optional=True)
         unless_text = entity.get_attr("unless", optional=True)
         if if_text is not None and unless_text is not None:
             raise RuntimeError("if and unless conditions can't be used simultaneously")
         if if_text is not None:
-            return cls, {
+            return Action, {
                 "condition": IfCondition(predicate_expression=parser.parse_substitution(if_text))
             }
         if unless_text is not None:
-            return cls, {
+            return Action, {
                 "condition": UnlessCondition(
                     predicate_expression=parser.parse_substitution(unless_text)
                 )
             }
-        return cls, {}
+        return Action, {}
 
     @property
     def condition(self) -> Condition | None:
@@ -69,8 +69,20 @@ class Action(LaunchDescriptionEntity):
             self._announce_completion(context)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Take effect; the returned entities are visited next."""
-        raise NotImplementedError(f"{type(self).__name__} does not define execute()")
+        """Take effect; the returned entities are visited next. Subclasses define it.
+
+        An action that does not has no effect.
+        """
+        del context
+        return None
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Entities that belong to it: what its visit always returns."""
+        return []
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The same, for inspection without running."""
+        return self.get_sub_entities()
 
     def _announce_completion(self, context: LaunchContext) -> None:
         event = ExecutionComplete(action=self)

@@ -19,6 +19,10 @@ class Condition:
         self._predicate = predicate
         self._last_result: bool | None = None
 
+    def describe(self) -> str:
+        """The text that stands for it in descriptions."""
+        return repr(self)
+
     def evaluate(self, context: LaunchContext) -> bool:
         """Evaluate it now; a condition without a predicate is true."""
         self._last_result = self._predicate is None or bool(self._predicate(context))

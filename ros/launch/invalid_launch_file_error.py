@@ -18,9 +18,11 @@ class InvalidLaunchFileError(Exception):
         likely_errors: What the loaders raised, the most likely one first.
     """
 
-    def __init__(self, extension: str = "", *, likely_errors: Sequence[BaseException] = ()) -> None:
+    def __init__(
+        self, extension: str = "", *, likely_errors: Sequence[BaseException] | None = None
+    ) -> None:
         self.extension = extension.removeprefix(".")
-        self.likely_errors = list(likely_errors)
+        self.likely_errors = list(likely_errors or ())
         super().__init__(str(self))
 
     def __str__(self) -> str:

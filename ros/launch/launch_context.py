@@ -162,6 +162,6 @@ class LaunchContext:
         """All locals, as attributes: ``context.locals.event``."""
         return _Locals(self.get_locals_as_dict())
 
-    def perform_substitution(self, sub: Performable[LaunchContext]) -> str:
+    def perform_substitution(self, substitution: Performable[LaunchContext]) -> str:
         """The text of a substitution, here and now."""
-        return sub.perform(self)
+        return substitution.perform(self)

@@ -56,8 +56,9 @@ class LaunchDescription(LaunchDescriptionEntity):
         """Append an action."""
         self.add_entity(action)
 
-    def visit(self, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the entities."""
+        del context
         if self._deprecated_reason is not None:
             logging.get_logger().warning(
                 "This LaunchDescription is deprecated: %s",

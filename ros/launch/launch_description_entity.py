@@ -21,6 +21,10 @@ class LaunchDescriptionEntity:
         """Take effect; the returned entities are visited next."""
         raise NotImplementedError(f"{type(self).__name__} does not define visit()")
 
+    def describe(self) -> str:
+        """The text that stands for it in descriptions."""
+        return repr(self)
+
     @property
     def launch_argument(self) -> LaunchArgument | None:
         """The launch argument that it declares, or None."""

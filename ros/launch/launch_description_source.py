@@ -28,13 +28,11 @@ class LaunchDescriptionSource:
     def __init__(
         self,
         launch_description: LaunchDescription | None = None,
-        location: SomeSubstitutionsType | None = None,
+        location: SomeSubstitutionsType = "<string>",
         method: str = "unspecified mechanism from a script",
     ) -> None:
         self._launch_description = launch_description
-        self._location: list[Substitution] = normalize_to_list_of_substitutions(
-            "" if location is None else location
-        )
+        self._location: list[Substitution] = normalize_to_list_of_substitutions(location)
         self._expanded_location: str | None = None
         self._method = method
 

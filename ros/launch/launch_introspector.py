@@ -21,6 +21,8 @@ __all__ = [
     "format_entities",
     "format_event_handler",
     "format_substitutions",
+    "indent",
+    "tree_like_indent",
 ]
 
 
@@ -84,6 +86,16 @@ def format_event_handler(event_handler: BaseEventHandler) -> list[str]:
     """A handler, with the entities that it returns."""
     text, entities = event_handler.describe()
     return [text, *_indented(format_entities(entities))]
+
+
+def indent(lines: Iterable[str], indention: str = "    ") -> list[str]:
+    """The lines, each behind an indention."""
+    return [f"{indention}{line}" for line in lines]
+
+
+def tree_like_indent(lines: list[str]) -> list[str]:
+    """The lines of one level, with the branches that lead to them."""
+    return _indented(lines)
 
 
 def _conditional(action: Action) -> list[str]:

@@ -6,7 +6,10 @@ from collections.abc import Iterable
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
-__all__ = ["SomeEntitiesType"]
+__all__ = ["SomeEntitiesType", "SomeEntitiesType_types_tuple"]
 
 #: One entity or several.
 SomeEntitiesType = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity]
+
+#: The same for ``isinstance``.
+SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)

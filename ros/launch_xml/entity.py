@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
+from xml.etree.ElementTree import Element
 
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import coerce, is_entity_list, list_item_type
-
-if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element
 
 __all__ = ["Entity"]
 
@@ -17,11 +15,13 @@ class Entity(BaseEntity):
     """An XML element of a launch file.
 
     Args:
-        xml_element: The element.
+        xml_element: The element; None makes an empty root.
         parent: The element it is in.
     """
 
-    def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
+    def __init__(self, xml_element: Element | None = None, *, parent: Entity | None = None) -> None:
+        if xml_element is None:
+            xml_element = Element("launch")
         self._element = xml_element
         self.line = getattr(xml_element, "line", 0)
         self._parent = parent

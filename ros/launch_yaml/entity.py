@@ -15,12 +15,16 @@ class Entity(BaseEntity):
 
     Args:
         element: The mapping or list.
-        type_name: The name.
+        type_name: The name; None if ``element`` maps it to the element.
         parent: The element it is in.
     """
 
-    def __init__(self, element: Any, type_name: str, *, parent: Entity | None = None) -> None:
-        self._type_name = type_name
+    def __init__(
+        self, element: Any, type_name: str | None = None, *, parent: Entity | None = None
+    ) -> None:
+        if type_name is None:  # the mapping of one name to its element
+            ((type_name, element),) = element.items()
+        self._type_name = str(type_name)
         self._element = element
         self._parent = parent
         self._read_keys: set[str] = set()

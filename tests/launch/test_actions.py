@@ -35,7 +35,12 @@ from launch.actions import (
 )
 from launch.event_handlers import OnShutdown
 from launch.events import Shutdown as ShutdownEvent
-from launch.substitutions import EnvironmentVariable, LaunchConfiguration, LocalSubstitution
+from launch.substitutions import (
+    EnvironmentVariable,
+    LaunchConfiguration,
+    LocalSubstitution,
+    PythonExpression,
+)
 
 COLOUR = LaunchConfiguration("colour", default="none")
 
@@ -166,7 +171,11 @@ def test_a_required_argument_that_is_missing(launch):
 
 
 def test_choices(launch):
-    argument = DeclareLaunchArgument("colour", choices=["red", "green"], default_value="blue")
+    colours = ["red", "green"]
+    with pytest.raises(ValueError, match='default_value "blue" is not in provided choices'):
+        DeclareLaunchArgument("colour", choices=colours, default_value="blue")
+    blue = PythonExpression("'blue'")
+    argument = DeclareLaunchArgument("colour", choices=colours, default_value=blue)
     assert argument.description == "One of: ['red', 'green']"
     assert (
         launch(argument).error

@@ -101,7 +101,9 @@ def test_logic(context):
     assert AnySubstitution().perform(context) == "false"
     assert AllSubstitution("1", "true").perform(context) == "true"
     assert AllSubstitution("1", "0").perform(context) == "false"
-    with pytest.raises(SubstitutionFailure, match="invalid condition expression"):
+    assert AllSubstitution("yes", "on", "True").perform(context) == "true"
+    assert AnySubstitution("no", "off").perform(context) == "false"
+    with pytest.raises(SubstitutionFailure, match="Failed to convert 'perhaps' to 'bool'"):
         NotSubstitution("perhaps").perform(context)
 
 
@@ -120,8 +122,11 @@ def test_python_expression(context):
     )
     assert PythonExpression(["os.sep.join(['a'])"], python_modules=["os"]).perform(context) == "a"
     assert PythonExpression("1 +").describe() == "PythonExpr('1 +', ['math'])"
-    with pytest.raises(SubstitutionFailure, match="division by zero"):
+    with pytest.raises(ZeroDivisionError):
         PythonExpression("1 / 0").perform(context)
+    with pytest.raises(NameError, match="name 'missing' is not defined") as caught:
+        PythonExpression("missing + 1").perform(context)
+    assert caught.value.hint == "It was raised by the Python expression 'missing + 1'."
 
 
 def test_command(context, capsys):

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["AppendEnvironmentVariable"]
 
@@ -59,6 +60,16 @@ class AppendEnvironmentVariable(SetVariableAction):
         if separator is not None:
             kwargs["separator"] = parser.parse_substitution(separator)
         return cls, kwargs
+
+    @property
+    def prepend(self) -> list[Substitution]:
+        """Whether the value comes before the others, as text."""
+        return self._prepend
+
+    @property
+    def separator(self) -> list[Substitution]:
+        """What stands between values."""
+        return self._separator
 
     def variables(self, context: LaunchContext) -> MutableMapping[str, str]:
         """The environment of this process, which its children inherit."""

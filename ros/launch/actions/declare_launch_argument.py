@@ -9,6 +9,7 @@ from launch.action import Action
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -56,6 +57,7 @@ class DeclareLaunchArgument(Action):
             raise ValueError(
                 "Provided choices are empty. Please provide at least one choice or omit them."
             )
+        _refuse_default_outside(self._default_value, self._choices)
         self._description = _described(description, self._choices)
         self.conditionally_included = False
 
@@ -131,6 +133,17 @@ class DeclareLaunchArgument(Action):
             )
             self._logger.error("%s", message)
             raise RuntimeError(message)
+
+
+def _refuse_default_outside(default: list[Substitution] | None, choices: list[str] | None) -> None:
+    """A default that is plain text is checked at once, others when they are known."""
+    if choices is None or default is None:
+        return
+    texts = [part.text for part in default if isinstance(part, TextSubstitution)]
+    if len(texts) == len(default) and "".join(texts) not in choices:
+        raise ValueError(
+            f'Provided default_value "{"".join(texts)}" is not in provided choices "{choices}".'
+        )
 
 
 def _described(description: str | None, choices: list[str] | None) -> str:

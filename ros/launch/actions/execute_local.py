@@ -325,7 +325,7 @@ class ExecuteLocal(ProcessAction):
         if isinstance(event, SignalProcess):
             self._send_signal(event.signal)
         elif isinstance(event, ShutdownProcess):
-            self._begin_stop(context, send_sigint=True)
+            self._shutdown_process(context, send_sigint=True)
         elif isinstance(event, ProcessStdin) and self._process is not None:
             self._process.write(event.text)
 
@@ -362,9 +362,11 @@ class ExecuteLocal(ProcessAction):
 
     def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
         # At Ctrl-C a terminal has sent SIGINT to its whole process group already.
-        self._begin_stop(context, send_sigint=not event.due_to_sigint or context.noninteractive)
+        self._shutdown_process(
+            context, send_sigint=not event.due_to_sigint or context.noninteractive
+        )
 
-    def _begin_stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
+    def _shutdown_process(self, context: LaunchContext, *, send_sigint: bool) -> None:
         assert self._shutting_down is not None
         if not self._shutting_down.is_set():
             self._shutting_down.set()

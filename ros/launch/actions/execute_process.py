@@ -58,7 +58,7 @@ class ExecuteProcess(ExecuteLocal):
 
     @classmethod
     def parse(
-        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
     ) -> tuple[type[ExecuteProcess], dict[str, Any]]:
         """Read an ``executable`` element.
 
@@ -67,6 +67,7 @@ class ExecuteProcess(ExecuteLocal):
             parser: Reads its substitutions.
             ignore: Attributes that a subclass reads itself.
         """
+        ignore = tuple(ignore or ())
         _, kwargs = super().parse(entity, parser)
         if "cmd" not in ignore:
             kwargs["cmd"] = split_command_line(parser.parse_substitution(entity.get_attr("cmd")))
@@ -99,9 +100,10 @@ class ExecuteProcess(ExecuteLocal):
         return cls, kwargs
 
     @property
-    def name(self) -> list[Substitution] | None:
-        """Names the process."""
-        return self.process_description.name
+    def name(self) -> str | list[Substitution] | None:
+        """The unique name of the process; before its start what was given, or None."""
+        final_name = self.process_description.final_name
+        return self.process_description.name if final_name is None else final_name
 
     @property
     def cmd(self) -> list[list[Substitution]]:

@@ -10,7 +10,10 @@ from launch.actions.pop_launch_configurations import PopLaunchConfigurations
 from launch.actions.push_environment import PushEnvironment
 from launch.actions.push_launch_configurations import PushLaunchConfigurations
 from launch.actions.reset_environment import ResetEnvironment
-from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from launch.actions.reset_launch_configurations import (
+    ResetLaunchConfigurations,
+    kept_configurations,
+)
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.frontend.expose import expose_action
 
@@ -62,28 +65,20 @@ class GroupAction(Action):
             value = entity.get_attr(attribute, data_type=bool, optional=True)
             if value is not None:
                 kwargs[attribute] = value
-        kept = [child for child in entity.children if child.type_name == "keep"]
-        if kept:
-            kwargs["launch_configurations"] = {
-                tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(
-                    child.get_attr("value")
-                )
-                for child in kept
-            }
+        if (kept := kept_configurations(entity, parser)) is not None:
+            kwargs["launch_configurations"] = kept
         kwargs["actions"] = [
             parser.parse_action(child) for child in entity.children if child.type_name != "keep"
         ]
         return cls, kwargs
 
-    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The actions."""
-        return self._sub_entities()
-
-    def execute(self, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, between those that begin and end the scope."""
-        return self._sub_entities()
+        del context
+        return self.get_sub_entities()
 
-    def _sub_entities(self) -> list[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The actions, between those that begin and end the scope."""
         settings = [
             SetLaunchConfiguration(name, value)
             for name, value in self._launch_configurations.items()

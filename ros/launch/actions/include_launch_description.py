@@ -95,7 +95,7 @@ class IncludeLaunchDescription(Action):
         """Name the file."""
         return f"IncludeLaunchDescription({self._source.location})"
 
-    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """The included description, when it can be read without a running launch."""
         description = self._source.try_get_launch_description_without_context()
         return [] if description is None else [description]

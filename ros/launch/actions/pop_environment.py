@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
+    from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
 __all__ = ["PopEnvironment"]
@@ -16,6 +17,12 @@ __all__ = ["PopEnvironment"]
 @expose_action("pop_env")
 class PopEnvironment(Action):
     """Restores the environment variables that were remembered last."""
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PopEnvironment], dict[str, Any]]:
+        """Read an element of its name."""
+        _, kwargs = super().parse(entity, parser)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Restore them."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
+    from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
 __all__ = ["PushLaunchConfigurations"]
@@ -16,6 +17,14 @@ __all__ = ["PushLaunchConfigurations"]
 @expose_action("push_launch_configurations")
 class PushLaunchConfigurations(Action):
     """Remembers the launch configurations."""
+
+    @classmethod
+    def parse(
+        cls, entity: Entity, parser: Parser
+    ) -> tuple[type[PushLaunchConfigurations], dict[str, Any]]:
+        """Read an element of its name."""
+        _, kwargs = super().parse(entity, parser)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Remember them."""

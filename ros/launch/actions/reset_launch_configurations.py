@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from launch.frontend import Entity, Parser
+    from launch.frontend import Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
-__all__ = ["ResetLaunchConfigurations"]
+__all__ = ["ResetLaunchConfigurations", "kept_configurations"]
 
 
 @expose_action("reset")
@@ -42,13 +45,8 @@ class ResetLaunchConfigurations(Action):
     ) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
         """Read a ``reset`` element with ``keep`` children."""
         _, kwargs = super().parse(entity, parser)
-        kwargs["launch_configurations"] = {
-            tuple(parser.parse_substitution(child.get_attr("name"))): parser.parse_substitution(
-                child.get_attr("value")
-            )
-            for child in entity.children
-            if child.type_name == "keep"
-        }
+        if (kept := kept_configurations(entity, parser)) is not None:
+            kwargs["launch_configurations"] = kept
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
@@ -61,3 +59,20 @@ class ResetLaunchConfigurations(Action):
         }
         context.launch_configurations.clear()
         context.launch_configurations.update(kept)
+
+
+def kept_configurations(entity: Entity, parser: Parser) -> dict[Any, list[Substitution]] | None:
+    """The configurations of ``keep`` children in XML, or of the list ``keep`` in YAML; or None."""
+    kept = entity.get_attr("keep", data_type=list[Entity], optional=True)
+    if kept is None:
+        # A list in YAML has them among its elements; an empty mapping has no elements.
+        with contextlib.suppress(ValueError):
+            kept = [child for child in entity.children if child.type_name == "keep"]
+    if not kept:
+        return None
+    configurations: dict[Any, list[Substitution]] = {}
+    for child in kept:
+        name = tuple(parser.parse_substitution(child.get_attr("name")))
+        configurations[name] = parser.parse_substitution(child.get_attr("value"))
+        child.assert_entity_completely_parsed()
+    return configurations

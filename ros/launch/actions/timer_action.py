@@ -100,7 +100,8 @@ class TimerAction(Action):
             return
         loop = context.asyncio_loop
         self._completed = loop.create_future()
-        context.register_event_handler(EventHandler(matcher=self._is_mine, entities=self._actions))
+        handler = EventHandler(matcher=self._is_mine, entities=lambda _, inner: self.handle(inner))
+        context.register_event_handler(handler)
         context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
         self._timer = self._start_time(context, loop)
 
@@ -119,6 +120,11 @@ class TimerAction(Action):
             self._timer.cancel()
         if self._completed is not None and not self._completed.done():
             self._completed.set_result(None)
+
+    def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the actions; called when the time is over."""
+        del context
+        return self._actions
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when the time is over or the timer is cancelled."""

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.substitution import Substitution
 
-__all__ = ["evaluate_condition_expression"]
+__all__ = ["VALID_FALSE_EXPRESSIONS", "VALID_TRUE_EXPRESSIONS", "evaluate_condition_expression"]
 
-_TRUE = ("true", "1")
-_FALSE = ("false", "0")
+VALID_TRUE_EXPRESSIONS = ["true", "1"]
+VALID_FALSE_EXPRESSIONS = ["false", "0"]
 
 
 def evaluate_condition_expression(
@@ -31,12 +31,11 @@ def evaluate_condition_expression(
     Raises:
         InvalidConditionExpressionError: The text is something else.
     """
+    expression = list(expression)
     text = perform_substitutions(context, expression).strip().lower()
-    if text in _TRUE:
+    if text in VALID_TRUE_EXPRESSIONS:
         return True
-    if text in _FALSE:
+    if text in VALID_FALSE_EXPRESSIONS:
         return False
-    raise InvalidConditionExpressionError(
-        f"invalid condition expression, expected one of '{'|'.join(_TRUE)}' or "
-        f"'{'|'.join(_FALSE)}' but got '{text}'"
-    )
+    valid = ["|".join(VALID_TRUE_EXPRESSIONS), "|".join(VALID_FALSE_EXPRESSIONS)]
+    raise InvalidConditionExpressionError(text, expression, valid)

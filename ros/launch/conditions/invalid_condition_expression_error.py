@@ -2,8 +2,33 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.substitution import Substitution
+
 __all__ = ["InvalidConditionExpressionError"]
 
 
 class InvalidConditionExpressionError(Exception):
-    """The text of a condition is neither true nor false."""
+    """The text of a condition is neither true nor false.
+
+    Args:
+        expression: The text.
+        unexpanded_expression: The substitutions that gave it.
+        valid_expressions: The texts that are true, and those that are false.
+    """
+
+    def __init__(
+        self,
+        expression: str,
+        unexpanded_expression: Iterable[Substitution],
+        valid_expressions: Iterable[str],
+    ) -> None:
+        expected = " or ".join(f"'{valid}'" for valid in valid_expressions)
+        super().__init__(
+            f"invalid condition expression, expected one of {expected} but got '{expression}'"
+        )
+        self.unexpanded_expression = list(unexpanded_expression)

@@ -34,6 +34,12 @@ class LaunchConfigurationEquals(Condition):
         )
         super().__init__(predicate=self._predicate_func)
 
+    def describe(self) -> str:
+        """Name configuration and value."""
+        value = None if self._expected is None else [part.describe() for part in self._expected]
+        text = "None" if value is None else " + ".join(value)
+        return f"{type(self).__name__}({self._name}, {text})"
+
     def _predicate_func(self, context: LaunchContext) -> bool:
         expected = (
             None if self._expected is None else perform_substitutions(context, self._expected)

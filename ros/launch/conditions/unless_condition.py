@@ -26,5 +26,10 @@ class UnlessCondition(Condition):
         self._predicate_expression = normalize_to_list_of_substitutions(predicate_expression)
         super().__init__(predicate=self._predicate_func)
 
+    def describe(self) -> str:
+        """Name the expression."""
+        text = " + ".join(part.describe() for part in self._predicate_expression)
+        return f"UnlessCondition({text})"
+
     def _predicate_func(self, context: LaunchContext) -> bool:
         return not evaluate_condition_expression(context, self._predicate_expression)

@@ -49,9 +49,10 @@ class Executable:
         additional_env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
-        self._cmd = [
-            normalize_to_list_of_substitutions(part) for part in (*cmd, *(arguments or ()))
-        ]
+        self._arguments = (
+            None if arguments is None else [*map(normalize_to_list_of_substitutions, arguments)]
+        )
+        self._cmd = [*map(normalize_to_list_of_substitutions, cmd), *(self._arguments or ())]
         default_prefix = LaunchConfiguration("launch-prefix", default="")
         self._prefix_is_default = prefix is None
         self._prefix = normalize_to_list_of_substitutions(
@@ -99,6 +100,11 @@ class Executable:
         return self._additional_env
 
     @property
+    def arguments(self) -> list[list[Substitution]] | None:
+        """Further arguments; they are part of :attr:`cmd`, too."""
+        return self._arguments
+
+    @property
     def final_name(self) -> str | None:
         """The unique name, once :meth:`prepare` ran."""
         return self._final_name
@@ -118,12 +124,13 @@ class Executable:
         """The environment, once :meth:`prepare` ran."""
         return self._final_env
 
-    def prepare(self, context: LaunchContext, _action: Action) -> None:
+    def prepare(self, context: LaunchContext, action: Action) -> None:
         """Perform all substitutions.
 
         Raises:
             SubstitutionFailure: One of them has no text.
         """
+        del action  # subclasses may want it
         cmd = [perform_substitutions(context, part) for part in self._cmd]
         base_name = os.path.basename(cmd[0])
         name = base_name if self._name is None else perform_substitutions(context, self._name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from launch.event_handlers.event_named import event_named
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.event_handlers.on_execution_complete import OnExecutionComplete
 from launch.event_handlers.on_include_launch_description import OnIncludeLaunchDescription
@@ -18,4 +19,5 @@ __all__ = [
     "OnProcessIO",
     "OnProcessStart",
     "OnShutdown",
+    "event_named",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, cast
 
-from launch.event_handler import BaseEventHandler
+from launch.event_handler import EventHandler
 from launch.events import IncludeLaunchDescription
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["OnIncludeLaunchDescription"]
 
 
-class OnIncludeLaunchDescription(BaseEventHandler):
+class OnIncludeLaunchDescription(EventHandler):
     """Returns the included description, which is then visited.
 
     Args:

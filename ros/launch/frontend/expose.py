@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from launch.frontend.entity import Entity
+    from launch.substitution import Substitution
+
 __all__ = [
     "action_parse_methods",
     "expose_action",
     "expose_substitution",
+    "instantiate_action",
+    "instantiate_substitution",
     "substitution_parse_methods",
 ]
 
@@ -32,6 +37,40 @@ def expose_action(name: str) -> Callable[[_Exposed], _Exposed]:
 def expose_substitution(name: str) -> Callable[[_Exposed], _Exposed]:
     """Name a substitution in XML and YAML, as :func:`expose_action` does an action."""
     return _expose(name, substitution_parse_methods, "substitution")
+
+
+def instantiate_action(entity: Entity, parser: Any) -> Any:
+    """Make the action of an element.
+
+    Raises:
+        RuntimeError: There is no such action.
+        ValueError: The element has attributes or children that the action does not know.
+    """
+    if entity.type_name not in action_parse_methods:
+        raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
+    action_class, keywords = action_parse_methods[entity.type_name](entity, parser)
+    entity.assert_entity_completely_parsed()
+    return action_class(**keywords)
+
+
+def instantiate_substitution(
+    type_name: str, args: list[list[Substitution]] | None = None
+) -> Substitution:
+    """Make a substitution.
+
+    Args:
+        type_name: Its name in XML and YAML.
+        args: Its arguments.
+
+    Raises:
+        RuntimeError: There is no such substitution.
+    """
+    if type_name not in substitution_parse_methods:
+        raise RuntimeError(f"Unknown substitution: {type_name}")
+    substitution_class, keywords = substitution_parse_methods[type_name](args or [])
+    positional = keywords.pop("args", ())
+    made: Substitution = substitution_class(*positional, **keywords)
+    return made
 
 
 def _expose(

@@ -7,32 +7,47 @@ the character alone.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend.expose import substitution_parse_methods
+from launch.frontend.expose import instantiate_substitution
 from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.substitution import Substitution
 
-__all__ = ["parse_substitution"]
+__all__ = ["parse_if_substitutions", "parse_substitution", "replace_escaped_characters"]
 
 _ESCAPABLE = "$'\"\\"
 
 
-def parse_substitution(text: str) -> list[Substitution]:
+def parse_substitution(string_value: str) -> list[Substitution]:
     """The substitutions that a text consists of; plain stretches are text substitutions.
 
     Raises:
         SyntaxError: A substitution is not closed.
         RuntimeError: There is no substitution of that name.
     """
-    if not text:
+    if not string_value:
         return [TextSubstitution(text="")]
-    reader = _Reader(text)
+    reader = _Reader(string_value)
     parts = reader.read_until("")
     reader.expect_end()
     return parts
+
+
+def parse_if_substitutions(value: Any) -> Any:
+    """Text, and text in lists, as substitutions; other values as they are."""
+    if isinstance(value, str):
+        return parse_substitution(value)
+    if isinstance(value, list):
+        return [parse_if_substitutions(item) for item in value]
+    return value
+
+
+def replace_escaped_characters(data: str) -> str:
+    r"""Unescape a text without substitutions: ``\$``, ``\'``, ``\"`` and ``\\``."""
+    return re.sub(r"\\([$'\"\\])", r"\1", data)
 
 
 class _Reader:
@@ -91,7 +106,7 @@ class _Reader:
                 raise SyntaxError(f"the substitution '{self._text[start:]}' is not closed by ')'")
             if self._text[self._at] == ")":
                 self._at += 1
-                return _make(name, arguments)
+                return instantiate_substitution(name, arguments)
             arguments.append(self._argument())
 
     def _argument(self) -> list[Substitution]:
@@ -108,12 +123,3 @@ class _Reader:
     def _skip_blanks(self) -> None:
         while self._at < len(self._text) and self._text[self._at].isspace():
             self._at += 1
-
-
-def _make(name: str, arguments: list[list[Substitution]]) -> Substitution:
-    if name not in substitution_parse_methods:
-        raise RuntimeError(f"Unknown substitution: {name}")
-    substitution_class, keywords = substitution_parse_methods[name](arguments)
-    positional = keywords.pop("args", ())
-    made: Substitution = substitution_class(*positional, **keywords)
-    return made

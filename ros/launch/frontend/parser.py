@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
-import re
-from functools import cache
 from importlib import import_module
+from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
-from launch.frontend.expose import action_parse_methods
-from launch.frontend.parse_substitution import parse_substitution
+from launch.frontend.expose import instantiate_action
+from launch.frontend.parse_substitution import (
+    parse_if_substitutions,
+    parse_substitution,
+    replace_escaped_characters,
+)
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 
@@ -28,7 +31,74 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
 
 
 class Parser:
-    """Base of the parsers, one for each language."""
+    """Base of the parsers, one for each language.
+
+    Attributes:
+        extensions_loaded: Whether the packages that expose actions and substitutions are imported.
+        frontend_parsers: Parser classes by the name of their language; None until they are needed.
+    """
+
+    extensions_loaded: bool = False
+    frontend_parsers: dict[str, type[Parser]] | None = None
+
+    @classmethod
+    def load_launch_extensions(cls) -> None:
+        """Import launch's own actions, and packages with an entry point for others."""
+        if Parser.extensions_loaded:
+            return
+        for module in ("launch.actions", "launch.substitutions"):
+            import_module(module)
+        for entry in entry_points(group="launch.frontend.launch_extension"):
+            entry.load()
+        Parser.extensions_loaded = True
+
+    @classmethod
+    def load_parser_implementations(cls) -> None:
+        """Import the parsers of all installed languages; launch_xml and launch_yaml are ours."""
+        if Parser.frontend_parsers is None:
+            found = entry_points(group="launch.frontend.parser")
+            Parser.frontend_parsers = {entry.name: entry.load() for entry in found}
+
+    @classmethod
+    def _parsers(cls) -> list[type[Parser]]:
+        cls.load_parser_implementations()
+        return list((Parser.frontend_parsers or {}).values())
+
+    @classmethod
+    def get_parser_from_extension(cls, extension: str) -> type[Parser]:
+        """The parser of files with a suffix.
+
+        Raises:
+            RuntimeError: No installed language has it.
+        """
+        wanted = extension.removeprefix(".")
+        for parser in cls._parsers():
+            if wanted in parser.get_file_extensions():
+                return parser
+        known = ", ".join(cls.get_available_extensions())
+        raise RuntimeError(
+            f"Not recognized frontend implementation: no parser of '{wanted}', only of {known}"
+        )
+
+    @classmethod
+    def get_parsers_from_filename(cls, filename: str) -> list[type[Parser]]:
+        """The parsers that may read a file, judged by its name."""
+        return [parser for parser in cls._parsers() if parser.may_parse(filename)]
+
+    @classmethod
+    def get_file_extensions_from_parsers(cls) -> list[set[str]]:
+        """Suffixes of each installed language, without dot."""
+        return [parser.get_file_extensions() for parser in cls._parsers()]
+
+    @classmethod
+    def is_filename_valid(cls, filename: str) -> bool:
+        """Whether an installed language has files of such a name."""
+        return bool(cls.get_parsers_from_filename(filename))
+
+    @classmethod
+    def may_parse(cls, filename: str) -> bool:
+        """Whether the file's suffix is one of this language."""
+        return os.path.splitext(filename)[1].removeprefix(".") in cls.get_file_extensions()
 
     @classmethod
     def load(cls, file: str | io.TextIOBase) -> tuple[Entity, Parser]:
@@ -44,7 +114,7 @@ class Parser:
         """
         path = file if isinstance(file, str) else getattr(file, "name", "")
         suffix = os.path.splitext(str(path))[1].removeprefix(".")
-        parsers = sorted(_parsers(), key=lambda parser: suffix not in parser.get_file_extensions())
+        parsers = sorted(cls._parsers(), key=lambda each: suffix not in each.get_file_extensions())
         errors: list[BaseException] = []
         for parser in parsers:
             try:
@@ -61,7 +131,8 @@ class Parser:
     @classmethod
     def get_available_extensions(cls) -> list[str]:
         """Suffixes of all installed languages, without dot."""
-        return [suffix for parser in _parsers() for suffix in sorted(parser.get_file_extensions())]
+        found = [sorted(extensions) for extensions in cls.get_file_extensions_from_parsers()]
+        return [suffix for extensions in found for suffix in extensions]
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
@@ -82,8 +153,9 @@ class Parser:
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
         actions = [self.parse_action(child) for child in entity.children]
+        reason = entity.get_attr("deprecated", optional=True)
         entity.assert_entity_completely_parsed()
-        return LaunchDescription(actions)
+        return LaunchDescription(actions, deprecated_reason=reason)
 
     def parse_action(self, entity: Entity) -> LaunchDescriptionEntity:
         """The action of an element.
@@ -101,48 +173,20 @@ class Parser:
             raise
 
     def _action(self, entity: Entity) -> LaunchDescriptionEntity:
-        _load_extensions()
-        if entity.type_name not in action_parse_methods:
-            raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
-        action_class, keywords = action_parse_methods[entity.type_name](entity, self)
-        entity.assert_entity_completely_parsed()
-        action: LaunchDescriptionEntity = action_class(**keywords)
+        self.load_launch_extensions()
+        action: LaunchDescriptionEntity = instantiate_action(entity, self)
         return action
 
     def parse_substitution(self, value: str) -> list[Substitution]:
         """The substitutions of a text."""
-        _load_extensions()
+        self.load_launch_extensions()
         return parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
         """Text, and text in lists, as substitutions; other values as they are."""
-        if isinstance(value, str):
-            return self.parse_substitution(value)
-        if isinstance(value, list):
-            return [self.parse_if_substitutions(item) for item in value]
-        return value
+        self.load_launch_extensions()
+        return parse_if_substitutions(value)
 
     def escape_characters(self, value: str) -> str:
         r"""Unescape a text without substitutions: ``\$``, ``\'``, ``\"`` and ``\\``."""
-        return re.sub(r"\\([$'\"\\])", r"\1", value)
-
-
-def _parsers() -> list[type[Parser]]:
-    """The front ends that are installed (launch_xml and launch_yaml are ours)."""
-    from importlib.metadata import entry_points
-
-    return [entry.load() for entry in entry_points(group="launch.frontend.parser")]
-
-
-@cache
-def _load_extensions() -> None:
-    """Import the modules that expose actions and substitutions.
-
-    These are launch itself and packages with an entry point for it, such as launch_ros.
-    """
-    from importlib.metadata import entry_points
-
-    for module in ("launch.actions", "launch.substitutions"):
-        import_module(module)
-    for entry in entry_points(group="launch.frontend.launch_extension"):
-        entry.load()
+        return replace_escaped_characters(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
 )
@@ -28,6 +29,7 @@ __all__ = [
     "AnyLaunchDescriptionSource",
     "FrontendLaunchDescriptionSource",
     "InvalidFrontendLaunchFileError",
+    "InvalidLaunchFileError",
     "InvalidPythonLaunchFileError",
     "PythonLaunchDescriptionSource",
     "get_launch_description_from_any_launch_file",

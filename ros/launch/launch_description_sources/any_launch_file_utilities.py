@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import partial
 from typing import TYPE_CHECKING
 
 from launch.frontend.parser import Parser
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
 __all__ = ["get_launch_description_from_any_launch_file"]
 
 
-def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+def get_launch_description_from_any_launch_file(
+    launch_file_path: str, *, parser: type[Parser] = Parser
+) -> LaunchDescription:
     """Read a launch file; the language that belongs to its suffix is tried first.
 
     Raises:
@@ -35,7 +38,7 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
         )
     extension = os.path.splitext(launch_file_path)[1]
     loaders: list[Callable[[str], LaunchDescription]] = [
-        get_launch_description_from_frontend_launch_file,
+        partial(get_launch_description_from_frontend_launch_file, parser=parser),
         get_launch_description_from_python_launch_file,
     ]
     if not Parser.is_extension_valid(extension):

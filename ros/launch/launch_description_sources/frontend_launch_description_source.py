@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from launch.frontend.parser import Parser
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources.frontend_launch_file_utilities import (
     get_launch_description_from_frontend_launch_file,
 )
 
 if TYPE_CHECKING:
-    from launch.frontend import Parser
     from launch.launch_description import LaunchDescription
     from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -23,7 +23,7 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     Args:
         launch_file_path: Path of the file.
         method: How the description is read, for messages.
-        parser: The language; None tries all, the one of the file's suffix first.
+        parser: The language; the base class tries all, the one of the file's suffix first.
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
         launch_file_path: SomeSubstitutionsType,
         *,
         method: str = "interpreted frontend launch file",
-        parser: type[Parser] | None = None,
+        parser: type[Parser] = Parser,
     ) -> None:
         super().__init__(None, launch_file_path, method)
         self._parser = parser

@@ -13,7 +13,7 @@ __all__ = ["InvalidFrontendLaunchFileError", "get_launch_description_from_fronte
 
 
 def get_launch_description_from_frontend_launch_file(
-    frontend_launch_file_path: str, *, parser: type[Parser] | None = None
+    frontend_launch_file_path: str, *, parser: type[Parser] = Parser
 ) -> LaunchDescription:
     """Read a launch file in XML or YAML.
 
@@ -21,7 +21,7 @@ def get_launch_description_from_frontend_launch_file(
         InvalidFrontendLaunchFileError: No language fits.
         Exception: What is wrong with an element; ``launch_file_line`` says where.
     """
-    root, file_parser = (parser or Parser).load(frontend_launch_file_path)
+    root, file_parser = parser.load(frontend_launch_file_path)
     try:
         return file_parser.parse_description(root)
     except Exception as error:

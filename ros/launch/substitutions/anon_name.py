@@ -52,8 +52,10 @@ class AnonName(Substitution):
         base = perform_substitutions(context, self._name)
         key = f"anon{base}"
         if key not in context.launch_configurations:
-            unique = f"{base}_{socket.gethostname()}_{os.getpid()}_{secrets.randbits(63)}"
-            context.launch_configurations[key] = "".join(
-                character if character.isalnum() else "_" for character in unique
-            )
+            context.launch_configurations[key] = self.compute_name(base)
         return context.launch_configurations[key]
+
+    def compute_name(self, id_value: str) -> str:
+        """Make a name from a base, host, process and chance."""
+        unique = f"{id_value}_{socket.gethostname()}_{os.getpid()}_{secrets.randbits(63)}"
+        return "".join(character if character.isalnum() else "_" for character in unique)

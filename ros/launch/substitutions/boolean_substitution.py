@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
-from launch.utilities import normalize_to_list_of_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import coerce_to_type
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -26,16 +27,17 @@ __all__ = [
 
 
 def as_bool(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
-    """Read an expression as true or false.
+    """Read an expression as true or false, by YAML's rules: ``yes`` and ``on`` are true.
 
     Raises:
         SubstitutionFailure: It is neither.
     """
-    from launch.conditions import InvalidConditionExpressionError, evaluate_condition_expression
-
+    text = perform_substitutions(context, expression).strip()
+    if text in ("0", "1"):
+        return text == "1"
     try:
-        return evaluate_condition_expression(context, expression)
-    except InvalidConditionExpressionError as error:
+        return bool(coerce_to_type(text.lower(), bool))
+    except ValueError as error:
         raise SubstitutionFailure(str(error)) from error
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["EqualsSubstitution", "NotEqualsSubstitution"]
+__all__ = ["EqualsSubstitution"]
 
 
 @expose_substitution("equals")
@@ -71,15 +71,6 @@ class EqualsSubstitution(Substitution):
             return math.isclose(_number(left), _number(right))
         except ValueError:
             return False
-
-
-@expose_substitution("not-equals")
-class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two texts differ, by the same rules."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """``true`` or ``false``."""
-        return "false" if self._equal(context) else "true"
 
 
 def _number(text: str) -> float:

@@ -32,6 +32,7 @@ class LaunchLogDir(Substitution):
         """Name it."""
         return "LaunchLogDir()"
 
-    def perform(self, _context: LaunchContext) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The folder."""
+        del context
         return logging.launch_config.log_dir

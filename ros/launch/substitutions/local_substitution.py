@@ -35,6 +35,11 @@ class LocalSubstitution(Substitution):
         """Name and attributes."""
         return self._expression
 
+    @property
+    def description(self) -> str | None:
+        """How it is shown, or None."""
+        return self._description
+
     def describe(self) -> str:
         """Name it."""
         return f"LocalVar('{self._expression if self._description is None else self._description}')"

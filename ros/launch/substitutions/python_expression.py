@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -32,7 +31,9 @@ class PythonExpression(Substitution):
     """
 
     def __init__(
-        self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)
+        self,
+        expression: SomeSubstitutionsType,
+        python_modules: SomeSubstitutionsType = ["math"],  # noqa: B006  ROS 2's; never changed
     ) -> None:
         self._expression = normalize_to_list_of_substitutions(expression)
         modules: Any = (
@@ -73,7 +74,7 @@ class PythonExpression(Substitution):
         """The value as text.
 
         Raises:
-            SubstitutionFailure: The expression cannot be evaluated.
+            Exception: What the expression raises, such as NameError; a ``hint`` names it.
         """
         expression = perform_substitutions(context, self._expression)
         names: dict[str, Any] = {}
@@ -88,6 +89,5 @@ class PythonExpression(Substitution):
         try:
             return str(eval(expression, {}, names))  # noqa: S307
         except Exception as error:
-            raise SubstitutionFailure(
-                f"Failed to evaluate python expression '{expression}' with {error!r}"
-            ) from error
+            vars(error)["hint"] = f"It was raised by the Python expression '{expression}'."
+            raise

@@ -9,10 +9,10 @@ class SubstitutionFailure(RuntimeError):
     """A substitution has no text here; the message says why.
 
     Args:
-        message: Why.
+        msg: Why.
         hint: What to do about it.
     """
 
-    def __init__(self, message: str = "", *, hint: str = "") -> None:
-        super().__init__(message)
+    def __init__(self, msg: str = "", *, hint: str = "") -> None:
+        super().__init__(msg)
         self.hint = hint

@@ -37,6 +37,7 @@ class TextSubstitution(Substitution):
         """The text in quotes."""
         return f"'{self._text}'"
 
-    def perform(self, _context: LaunchContext) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The text."""
+        del context
         return self._text

@@ -60,7 +60,7 @@ class ComposableNodeContainer(Node):
 
     @classmethod
     def parse(
-        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
     ) -> tuple[type[ComposableNodeContainer], dict[str, Any]]:
         """Read a ``node_container`` element."""
         _, kwargs = super().parse(entity, parser, ignore)

@@ -74,10 +74,10 @@ class Node(ExecuteProcess):
 
     @classmethod
     def parse(
-        cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
     ) -> tuple[type[Node], dict[str, Any]]:
         """Read a ``node`` element."""
-        _, kwargs = super().parse(entity, parser, ignore=["cmd", "name", *ignore])
+        _, kwargs = super().parse(entity, parser, ignore=["cmd", "name", *(ignore or ())])
         arguments = entity.get_attr("args", optional=True)
         if arguments is not None:
             kwargs["arguments"] = split_command_line(parser.parse_substitution(arguments))
@@ -92,7 +92,7 @@ class Node(ExecuteProcess):
         ):
             text = (
                 None
-                if attribute in ignore
+                if attribute in (ignore or ())
                 else entity.get_attr(attribute, optional=attribute != "exec")
             )
             if text is not None:

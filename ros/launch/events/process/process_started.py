@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from launch.events.process.running_process_event import RunningProcessEvent
 
 __all__ = ["ProcessStarted"]
 
 
 class ProcessStarted(RunningProcessEvent):
-    """A process runs."""
+    """A process runs.
+
+    Args:
+        **kwargs: See :class:`RunningProcessEvent`.
+    """
 
     name = "launch.events.process.ProcessStarted"
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)

@@ -2,22 +2,11 @@
 
 from __future__ import annotations
 
-import inspect
-from typing import Any, TypeGuard, TypeVar
+from typing import Any
 
-__all__ = ["ensure_argument_type", "is_a", "is_a_subclass"]
+from launch.utilities.class_tools_impl import is_a_subclass
 
-_T = TypeVar("_T")
-
-
-def is_a(obj: Any, entity_type: type[_T]) -> TypeGuard[_T]:
-    """Whether ``obj`` is an instance of the type."""
-    return isinstance(obj, entity_type)
-
-
-def is_a_subclass(obj: Any, entity_type: type) -> bool:
-    """Whether ``obj`` is an instance or a subclass of the type."""
-    return isinstance(obj, entity_type) or (inspect.isclass(obj) and issubclass(obj, entity_type))
+__all__ = ["ensure_argument_type"]
 
 
 def ensure_argument_type(

@@ -1,0 +1,17 @@
+"""Matches events by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from launch.event import Event
+
+__all__ = ["event_named"]
+
+
+def event_named(name: str) -> Callable[[Event], bool]:
+    """A matcher of events whose class has this name, for example ``launch.events.Shutdown``."""
+    return lambda event: event.name == name

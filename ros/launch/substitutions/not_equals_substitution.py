@@ -1,0 +1,22 @@
+"""Whether two texts differ."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.frontend.expose import expose_substitution
+from launch.substitutions.equals_substitution import EqualsSubstitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+__all__ = ["NotEqualsSubstitution"]
+
+
+@expose_substitution("not-equals")
+class NotEqualsSubstitution(EqualsSubstitution):
+    """Whether two texts differ, by the same rules."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """``true`` or ``false``."""
+        return "false" if self._equal(context) else "true"

@@ -1,0 +1,31 @@
+"""Entities, and lists of them, as one list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+__all__ = ["normalize_to_list_of_entities"]
+
+
+def normalize_to_list_of_entities(
+    entities: LaunchDescriptionEntity | Iterable[Any],
+) -> list[LaunchDescriptionEntity]:
+    """One entity, or nested lists of some, as one list.
+
+    Raises:
+        TypeError: Something among them is no entity.
+    """
+    found: list[LaunchDescriptionEntity] = []
+    pending: list[Any] = [entities]
+    while pending:
+        item = pending.pop()
+        if isinstance(item, LaunchDescriptionEntity):
+            found.append(item)
+        elif isinstance(item, Iterable) and not isinstance(item, (str, bytes)):
+            pending.extend(reversed(list(item)))
+        else:
+            raise TypeError(f"expected launch entities, got '{item}' of type '{type(item)}'")
+    return found

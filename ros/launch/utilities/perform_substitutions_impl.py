@@ -1,0 +1,18 @@
+"""Lists of substitutions as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from launch.launch_context import LaunchContext
+    from launch.substitution import Substitution
+
+__all__ = ["perform_substitutions"]
+
+
+def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
+    """The joined texts of the substitutions."""
+    return "".join(context.perform_substitution(sub) for sub in subs)
