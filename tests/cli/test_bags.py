@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -61,6 +65,16 @@ def test_the_tree_as_json(capsys, bag):
     assert by_name["odom"] == {"frame": "odom", "parent": None}
     assert by_name["camera"]["static"]
     assert (found["messages"], found["problems"], found["conflicts"]) == (101, [], [])
+
+
+def test_a_reader_that_has_seen_enough(bag):
+    """`turtlewire bag tf BAG | head` ends without a word."""
+    command = [Path(sys.executable).parent / "turtlewire", "bag", "tf", bag]
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (141, "")
 
 
 def test_other_topics(capsys, tmp_path):

@@ -217,6 +217,8 @@ def reporting_errors(
 
         try:
             return run(args)
+        except BrokenPipeError:
+            raise  # the reader has seen enough
         except (BagError, TransformException, OSError, ValueError) as error:
             text = _text_of(error)
             if hint := getattr(error, "hint", ""):
