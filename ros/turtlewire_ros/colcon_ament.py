@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from catkin_pkg.package import InvalidPackage, parse_package
 from colcon_core.environment import create_environment_hooks, create_environment_scripts
 from colcon_core.event.test import TestFailure
 from colcon_core.logging import colcon_logger
@@ -67,7 +68,7 @@ class AmentPackageIdentification(PackageIdentificationExtensionPoint):
         cmake, manifest = desc.path / "CMakeLists.txt", desc.path / "package.xml"
         if not manifest.is_file():
             return
-        fault = manifest_fault(manifest)
+        fault = manifest_fault(manifest) or _content_fault(manifest)
         if fault is not None:
             colcon_logger.error(fault)
             desc.name, desc.type = desc.path.name, _UNREADABLE_TYPE
@@ -77,6 +78,21 @@ class AmentPackageIdentification(PackageIdentificationExtensionPoint):
         self._ros.identify(desc)
         if desc.type == "ros.ament_cmake":
             desc.type = _TYPE
+
+
+def _content_fault(manifest: Path) -> str | None:
+    """What makes catkin_pkg refuse a package.xml, on one line; None if nothing does.
+
+    colcon-ros says nothing of it, and leaves the package to CMake or to setuptools.
+    """
+    if "<package" not in manifest.read_text(encoding="utf-8", errors="replace"):
+        return None  # a file of this name that is not ROS's
+    try:
+        parse_package(manifest, warnings=[])
+    except (AssertionError, InvalidPackage) as error:
+        lines = [line for line in str(error).splitlines() if not line.startswith("Error(s) in")]
+        return f"{manifest}: {'; '.join(lines)}"
+    return None
 
 
 def _is_for_cmake(path: Path) -> bool:

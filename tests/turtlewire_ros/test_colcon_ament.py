@@ -18,6 +18,7 @@ import pytest
 PREFIX = Path(sys.prefix)
 
 pytestmark = [
+    pytest.mark.timeout(600),
     pytest.mark.slow,
     pytest.mark.skipif(
         importlib.util.find_spec("colcon_core") is None
@@ -176,6 +177,10 @@ def test_a_broken_manifest_is_named_with_its_line(workspace):
         "src/my_interfaces/package.xml:10: <br> is never closed; remove it, or add </br>"
         in done.stderr
     )
+    manifest.write_text(manifest.read_text().replace("<br>", "").replace("@example.com", ""))
+    done = run_in(workspace, "source {prefix}/setup.bash; colcon list")
+    assert 'package.xml: Invalid email "someone" for person "someone"' in done.stderr
+    assert "my_interfaces\tsrc/my_interfaces\t(turtlewire.unreadable)" in done.stdout
 
 
 # The packages in ament_ws: built once, then used by each test.
@@ -330,7 +335,7 @@ colcon test-result --verbose
         "build/macro_tool/test_results/macro_tool/macro_tool_wrong.xunit.xml: 1 test, 0 errors, "
         "1 failure, 0 skipped"
     )
-    assert results[-1] == "Summary: 4 tests, 0 errors, 1 failure, 0 skipped"
+    assert results[-1] == "Summary: 6 tests, 0 errors, 1 failure, 0 skipped"
 
 
 def test_links_to_the_sources_and_back_to_copies(built):
