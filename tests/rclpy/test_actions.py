@@ -418,6 +418,43 @@ def test_the_response_comes_before_the_feedback_that_waits_with_it(serve, execut
     elsewhere.destroy_node()
 
 
+def test_the_feedback_that_waits_with_the_result_comes_before_it(serve, executor, context):
+    gate, served = Future(), []
+
+    async def execute(goal_handle):
+        await gate
+        goal_handle.publish_feedback(Fibonacci.Feedback(sequence=[1]))
+        goal_handle.succeed()
+        served.append(goal_handle)
+        return Fibonacci.Result()
+
+    server = serve(execute)
+    elsewhere = Node("client", context=context)
+    client = ActionClient(elsewhere, Fibonacci, "fibonacci")
+    finished = []
+    with SingleThreadedExecutor(context=context) as late:
+        late.add_node(elsewhere)
+        assert client.wait_for_server(timeout_sec=20)
+        sent = client.send_goal_async(
+            Fibonacci.Goal(order=3), feedback_callback=lambda _: finished.append(result.done())
+        )
+        while not sent.done():
+            executor.spin_once(timeout_sec=0.1)
+            late.spin_once(timeout_sec=0.1)
+        result = sent.result().get_result_async()
+        ((goal, _),) = server._goals.all()
+        while not goal.result._callbacks:  # the server has got the request for the result
+            executor.spin_once(timeout_sec=60)
+        gate.set_result(None)
+        while not goal.result.done():
+            executor.spin_once(timeout_sec=60)
+        executor.spin_once(timeout_sec=0)
+        late.spin_until_future_complete(result, timeout_sec=60)
+    assert finished == [False]
+    client.destroy()
+    elsewhere.destroy_node()
+
+
 def test_no_feedback_that_was_sent_after_the_result(serve, client, finish, spin_until):
     goals, feedback = [], []
     serve(lambda goal_handle: (goals.append(goal_handle), count(goal_handle))[1])

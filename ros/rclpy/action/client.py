@@ -183,12 +183,13 @@ class ActionClient(Waitable, Generic[ActionT_co]):
             group,
             raw=True,
         )
-        # Of what is here at the same time, the response to the goal comes before the feedback.
+        # Of what is here at the same time, the response to the goal comes first, then feedback,
+        # then the result.
         self._parts = [
             self._goal_client,
             self._cancel_client,
-            self._result_client,
             self._feedback,
+            self._result_client,
             self._status,
         ]
 
