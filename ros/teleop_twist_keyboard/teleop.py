@@ -14,7 +14,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from turtlewire.keyboard import Keyboard, foreground_terminal
+from turtlewire.keyboard import Keyboard, foreground_terminal, signals_for_this_thread
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -157,17 +157,19 @@ def main(args: list[str] | None = None) -> int:
         keyboard = Keyboard(foreground_terminal())
     except OSError:
         return _complain(_NO_TERMINAL)
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    rclpy.get_default_context().on_shutdown(keyboard.stop)
-    for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
-        signal.signal(signum, lambda *_: keyboard.stop())  # the robot is stopped before shutdown
-    try:
-        node = TeleopTwistKeyboard()
-    except ValueError as error:
-        rclpy.try_shutdown()
-        return _complain(str(error))
-    spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
-    spinner.start()
+    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+    with signals_for_this_thread(*ending):
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.get_default_context().on_shutdown(keyboard.stop)
+        for signum in ending:  # the robot is stopped before shutdown
+            signal.signal(signum, lambda *_: keyboard.stop())
+        try:
+            node = TeleopTwistKeyboard()
+        except ValueError as error:
+            rclpy.try_shutdown()
+            return _complain(str(error))
+        spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
+        spinner.start()
     try:
         _drive(node, keyboard)
     finally:

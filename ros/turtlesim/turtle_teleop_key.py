@@ -15,7 +15,7 @@ from rclpy.executors import ExternalShutdownException
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
-from turtlewire.keyboard import Keyboard, foreground_terminal
+from turtlewire.keyboard import Keyboard, foreground_terminal, signals_for_this_thread
 
 if TYPE_CHECKING:
     from rclpy.task import Future
@@ -112,14 +112,16 @@ def main(args: list[str] | None = None) -> int:
     except OSError:
         _complain(NO_TERMINAL, NO_TERMINAL_HINT)
         return 1
-    rclpy.init(args=args)
-    rclpy.get_default_context().on_shutdown(keyboard.stop)
     # rclpy handles the other signals; these would leave the terminal without echo.
-    for signum in (signal.SIGHUP, signal.SIGQUIT):
-        signal.signal(signum, lambda *_: keyboard.stop())
-    node = TeleopTurtle()
-    spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
-    spinner.start()
+    ending = (signal.SIGHUP, signal.SIGQUIT)
+    with signals_for_this_thread(*ending):
+        rclpy.init(args=args)
+        rclpy.get_default_context().on_shutdown(keyboard.stop)
+        for signum in ending:
+            signal.signal(signum, lambda *_: keyboard.stop())
+        node = TeleopTurtle()
+        spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")
+        spinner.start()
     with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C, which may also come while it shuts down
         try:
             with keyboard:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import errno
 import os
@@ -10,11 +11,12 @@ import signal
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import TracebackType
 
     from typing_extensions import Self
 
-__all__ = ["Keyboard", "foreground_terminal"]
+__all__ = ["Keyboard", "foreground_terminal", "signals_for_this_thread"]
 
 
 class Keyboard:
@@ -103,6 +105,22 @@ class Keyboard:
     def stop(self) -> None:
         """End the present and all later reads. Safe from any thread."""
         os.write(self._wake_write, b"\0")
+
+
+@contextlib.contextmanager
+def signals_for_this_thread(*numbers: int) -> Iterator[None]:
+    """Threads that start within the block never get these signals, SIGTSTP and SIGCONT.
+
+    For the main thread of a program that waits for keys there. The kernel hands a signal to any
+    thread that takes it. The handler runs in the main thread, which goes on waiting if it was
+    another one.
+    """
+    kept = {*numbers, signal.SIGTSTP, signal.SIGCONT}
+    former = signal.pthread_sigmask(signal.SIG_BLOCK, kept)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, former)
 
 
 def foreground_terminal() -> int:

@@ -296,6 +296,20 @@ def test_the_terminal_is_put_back_after_a_signal(terminal, end):
     assert "Traceback" not in terminal.output
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads the threads in /proc")
+def test_only_the_thread_that_reads_keys_gets_the_signals_of_the_terminal(terminal):
+    """One to another thread would not wake it."""
+    terminal.read_until("to quit.\r\n")
+    pid = terminal.popen.pid
+    blocked = {
+        int(folder.name): int(re.search(r"SigBlk:\s*(\w+)", (folder / "status").read_text())[1], 16)
+        for folder in Path(f"/proc/{pid}/task").iterdir()
+    }
+    assert len(blocked) > 2
+    for number in (signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP, signal.SIGCONT):
+        assert {pid} == {tid for tid, mask in blocked.items() if not mask >> (number - 1) & 1}
+
+
 def test_the_terminal_is_put_back_after_a_fault_of_ours():
     terminal = Terminal(TELEOP_BROKEN)
     try:
