@@ -104,6 +104,31 @@ def test_a_frame_that_changes_its_parent_once_is_reported(tmp_path):
     )
 
 
+def test_a_frame_that_is_handed_on_and_on(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for i in range(12):
+            writer.write("/tf", transform(i, "abc"[i // 4], "part"), i)
+    _, report = load_transforms(tmp_path / "made")
+    assert (report.conflicts, report.two_parents) == ([], ["part"])
+    assert [change[1:3] for change in report.new_parents] == [("a", "b"), ("b", "c")]
+
+
+@pytest.mark.parametrize("first", ["/tf", "/tf_static"])
+def test_a_frame_that_is_static_in_one_parent_and_moves_in_another(tmp_path, first):
+    second = "/tf" if first == "/tf_static" else "/tf_static"
+    with BagWriter(tmp_path / "made") as writer:
+        for topic in (first, second):
+            writer.add_topic(topic, "tf2_msgs/msg/TFMessage")
+        for i in range(4):
+            writer.write(first, transform(i, "a", "x"), i)
+        for i in range(4):
+            writer.write(second, transform(i, "b", "x"), 10 + i)
+    _, report = load_transforms(tmp_path / "made")
+    assert report.two_parents == ["x"]
+    assert {each.kind for each in report.conflicts} == {"two publishers", "two parents"}
+
+
 def test_small_steps_back_are_counted(tmp_path):
     with BagWriter(tmp_path / "made") as writer:
         writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.printable import printable
-from turtlewire.tf.inspection import conflicts, links, malformed, refusals
+from turtlewire.tf.inspection import Conflict, conflicts, links, malformed, refusals
 from turtlewire.trajectory import find_gaps
 
 if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer
-    from turtlewire.tf.inspection import Conflict, LinkInfo, Malformed, Refused
+    from turtlewire.tf.inspection import LinkInfo, Malformed, Refused
     from turtlewire.trajectory import Gap
 
 __all__ = ["Jump", "NewParent", "StepsBack", "TransformReport", "describe", "group_jumps"]
@@ -74,7 +75,8 @@ class TransformReport:
         gaps: Pauses in the samples of links, by child frame.
         jumps: Where stamps fall back by more than a second.
         steps_back: Stamps that step back, by child frame.
-        new_parents: Frames that change their parent once, as when a gripper takes a part.
+        new_parents: Changes of parents to which the frame does not come back, as when a gripper
+            takes a part.
         conflicts: Frames that go back and forth between parents, or come on two topics.
         refused: Transforms that tf2 refuses, by child frame.
         malformed: Messages that are no ``TFMessage``.
@@ -100,7 +102,7 @@ class TransformReport:
     def two_parents(self) -> list[str]:
         """The frames with more than one parent, whether they change it once or often."""
         often = [each.child_frame for each in self.conflicts if each.kind == "two parents"]
-        return often + [each.child_frame for each in self.new_parents]
+        return often + list(dict.fromkeys(each.child_frame for each in self.new_parents))
 
     def complaints(self) -> list[str]:
         """What looks wrong, one line each."""
@@ -142,14 +144,26 @@ def describe(buffer: Buffer, report: TransformReport) -> None:
     report.refused = refusals(buffer)
     report.malformed = malformed(buffer)
     for link in report.links:
-        if link.parent_changes == 1 and link.child_frame not in often:
-            before, after = buffer.samples(link.child_frame)
-            change = NewParent(link.child_frame, before[0], after[0], int(after[1][0]))
-            report.new_parents.append(change)
+        if link.child_frame not in often:
+            _note_parents(buffer, report, link)
         if link.static or link.samples < 3:
             continue
         if found := find_gaps(buffer.stamps(link.child_frame)):
             report.gaps[link.child_frame] = found
+
+
+def _note_parents(buffer: Buffer, report: TransformReport, link: LinkInfo) -> None:
+    """Add the changes of a frame's parent, or that it is static in one and moves in another."""
+    child = link.child_frame
+    if link.parent_changes:
+        for (before, *_), (after, stamps, _) in pairwise(buffer.samples(child)):
+            report.new_parents.append(NewParent(child, before, after, int(stamps[0])))
+        return
+    parents = sorted({sender.parent_frame for sender in link.senders})
+    if len(parents) > 1:
+        text = f"'{child}' is sent with the parents {' and '.join(map(repr, parents))}"
+        found = Conflict("two parents", child, f"{text}, moving and static; a frame has one.")
+        report.conflicts.append(found)
 
 
 def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:

@@ -106,7 +106,8 @@ def conflicts(buffer: Buffer) -> list[Conflict]:
                 "each frame should have one publisher."
             )
             found.append(Conflict("two publishers", link.child_frame, text))
-        if len(parents) > 1 and (link.static or link.parent_changes > 1):
+        # As many changes as parents: it has come back to one of them.
+        if len(parents) > 1 and (link.static or link.parent_changes >= len(parents)):
             both = " and ".join(map(repr, parents))
             text = (
                 f"'{link.child_frame}' goes back and forth between the parents {both}; "
