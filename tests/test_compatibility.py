@@ -29,6 +29,15 @@ a waiting lookup sleeps 20 ms at a time, on the system clock
   tf2_ros/test_waiting_in_callbacks.py test_waiting_never_hangs_and_answers_right
 `RMW_IMPLEMENTATION` names a middleware that is not installed: every program ends in a traceback
   wire/test_environment.py test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken
+the middleware is Fast DDS unless `RMW_IMPLEMENTATION` names another
+  wire/test_environment.py test_what_is_not_installed_is_told_and_another_one_taken
+processes find each other through a router, `rmw_zenohd`
+  wire/test_processes.py test_messages_go_both_ways
+  wire/zenoh/test_sdk.py test_their_server test_their_client
+`ROS_AUTOMATIC_DISCOVERY_RANGE` and `ROS_STATIC_PEERS` are not read
+  wire/zenoh/test_configuration.py test_the_range_of_discovery
+the router listens on all interfaces
+  wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
 Python errors carry a text
   rclpy/test_exceptions.py test_hints_are_notes
 

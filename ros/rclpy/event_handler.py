@@ -5,6 +5,7 @@ What a program can be told of, and ROS 2's default warnings about endpoints that
 
 from __future__ import annotations
 
+from contextlib import suppress
 from enum import IntEnum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -268,19 +269,26 @@ class _EventCallbacks:
             raise UnsupportedEventTypeError(
                 "the middleware does not report endpoints of another type"
             )
-        wanted = self._wanted()
-        if self.incompatible_qos is None and self.use_default_callbacks:
-            wanted[EventKind.INCOMPATIBLE_QOS] = self._warn_of_incompatible_qos(topic_name, logger)
-        return [
-            EventHandler(
+
+        def handler(kind: EventKind, callback: Callable[[Any], None]) -> EventHandler:
+            return EventHandler(
                 callback_group=callback_group,
                 callback=callback,
                 event_type=kind,
                 parent_impl=endpoint,
             )
-            for kind, callback in wanted.items()
+
+        handlers = [
+            handler(kind, callback)
+            for kind, callback in self._wanted().items()
             if callback is not None
         ]
+        if self.incompatible_qos is None and self.use_default_callbacks:
+            # Zenoh has no such event, because everything matches.
+            with suppress(UnsupportedEventTypeError):
+                warn = self._warn_of_incompatible_qos(topic_name, logger)
+                handlers.append(handler(EventKind.INCOMPATIBLE_QOS, warn))
+        return handlers
 
     def _warn_of_incompatible_qos(
         self, topic_name: str, logger: RcutilsLogger

@@ -143,7 +143,7 @@ class _EventPublisher(NamedTuple):
         event = self.srv_type.Event()
         event.info.event_type = int(event_type)
         event.info.stamp = self.clock.now().to_msg()
-        event.info.client_gid = list(client_id.to_bytes(8, "little").ljust(_GID_SIZE, b"\0"))
+        event.info.client_gid = list(client_id.to_bytes(_GID_SIZE, "little"))
         event.info.sequence_number = sequence_number
         if self.with_contents:
             for part, message in content.items():

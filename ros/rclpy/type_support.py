@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from turtlewire import msg
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 
 from .exceptions import NoTypeSupportImportedException
 from .hints import described, with_hint
@@ -14,7 +14,7 @@ __all__ = [
     "check_for_type_support",
     "check_is_valid_msg_type",
     "check_is_valid_srv_type",
-    "service_type_ids",
+    "service_types",
     "type_id",
 ]
 
@@ -82,6 +82,8 @@ def type_id(name: str) -> TypeId:
     return TypeId(name, msg.type_hash(name))
 
 
-def service_type_ids(name: str) -> tuple[TypeId, TypeId]:
-    """The request and the response of ``turtlesim/srv/Spawn`` with their hashes."""
-    return type_id(f"{name}_Request"), type_id(f"{name}_Response")
+def service_types(name: str) -> ServiceTypes:
+    """What a peer must know of the type ``turtlesim/srv/Spawn``."""
+    return ServiceTypes(
+        name, type_id(f"{name}_Request"), type_id(f"{name}_Response"), msg.type_hash
+    )

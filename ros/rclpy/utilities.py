@@ -82,9 +82,9 @@ def get_rmw_implementation_identifier() -> str:
 
 def get_available_rmw_implementations() -> set[str]:
     """The middlewares that ``RMW_IMPLEMENTATION`` may name to talk to other processes."""
-    from turtlewire.wire.environment import MIDDLEWARES
+    from turtlewire.wire.environment import MIDDLEWARES, is_installed
 
-    return {name for name in MIDDLEWARES if name.startswith("rmw_")}
+    return {name for name in MIDDLEWARES if name.startswith("rmw_") and is_installed(name)}
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rosbag2_transport.options import ServiceRequestsSource
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import deserialize, get_message, serialize, type_hash
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
 
 if TYPE_CHECKING:
@@ -46,10 +46,11 @@ class ServiceRequests:
                 TypeId(f"{type_name}_{part}", type_hash(f"{type_name}_{part}"))
                 for part in ("Request", "Response")
             )
+            types = ServiceTypes(type_name, request, response, type_hash)
         except InterfaceError as error:
             self._tell(service, f"no requests are sent to {service}: {error}")
             return lambda _event: None
-        client = self._node._rclpy_wire.create_client(service, request, response, QoS())
+        client = self._node._rclpy_wire.create_client(service, types, QoS())
         self._clients.append(client)
         return lambda event: self._send(client, topic.type, event)
 

@@ -300,7 +300,10 @@ def test_helpers():
         "b",
     ]
     assert rclpy.utilities.get_rmw_implementation_identifier() == "local"
-    assert rclpy.utilities.get_available_rmw_implementations() == {"rmw_cyclonedds_cpp"}
+    assert rclpy.utilities.get_available_rmw_implementations() == {
+        "rmw_cyclonedds_cpp",
+        "rmw_zenoh_cpp",
+    }
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])

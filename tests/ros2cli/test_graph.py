@@ -14,7 +14,7 @@ from ros2cli.discovery import wait_until_discovered
 from ros2cli.main import main
 from turtlewire import msg
 from turtlewire.wire import open_context
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.lingering import lingers
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
@@ -33,18 +33,18 @@ def graph(context):
     def kind(name):
         return TypeId(name, HASH)
 
+    def service(name):
+        return ServiceTypes(name, kind(f"{name}_Request"), kind(f"{name}_Response"), lambda _: HASH)
+
     node = context.create_node("sim")
     node.create_publisher("/pose", kind("turtlesim/msg/Pose"), QoS())
     node.create_publisher(
         "/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS()
     )
-    node.create_service(
-        "/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS()
-    )
+    node.create_service("/spawn", service("turtlesim/srv/Spawn"), QoS())
     node.create_service(
         "/turn/_action/send_goal",
-        kind("a/action/B_SendGoal_Request"),
-        kind("a/action/B_SendGoal_Response"),
+        service("a/action/B_SendGoal"),
         QoS(),
     )
     other = context.create_node("listener", "/robot")
@@ -52,9 +52,7 @@ def graph(context):
     other.create_subscription(
         "/turn/_action/feedback", kind("turtlesim/action/RotateAbsolute_FeedbackMessage"), QoS()
     )
-    other.create_client(
-        "/spawn", kind("turtlesim/srv/Spawn_Request"), kind("turtlesim/srv/Spawn_Response"), QoS()
-    )
+    other.create_client("/spawn", service("turtlesim/srv/Spawn"), QoS())
     context.create_node("_hidden")
     return context.graph
 

@@ -78,7 +78,7 @@ def test_localhost_only_is_honoured_and_deprecated(
     assert environment.discovery().range == Range.SUBNET
 
 
-@pytest.mark.parametrize("theirs", ["rmw_fastrtps_cpp", "rmw_zenoh_cpp", "rmw_nope"])
+@pytest.mark.parametrize("theirs", ["rmw_fastrtps_cpp", "rmw_connextdds", "rmw_nope"])
 def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: str):
     """In a process of its own: this one may have said it before."""
     code = (
@@ -99,6 +99,38 @@ def test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken(theirs: 
     assert done.stdout.split() == ["CycloneContext", "CycloneContext"]
     [line] = done.stderr.splitlines()
     assert f"RMW_IMPLEMENTATION is {theirs}, which is not available here" in line
+
+
+@pytest.mark.parametrize(
+    ("asked", "missing", "taken", "said"),
+    [
+        ("rmw_zenoh_cpp", "zenoh", "CycloneContext", "pip install 'turtlewire[zenoh]'"),
+        ("", "cyclonedds", "ZenohContext", "Zenoh is taken"),
+        ("rmw_zenoh_cpp", "", "ZenohContext", ""),
+    ],
+)
+def test_what_is_not_installed_is_told_and_another_one_taken(asked, missing, taken, said):
+    code = (
+        "import importlib.util\n"
+        "find_spec = importlib.util.find_spec\n"
+        "importlib.util.find_spec = "
+        f"lambda name: None if name == {missing!r} else find_spec(name)\n"
+        "from turtlewire.wire import open_context\n"
+        "context = open_context(5)\n"
+        "print(type(context).__name__)\n"
+        "context.close()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+        env=os.environ | {"RMW_IMPLEMENTATION": asked},
+    )
+    assert done.stdout.split() == [taken]
+    assert len(done.stderr.splitlines()) == bool(said)
+    assert said in done.stderr
 
 
 def test_a_middleware_that_a_program_asks_for_must_be_there():

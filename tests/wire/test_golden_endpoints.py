@@ -11,7 +11,7 @@ from collections import Counter
 from pathlib import Path
 
 from turtlewire.wire import names, open_context
-from turtlewire.wire.base import Context, Node, TypeId
+from turtlewire.wire.base import Context, Node, ServiceTypes, TypeId
 from turtlewire.wire.cyclone.configuration import domain_configuration
 from turtlewire.wire.environment import discovery
 from turtlewire.wire.graph import parse_user_data
@@ -72,7 +72,8 @@ def create_all(node: Node, endpoints: list[dict]) -> None:
         elif topic.startswith("rq/"):
             reply = by_topic["writer" if kind == "reader" else "reader", names.reply_topic(service)]
             create = node.create_service if kind == "reader" else node.create_client
-            create(service, type_of(endpoint), type_of(reply), qos_of(endpoint))
+            types = ServiceTypes("", type_of(endpoint), type_of(reply), lambda _: "")
+            create(service, types, qos_of(endpoint))
 
 
 def type_of(endpoint: dict) -> TypeId:

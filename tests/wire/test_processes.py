@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from turtlewire.wire import open_context
-from turtlewire.wire.base import Context, TypeId
+from turtlewire.wire.base import Context, ServiceTypes, TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 ECHO = Path(__file__).parent / "peers" / "echo.py"
@@ -19,13 +19,15 @@ GIANT = Path(__file__).parent / "peers" / "giant.py"
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 LONG = 20_000_000_000
 SOONER_THAN_A_LEASE = 4_500_000_000
 
 
-@pytest.fixture
-def context():
-    opened = open_context(middleware="rmw_cyclonedds_cpp")
+@pytest.fixture(params=["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+def context(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
+    opened = open_context()
     yield opened
     opened.close()
 
@@ -90,7 +92,7 @@ def test_a_late_joiner_receives_the_latched_message(context: Context):
 
 
 def test_a_service_answers_across_processes(context: Context):
-    client = context.create_node("here").create_client("/peer/service", REQUEST, RESPONSE, QoS())
+    client = context.create_node("here").create_client("/peer/service", SWITCH, QoS())
     with echo_peer():
         assert context.graph.wait_for(client.is_ready, LONG)
         for number in range(20):
@@ -104,7 +106,7 @@ def test_the_first_request_of_a_new_client_is_always_answered(context: Context):
     with echo_peer():
         for number in range(20):
             client = context.create_node(f"here{number}").create_client(
-                "/peer/service", REQUEST, RESPONSE, QoS()
+                "/peer/service", SWITCH, QoS()
             )
             assert context.graph.wait_for(client.is_ready, LONG)
             sequence_number = client.send_request(message(number))
@@ -134,7 +136,7 @@ def test_a_peer_killed_in_the_middle_of_a_message_harms_nobody(context: Context)
             assert peer.stdout.readline() == "sending\n"
             peer.kill()
         assert peer.returncode == -9
-    other = open_context(middleware="rmw_cyclonedds_cpp")
+    other = open_context()
     publisher = other.create_node("other").create_publisher("/giant", STRING, QoS())
     assert other.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
     publisher.publish(message(7))

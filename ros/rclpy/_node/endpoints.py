@@ -25,7 +25,7 @@ from rclpy.timer import Rate, Timer
 from rclpy.type_support import (
     check_is_valid_msg_type,
     check_is_valid_srv_type,
-    service_type_ids,
+    service_types,
     type_id,
 )
 from turtlewire.msg import type_name
@@ -220,7 +220,7 @@ class NodeEndpoints:
         name = self.names.resolve_service(srv_name)
         self._require_context("client")
         wire = self._core.wire.create_client(
-            name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
+            name, service_types(type_name(srv_type)), qos_profile.to_wire()
         )
         group = callback_group or self.default_callback_group
         return Client(
@@ -260,7 +260,7 @@ class NodeEndpoints:
         name = self.names.resolve_service(srv_name)
         self._require_context("service")
         wire = self._core.wire.create_service(
-            name, *service_type_ids(type_name(srv_type)), qos_profile.to_wire()
+            name, service_types(type_name(srv_type)), qos_profile.to_wire()
         )
         group = callback_group or self.default_callback_group
         return service_class(

@@ -2,24 +2,27 @@
 
 :func:`open_context` joins a domain. The contract of what it returns is :mod:`turtlewire.wire.base`.
 
-===============  ================================================================
-module           what it holds
-===============  ================================================================
-`base`           the contract that every middleware fulfils
-`records`        names, stamps and counts that it takes and returns
-`qos`            `QoS`, with the numbers of ROS 2's rmw
-`names`          rules and expansion of ROS names, and their spelling on the wire
-`environment`    the environment variables that decide whom a process talks to
-`lingering`      whether the end waits for acknowledgements
-`graph`          what the graphs of all middlewares share; ``ros_discovery_info``
-`conflicts`      two types on one topic, two nodes of one name
-`encapsulation`  the four bytes in front of every serialized message
-`events`         counters of endpoints' events
-`services`       services over two topics
-`report`         warnings on stderr, each printed once
-`cyclone`        Cyclone DDS
-`local`          the in-process middleware
-===============  ================================================================
+================  ================================================================
+module            what it holds
+================  ================================================================
+`base`            the contract that every middleware fulfils
+`records`         names, stamps and counts that it takes and returns
+`qos`             `QoS`, with the numbers of ROS 2's rmw
+`names`           rules and expansion of ROS names, and their spelling on the wire
+`environment`     the environment variables that decide whom a process talks to
+`lingering`       whether the end waits for acknowledgements
+`graph`           what the graphs of all middlewares share; ``ros_discovery_info``
+`conflicts`       two types on one topic, two nodes of one name
+`encapsulation`   the four bytes in front of every serialized message
+`events`          counters of endpoints' events
+`services`        services over two topics
+`report`          warnings on stderr, each printed once
+`reader_thread`   the thread that calls callbacks
+`queue_wait_set`  wait sets over queues of Python
+`cyclone`         Cyclone DDS
+`zenoh`           Zenoh, as rmw_zenoh_cpp speaks it
+`local`           the in-process middleware
+================  ================================================================
 """
 
 from __future__ import annotations
@@ -41,8 +44,8 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
 
     Args:
         domain_id: None takes ``ROS_DOMAIN_ID``, or 0.
-        middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS) or ``local`` (inside this process); None
-            takes :func:`.environment.middleware_name`.
+        middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS), ``rmw_zenoh_cpp`` (Zenoh) or ``local``
+            (inside this process); None takes :func:`.environment.middleware_name`.
 
     Raises:
         WireError: No such middleware, it is not available on this platform, or the domain cannot be
@@ -64,5 +67,12 @@ def open_context(domain_id: int | None = None, *, middleware: str | None = None)
         from .local.context import LocalContext
 
         return LocalContext(domain_id)
+    if name == "rmw_zenoh_cpp":
+        from .zenoh.library import require_zenoh
+
+        require_zenoh()
+        from .zenoh.context import ZenohContext
+
+        return ZenohContext(domain_id)
     error = WireError(f"middleware {name!r} is not available")
-    raise error.with_hint(f"There are {' and '.join(environment.MIDDLEWARES)}.")
+    raise error.with_hint(f"There are {', '.join(environment.MIDDLEWARES)}.")

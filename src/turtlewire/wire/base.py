@@ -23,6 +23,7 @@ from .records import (
     MessageInfo,
     NodeInfo,
     RequestId,
+    ServiceTypes,
     TypeId,
 )
 
@@ -47,6 +48,7 @@ __all__ = [
     "Publisher",
     "RequestId",
     "Service",
+    "ServiceTypes",
     "Sink",
     "Subscription",
     "TypeId",
@@ -282,11 +284,11 @@ class Node(Entity):
         """
 
     @abstractmethod
-    def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
+    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """Announce and return a client of ``service`` (a fully qualified ROS name)."""
 
     @abstractmethod
-    def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
+    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         """Announce and return the server of ``service`` (a fully qualified ROS name)."""
 
 
@@ -351,10 +353,18 @@ class Graph(ABC):
 
 
 class Context(ABC):
-    """One participant of a domain. A process normally has one."""
+    """One participant of a domain. A process normally has one.
+
+    Attributes:
+        domain_id: The domain.
+        gid: 16 bytes.
+        events: The kinds of events that its endpoints can report. Without ``INCOMPATIBLE_QOS``,
+            endpoints of one topic and type match whatever their QoS.
+    """
 
     domain_id: int
     gid: bytes
+    events: frozenset[EventKind]
 
     @property
     @abstractmethod

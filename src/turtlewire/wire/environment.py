@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from enum import Enum
+from importlib.util import find_spec
 from typing import NamedTuple
 
 from turtlewire.errors import WireError
@@ -17,12 +18,16 @@ __all__ = [
     "Range",
     "discovery",
     "domain_id",
+    "is_installed",
     "middleware_name",
 ]
 
-#: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), and ``local``, which stays
-#: inside the process.
-MIDDLEWARES = ("rmw_cyclonedds_cpp", "local")
+#: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), Zenoh, and ``local``, which
+#: stays inside the process.
+MIDDLEWARES = ("rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local")
+
+#: What they stand on, the preferred one first.
+_PACKAGES = {"rmw_cyclonedds_cpp": "cyclonedds", "rmw_zenoh_cpp": "zenoh"}
 
 #: Above it, the ports of a domain would not fit.
 MAX_DOMAIN_ID = 232
@@ -71,18 +76,32 @@ def domain_id() -> int:
 def middleware_name() -> str:
     """``RMW_IMPLEMENTATION``; Cyclone DDS if it is not set or, after a warning, names another one.
 
-    A shell that sourced a real ROS 2 often has a middleware set that only exists there.
+    A shell that sourced a real ROS 2 often has a middleware set that only exists there. Where there
+    is no Cyclone DDS but Zenoh, that is taken, after a warning as well.
     """
     name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
-    if name in MIDDLEWARES:
+    if name in MIDDLEWARES and is_installed(name):
         return name
+    default = next(filter(is_installed, _PACKAGES), MIDDLEWARES[0])
     if name:
+        remedy = " (pip install 'turtlewire[zenoh]')" if name == "rmw_zenoh_cpp" else ""
         warn_once(
             "RMW_IMPLEMENTATION",
-            f"RMW_IMPLEMENTATION is {name}, which is not available here: "
-            f"{MIDDLEWARES[0]} is taken (valid: {', '.join(MIDDLEWARES)})",
+            f"RMW_IMPLEMENTATION is {name}, which is not available here{remedy}: "
+            f"{default} is taken (valid: {', '.join(MIDDLEWARES)})",
         )
-    return MIDDLEWARES[0]
+    elif default != MIDDLEWARES[0]:
+        warn_once(
+            "no Cyclone DDS",
+            "Cyclone DDS is not installed (it has no wheel for every platform): Zenoh is taken, "
+            "which reaches robots that run rmw_zenoh_cpp",
+        )
+    return default
+
+
+def is_installed(middleware: str) -> bool:
+    """Whether the package that a middleware stands on is there."""
+    return middleware not in _PACKAGES or find_spec(_PACKAGES[middleware]) is not None
 
 
 def discovery() -> Discovery:

@@ -6,6 +6,8 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .qos import QoS
 
 __all__ = [
@@ -15,6 +17,7 @@ __all__ = [
     "MessageInfo",
     "NodeInfo",
     "RequestId",
+    "ServiceTypes",
     "TypeId",
 ]
 
@@ -29,6 +32,26 @@ class TypeId(NamedTuple):
 
     name: str
     type_hash: str
+
+
+class ServiceTypes(NamedTuple):
+    """What a peer must know of the type of a service.
+
+    Attributes:
+        name: ROS name (``turtlesim/srv/Spawn``).
+        request: Type of the requests.
+        response: Type of the responses.
+        hash_of: Tells the hash of the service's name; a middleware that needs it asks.
+    """
+
+    name: str
+    request: TypeId
+    response: TypeId
+    hash_of: Callable[[str], str]
+
+    def service_id(self) -> TypeId:
+        """The service itself, with its hash."""
+        return TypeId(self.name, self.hash_of(self.name))
 
 
 class MessageInfo(NamedTuple):
@@ -46,7 +69,12 @@ class MessageInfo(NamedTuple):
 
 
 class RequestId(NamedTuple):
-    """Identifies a service request: the client's 8-byte id and its sequence number."""
+    """Identifies a service request.
+
+    Attributes:
+        client_id: Unsigned, of 8 bytes (Cyclone DDS) or 16 (Zenoh).
+        sequence_number: Counted by the client.
+    """
 
     client_id: int
     sequence_number: int

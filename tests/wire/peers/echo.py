@@ -9,12 +9,13 @@ import sys
 import threading
 
 from turtlewire.wire import open_context
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 STRING = TypeId("std_msgs/msg/String", "RIHS01_" + "0" * 64)
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 HELLO = b"\x00\x01\x00\x00\x06\x00\x00\x00hello\x00\x00\x00"
 
 
@@ -23,7 +24,7 @@ def main() -> None:
     node = context.create_node("echo", "/peer")
     answers = node.create_publisher("/from_peer", STRING, QoS(depth=1000))
     questions = node.create_subscription("/to_peer", STRING, QoS(depth=1000))
-    service = node.create_service("/peer/service", REQUEST, RESPONSE, QoS())
+    service = node.create_service("/peer/service", SWITCH, QoS())
     latched = node.create_publisher(
         "/latched", STRING, QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
     )

@@ -7,16 +7,17 @@ from __future__ import annotations
 import sys
 
 from turtlewire.wire import open_context
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
 
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
+SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 LONG = 30_000_000_000
 MESSAGE = b"\x00\x01\x00\x00" + bytes(8)
 
 context = open_context()
-client = context.create_node("probe").create_client("/peer/service", REQUEST, RESPONSE, QoS())
+client = context.create_node("probe").create_client("/peer/service", SWITCH, QoS())
 graph = context.graph
 if not graph.wait_for(
     lambda: client.is_ready() and any(node.name == "echo" for node in graph.nodes()), LONG

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names
-from turtlewire.wire.base import Context
+from turtlewire.wire.base import Context, EventKind
 
 from .core import ContextCore
 from .graph import CycloneGraph
@@ -26,6 +26,8 @@ __all__ = ["CycloneContext"]
 
 class CycloneContext(Context):
     """A participant of a Cyclone DDS domain."""
+
+    events = frozenset(EventKind)
 
     def __init__(self, domain_id: int) -> None:
         self.domain_id = domain_id

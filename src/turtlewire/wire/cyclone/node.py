@@ -18,7 +18,7 @@ from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Context, Sink, TypeId
+    from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
     from turtlewire.wire.qos import QoS
 
     from .core import ContextCore
@@ -89,25 +89,25 @@ class CycloneNode(Node):
         subscription.on_closing.append(lambda: self._core.reader.unwatch(condition))
         self._core.reader.watch(condition, deliver)
 
-    def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
+    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
         identity = {"clientid": self._service_id()}
         requests = self._publisher(
-            EndpointSpec(service, names.request_topic(service), request, qos, identity)
+            EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
         )
         replies = self._subscription(
-            EndpointSpec(service, names.reply_topic(service), response, qos, identity)
+            EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
         )
         return CycloneClient(service, requests, replies)
 
-    def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
+    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         """See :meth:`Node.create_service`."""
         identity = {"serviceid": self._service_id()}
         replies = self._publisher(
-            EndpointSpec(service, names.reply_topic(service), response, qos, identity)
+            EndpointSpec(service, names.reply_topic(service), types.response, qos, identity)
         )
         requests = self._subscription(
-            EndpointSpec(service, names.request_topic(service), request, qos, identity)
+            EndpointSpec(service, names.request_topic(service), types.request, qos, identity)
         )
         server = CycloneService(service, requests, replies, self._core.reader)
         replies.on_matched.append(server.matched)

@@ -12,7 +12,5 @@ module                       what it holds
 `node`, `core`               a node; what it shares with its endpoints
 `endpoint`                   what publishers and subscriptions have in common
 `publisher`, `subscription`  the two kinds of endpoints
-`waiting`                    wait sets
-`reader`                     the thread that calls callbacks
 ===========================  ==========================================================
 """

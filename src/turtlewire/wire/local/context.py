@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from turtlewire.errors import WireError
 from turtlewire.wire.base import Context, EndpointInfo, NodeInfo
 from turtlewire.wire.graph import GraphView
+from turtlewire.wire.queue_wait_set import QueueWaitSet
+from turtlewire.wire.reader_thread import Reader, ReaderThread
 
 from .bus import Bus, bus_of
 from .core import NodeCore
-from .endpoint import new_gid
+from .endpoint import EVENTS, new_gid
 from .node import LocalNode
-from .reader import Reader, ReaderThread
-from .waiting import LocalWaitSet
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,6 +45,8 @@ class _LocalGraph(GraphView):
 class LocalContext(Context):
     """A participant of an in-process domain."""
 
+    events = EVENTS
+
     def __init__(self, domain_id: int) -> None:
         self.domain_id = domain_id
         self.gid = new_gid()
@@ -52,7 +54,7 @@ class LocalContext(Context):
         self._reader: Reader = ReaderThread()
         self.bus = bus_of(domain_id)
         self._graph = _LocalGraph(self.bus)
-        self._wait_sets: set[LocalWaitSet] = set()
+        self._wait_sets: set[QueueWaitSet] = set()
         self._closed = False
         with self.bus.lock:
             self.bus.listeners.append(self._graph_changed)
@@ -95,7 +97,7 @@ class LocalContext(Context):
         """See :meth:`Context.create_wait_set`."""
         with self.bus.lock:
             self._require_open("create a wait set")
-            wait_set = LocalWaitSet(self.bus.lock, self._wait_sets.discard)
+            wait_set = QueueWaitSet(self.bus.lock, self._wait_sets.discard)
             self._wait_sets.add(wait_set)
         return wait_set
 

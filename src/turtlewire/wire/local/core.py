@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import NodeInfo
+    from turtlewire.wire.reader_thread import Reader
 
     from .bus import Bus
     from .endpoint import LocalEndpoint
-    from .reader import Reader
 
 __all__ = ["NodeCore"]
 

@@ -18,11 +18,12 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, NodeInfo, TypeId
     from turtlewire.wire.qos import QoS
 
-__all__ = ["EndpointSpec", "LocalEndpoint", "Message", "new_gid"]
+__all__ = ["EVENTS", "EndpointSpec", "LocalEndpoint", "Message", "new_gid"]
 
 Message = tuple[bytes, MessageInfo]
 
-_EVENTS = {EventKind.MATCHED, EventKind.INCOMPATIBLE_QOS}
+#: What endpoints here can report.
+EVENTS = frozenset({EventKind.MATCHED, EventKind.INCOMPATIBLE_QOS})
 
 _gids = itertools.count(1)
 
@@ -73,7 +74,7 @@ class LocalEndpoint(Entity):
 
     def create_event(self, kind: EventKind) -> Event:
         """See :meth:`Publisher.create_event`."""
-        if kind not in _EVENTS:
+        if kind not in EVENTS:
             raise WireError(f"the in-process middleware has no event '{kind.value}'")
         return self._event(kind)
 

@@ -16,7 +16,7 @@ from .subscription import LocalSubscription
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Context, Sink, TypeId
+    from turtlewire.wire.base import Context, ServiceTypes, Sink, TypeId
     from turtlewire.wire.qos import QoS
 
     from .core import NodeCore
@@ -63,16 +63,16 @@ class LocalNode(Node):
         spec = EndpointSpec(topic, dds_topic, type_id, qos)
         return LocalSubscription(self._core, spec, on_message)
 
-    def create_client(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Client:
+    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
         """See :meth:`Node.create_client`."""
-        requests_, replies_ = _specs(service, request, response, qos)
+        requests_, replies_ = _specs(service, types, qos)
         replies = LocalSubscription(self._core, replies_)
         requests = LocalPublisher(self._core, requests_)
         return TopicClient(service, int.from_bytes(requests.gid[-8:], "big"), requests, replies)
 
-    def create_service(self, service: str, request: TypeId, response: TypeId, qos: QoS) -> Service:
+    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
         """See :meth:`Node.create_service`."""
-        requests_, replies_ = _specs(service, request, response, qos)
+        requests_, replies_ = _specs(service, types, qos)
         requests = LocalSubscription(self._core, requests_)
         replies = LocalPublisher(self._core, replies_)
         return TopicService(service, requests, replies)
@@ -86,11 +86,9 @@ class LocalNode(Node):
         self._on_closed(self)
 
 
-def _specs(
-    service: str, request: TypeId, response: TypeId, qos: QoS
-) -> tuple[EndpointSpec, EndpointSpec]:
+def _specs(service: str, types: ServiceTypes, qos: QoS) -> tuple[EndpointSpec, EndpointSpec]:
     """Of a service's requests and of its replies."""
     return (
-        EndpointSpec(service, names.request_topic(service), request, qos),
-        EndpointSpec(service, names.reply_topic(service), response, qos),
+        EndpointSpec(service, names.request_topic(service), types.request, qos),
+        EndpointSpec(service, names.reply_topic(service), types.response, qos),
     )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.wire.base import MessageInfo, Subscription
 from turtlewire.wire.qos import Durability
+from turtlewire.wire.queue_wait_set import Queued
 from turtlewire.wire.report import call_guarded
 
 from .endpoint import LocalEndpoint
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["LocalSubscription"]
 
 
-class LocalSubscription(LocalEndpoint, Subscription):
+class LocalSubscription(LocalEndpoint, Queued, Subscription):
     """Keeps messages until they are taken.
 
     Attributes:
@@ -65,7 +66,7 @@ class LocalSubscription(LocalEndpoint, Subscription):
             call_guarded(self._on_message, message, self.topic)
 
     @property
-    def is_ready(self) -> bool:
+    def is_waiting(self) -> bool:
         """Whether messages are waiting."""
         return bool(self._queue)
 

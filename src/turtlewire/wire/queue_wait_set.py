@@ -1,37 +1,51 @@
-"""Wait sets of the in-process middleware."""
+"""Wait sets of middlewares whose messages wait in queues of Python."""
 
 from __future__ import annotations
 
 import threading
 from typing import TYPE_CHECKING
 
-from turtlewire.wire.base import Entity, WaitSet
-from turtlewire.wire.events import EventWatcher, StatusEvent
-from turtlewire.wire.services import TopicClient, TopicService
-
-from .subscription import LocalSubscription
+from .base import Entity, WaitSet
+from .events import EventWatcher, StatusEvent
+from .services import TopicClient, TopicService
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.base import Waitable
+    from .base import Waitable
 
-__all__ = ["LocalWaitSet"]
+__all__ = ["QueueWaitSet", "Queued"]
 
 
-class LocalWaitSet(EventWatcher, WaitSet):
-    """Waits on a condition variable over the bus's lock.
+class Queued(Entity):
+    """An entity with a queue.
+
+    Attributes:
+        watchers: The wait sets that it is attached to, and what to call, with their lock held, when
+            something was queued.
+    """
+
+    watchers: dict[WaitSet, Callable[[], None]]
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether something waits to be taken."""
+        raise NotImplementedError
+
+
+class QueueWaitSet(EventWatcher, WaitSet):
+    """Waits on a condition variable over the lock of the queues.
 
     Args:
-        lock: The bus's lock.
+        lock: Guards the queues of all entities that are attached.
         on_closing: Called when it is closed.
     """
 
-    def __init__(self, lock: threading.RLock, on_closing: Callable[[LocalWaitSet], None]) -> None:
+    def __init__(self, lock: threading.RLock, on_closing: Callable[[QueueWaitSet], None]) -> None:
         super().__init__()
         self._on_closing = on_closing
         self._condition = threading.Condition(lock)
-        self._attached: dict[LocalSubscription, Entity] = {}
+        self._attached: dict[Queued, Entity] = {}
         self._woken = False
         self._closed = False
 
@@ -40,10 +54,10 @@ class LocalWaitSet(EventWatcher, WaitSet):
         if isinstance(entity, StatusEvent):
             entity.attach(self)
             return
-        subscription = _readable_part(entity)
+        queue = _queue_of(entity)
         with self._condition:
-            subscription.watchers[self] = self.notify
-            self._attached[subscription] = entity
+            queue.watchers[self] = self.notify
+            self._attached[queue] = entity
             self._condition.notify_all()
 
     def detach(self, entity: Waitable) -> None:
@@ -51,13 +65,13 @@ class LocalWaitSet(EventWatcher, WaitSet):
         if isinstance(entity, StatusEvent):
             entity.detach(self)
             return
-        subscription = _readable_part(entity)
+        queue = _queue_of(entity)
         with self._condition:
-            self._attached.pop(subscription, None)
-            subscription.watchers.pop(self, None)
+            self._attached.pop(queue, None)
+            queue.watchers.pop(self, None)
 
     def notify(self) -> None:
-        """A message came for an attached subscription; called with the bus locked."""
+        """A message came for an attached subscription; called with the lock held."""
         self._condition.notify_all()
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
@@ -68,14 +82,14 @@ class LocalWaitSet(EventWatcher, WaitSet):
             )
             self._woken = self._closed
             ready: list[Entity] = [
-                entity for subscription, entity in self._attached.items() if subscription.is_ready
+                entity for queue, entity in self._attached.items() if queue.is_waiting
             ]
             return ready + self.ready_events()
 
     def _has_news(self) -> bool:
         return (
             self._woken
-            or any(subscription.is_ready for subscription in self._attached)
+            or any(queue.is_waiting for queue in self._attached)
             or bool(self.ready_events())
         )
 
@@ -90,15 +104,16 @@ class LocalWaitSet(EventWatcher, WaitSet):
         self._on_closing(self)
         with self._condition:
             self._closed = True
-            for subscription in list(self._attached):
-                self.detach(subscription)
+            for queue in self._attached:
+                queue.watchers.pop(self, None)
+            self._attached.clear()
             self.wake()
 
 
-def _readable_part(entity: Waitable) -> LocalSubscription:
+def _queue_of(entity: Waitable) -> Queued:
     if isinstance(entity, TopicClient):
         entity = entity.replies
     elif isinstance(entity, TopicService):
         entity = entity.requests
-    assert isinstance(entity, LocalSubscription)
+    assert isinstance(entity, Queued)
     return entity

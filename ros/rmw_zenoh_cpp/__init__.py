@@ -1,0 +1,8 @@
+"""The router of Zenoh; the middleware itself is ``RMW_IMPLEMENTATION=rmw_zenoh_cpp``.
+
+============  ===================================
+module        what it holds
+============  ===================================
+`rmw_zenohd`  ``ros2 run rmw_zenoh_cpp rmw_zenohd``
+============  ===================================
+"""

@@ -1,0 +1,27 @@
+"""``ros2 run rmw_zenoh_cpp rmw_zenohd``: a Zenoh router, which joins what is on several hosts.
+
+It listens at 127.0.0.1:7447, and does what the file that ``ZENOH_ROUTER_CONFIG_URI`` names, and
+``ZENOH_CONFIG_OVERRIDE``, say. Processes on one host find each other without it.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from turtlewire.errors import WireError
+from turtlewire.wire.zenoh.library import require_zenoh
+
+__all__ = ["main"]
+
+
+def main() -> int:
+    """Route until Ctrl-C; the exit status."""
+    try:
+        require_zenoh()
+        from turtlewire.wire.zenoh.router import route
+
+        route()
+    except WireError as error:
+        sys.stderr.write(f"{error}\n{error.hint}\n")
+        return 1
+    return 0

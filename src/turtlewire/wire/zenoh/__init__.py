@@ -1,0 +1,28 @@
+"""Zenoh: the protocol of rmw_zenoh_cpp (ROS 2 Jazzy and later) on PyPI's ``eclipse-zenoh``.
+
+Messages travel as CDR with 33 bytes beside them; the graph is made of liveliness tokens, whose text
+says everything about a node or an endpoint. Nothing here is asked for by an endpoint but its key,
+so all endpoints of one topic and type match, whatever their QoS.
+
+Zenoh calls Python on threads of its own. Each subscription has one, made by the library, which
+waits without the GIL and only queues; tokens, requests and responses are rare and are queued on
+Zenoh's receiving threads. The context's reader thread calls the callbacks.
+
+===========================  ==================================================================
+module                       what it holds
+===========================  ==================================================================
+`qos_text`                   a QoS as a token spells it
+`token`                      `Token`: a node or an endpoint in the graph, its key and its gid
+`attachment`                 the 33 bytes beside a message
+`configuration`              the configuration of sessions and routers, and ``ZENOH_*`` variables
+`library`                    the import of ``eclipse-zenoh``
+`context`                    a participant
+`core`                       what a context shares with its nodes and endpoints
+`graph`                      nodes and endpoints, from the tokens
+`node`                       nodes
+`endpoint`                   what all endpoints have in common
+`publisher`, `subscription`  the ends of a topic
+`services`                   clients and servers
+`router`                     ``rmw_zenohd``
+===========================  ==================================================================
+"""

@@ -1,0 +1,168 @@
+"""The configuration of a session or a router: rmw_zenoh's, and the variables that change it.
+
+Sessions differ from rmw_zenoh's in one point: they look for each other by multicast on the loopback
+interface (with ``ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET``, on all interfaces), so that no router is
+needed. A router at port 7447 is used as well, as there.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+import zenoh
+
+from turtlewire.errors import WireError
+from turtlewire.wire import environment
+from turtlewire.wire.environment import Range
+from turtlewire.wire.report import warn_once
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["ROUTER_PORT", "router_configuration", "session_configuration"]
+
+ROUTER_PORT = 7447
+
+_LOOPBACK = {"darwin": "lo0", "linux": "lo"}
+_PEERS_AND_ROUTERS = ["router", "peer"]
+_GOSSIP = {
+    "enabled": True,
+    "target": {"router": _PEERS_AND_ROUTERS, "peer": ["router"]},
+}
+_UNICAST = {
+    "open_timeout": 60_000,
+    "accept_timeout": 60_000,
+    "accept_pending": 10_000,
+    "max_sessions": 10_000,
+}
+
+
+def session_configuration() -> zenoh.Config:
+    """What a context opens its session with.
+
+    Raises:
+        WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration.
+    """
+    return _configuration("ZENOH_SESSION_CONFIG_URI", _session)
+
+
+def router_configuration() -> zenoh.Config:
+    """What ``rmw_zenohd`` opens its session with.
+
+    Raises:
+        WireError: ``ZENOH_ROUTER_CONFIG_URI`` names no configuration.
+    """
+    return _configuration("ZENOH_ROUTER_CONFIG_URI", _router)
+
+
+def _configuration(variable: str, default: Callable[[], dict[str, Any]]) -> zenoh.Config:
+    path = os.environ.get(variable, "").strip()
+    if not path:
+        configuration: zenoh.Config = zenoh.Config.from_json5(json.dumps(default()))
+    else:
+        try:
+            configuration = zenoh.Config.from_file(path)
+        except zenoh.ZError as error:
+            failed = WireError(f"Invalid configuration file {path}")
+            raise failed.with_hint(f"{variable} names it; Zenoh says: {error}") from error
+    _override(configuration)
+    return configuration
+
+
+def _override(configuration: zenoh.Config) -> None:
+    """Apply ``ZENOH_CONFIG_OVERRIDE``: ``key/path=value;key2=value2``, values in JSON5."""
+    for pair in os.environ.get("ZENOH_CONFIG_OVERRIDE", "").split(";"):
+        if not pair.strip():
+            continue
+        key, _, value = (part.strip() for part in pair.partition("="))
+        try:
+            configuration.insert_json5(key, value)
+        except zenoh.ZError:
+            warn_once(
+                f"ZENOH_CONFIG_OVERRIDE {pair}",
+                f"Ignore the invalid configuration key-value pair: ({key}, {value})",
+            )
+
+
+def _session() -> dict[str, Any]:
+    discovery = environment.discovery()
+    on_loopback = discovery.range is Range.LOCALHOST
+    alone = discovery.range is Range.OFF
+    loopback = _LOOPBACK.get(sys.platform)
+    # With SUBNET, the user has asked for peers on other hosts.
+    address = "127.0.0.1" if on_loopback or alone else "0.0.0.0"  # noqa: S104
+    routers = [] if alone else [f"tcp/127.0.0.1:{ROUTER_PORT}"]
+    peers = [f"tcp/{peer}:{ROUTER_PORT}" for peer in discovery.static_peers]
+    to_peers = {"router": [], "peer": _PEERS_AND_ROUTERS}
+    return {
+        "mode": "peer",
+        "connect": {
+            "timeout_ms": {"router": -1, "peer": -1, "client": 0},
+            "endpoints": routers + peers,
+            "exit_on_failure": {"router": False, "peer": False, "client": True},
+            "retry": {
+                "period_init_ms": 1000,
+                "period_max_ms": 4000,
+                "period_increase_factor": 2,
+            },
+        },
+        "listen": {"timeout_ms": 0, "endpoints": [f"tcp/{address}:0"]},
+        "scouting": {
+            # Nothing is waited for here: the graph says when it is complete.
+            "delay": 0,
+            "multicast": {
+                "enabled": not alone,
+                "interface": loopback if on_loopback and loopback else "auto",
+                "autoconnect": to_peers,
+                "listen": True,
+            },
+            "gossip": {
+                **_GOSSIP,
+                "autoconnect": to_peers,
+                "autoconnect_strategy": {"peer": {"to_router": "always", "to_peer": "greater-zid"}},
+            },
+        },
+        "timestamping": {"enabled": True},
+        "queries_default_timeout": 600_000,
+        "routing": {"interests": {"timeout": 10_000}},
+        "transport": {
+            "unicast": _UNICAST,
+            "link": _link(wait_before_close_us=60_000_000),
+            "shared_memory": {"enabled": False},
+        },
+        "adminspace": {"enabled": True},
+    }
+
+
+def _router() -> dict[str, Any]:
+    return {
+        "mode": "router",
+        "listen": {"endpoints": [f"tcp/127.0.0.1:{ROUTER_PORT}"]},
+        "scouting": {"multicast": {"enabled": False}, "gossip": _GOSSIP},
+        "timestamping": {"enabled": True},
+        "routing": {
+            "router": {"peers_failover_brokering": False},
+            "interests": {"timeout": 10_000},
+        },
+        "transport": {
+            "unicast": _UNICAST,
+            "link": _link(wait_before_close_us=5_000_000),
+            "shared_memory": {"enabled": False},
+        },
+        "adminspace": {"enabled": True},
+    }
+
+
+def _link(*, wait_before_close_us: int) -> dict[str, Any]:
+    """Of all links: a peer that says nothing for 60 s is gone."""
+    block = {"wait_before_close": wait_before_close_us}
+    return {
+        "tx": {
+            "lease": 60_000,
+            "keep_alive": 2,
+            "queue": {"congestion_control": {"block": block}},
+        }
+    }

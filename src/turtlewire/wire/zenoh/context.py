@@ -1,0 +1,125 @@
+"""Contexts."""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import os
+from typing import TYPE_CHECKING
+from weakref import WeakSet
+
+import zenoh
+
+from turtlewire.errors import WireError
+from turtlewire.wire.base import Context, EventKind, NodeInfo
+from turtlewire.wire.queue_wait_set import QueueWaitSet
+from turtlewire.wire.reader_thread import ReaderThread
+
+from .configuration import session_configuration
+from .core import ContextCore
+from .graph import ZenohGraph
+from .node import ZenohNode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import WaitSet
+
+__all__ = ["ZenohContext"]
+
+_contexts: WeakSet[ZenohContext] = WeakSet()
+
+
+def _keep_in_child() -> None:
+    """Never free the contexts that a forked child has inherited.
+
+    Freeing a session, or what was declared with it, waits for threads that the child does not have.
+    """
+    for context in _contexts:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(context))
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_keep_in_child)
+
+
+class ZenohContext(Context):
+    """A Zenoh session."""
+
+    events = frozenset({EventKind.MATCHED, EventKind.MESSAGE_LOST})
+
+    def __init__(self, domain_id: int) -> None:
+        self.domain_id = domain_id
+        session = _open()
+        reader = ReaderThread()
+        self._graph = ZenohGraph(domain_id, reader)
+        self._core = ContextCore(session, domain_id, reader, self._graph)
+        self.gid = bytes.fromhex(self._core.session_id.zfill(32))
+        self._process = os.getpid()
+        self._nodes: dict[ZenohNode, None] = {}
+        self._wait_sets: set[QueueWaitSet] = set()
+        self._graph.start(session)
+        _contexts.add(self)
+        atexit.register(self.close)
+
+    @property
+    def graph(self) -> ZenohGraph:
+        """See :attr:`Context.graph`."""
+        return self._graph
+
+    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> ZenohNode:
+        """See :meth:`Context.create_node`."""
+        self._require_open(f"create node {name}")
+        node = ZenohNode(self, self._core, NodeInfo(name, namespace, enclave), self._forget)
+        with self._core.lock:
+            self._nodes[node] = None
+        return node
+
+    def _forget(self, node: ZenohNode) -> None:
+        """Forget a node that was closed."""
+        with self._core.lock:
+            self._nodes.pop(node, None)
+
+    def create_wait_set(self) -> WaitSet:
+        """See :meth:`Context.create_wait_set`."""
+        self._require_open("create a wait set")
+        wait_set = QueueWaitSet(self._core.lock, self._wait_sets.discard)
+        self._wait_sets.add(wait_set)
+        return wait_set
+
+    def call_soon(self, call: Callable[[], None]) -> None:
+        """See :meth:`Context.call_soon`."""
+        self._core.reader.submit(call)
+
+    def _require_open(self, what: str) -> None:
+        self._core.require_open(what)
+        if self._process != os.getpid():
+            error = WireError(f"{what}: the context was opened before this process was forked")
+            raise error.with_hint(
+                "Start processes with subprocess or multiprocessing's 'spawn', or fork before the "
+                "first context."
+            )
+
+    def close(self) -> None:
+        """See :meth:`Context.close`."""
+        with self._core.lock:
+            if self._core.closing or self._process != os.getpid():
+                return
+            self._core.closing = True
+            nodes = list(self._nodes)
+        atexit.unregister(self.close)
+        self._core.reader.close()
+        self._core.session.close()  # type: ignore[no-untyped-call]
+        for node in nodes:
+            node.close()
+        for wait_set in list(self._wait_sets):
+            wait_set.close()
+        self._graph.end_waits()
+        self._core.join_threads()
+
+
+def _open() -> zenoh.Session:
+    try:
+        return zenoh.open(session_configuration())
+    except zenoh.ZError as error:
+        raise WireError(f"cannot open a Zenoh session: {error}") from error

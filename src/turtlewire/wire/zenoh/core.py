@@ -1,0 +1,100 @@
+"""What a context shares with its nodes and endpoints."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from typing import TYPE_CHECKING, Protocol
+
+from turtlewire.errors import WireError
+
+if TYPE_CHECKING:
+    import zenoh
+
+    from turtlewire.wire.base import Entity
+    from turtlewire.wire.reader_thread import ReaderThread
+
+    from .graph import ZenohGraph
+    from .token import Token
+
+__all__ = ["ContextCore", "Owner"]
+
+
+class Owner(Protocol):
+    """The node of an endpoint, as the endpoint knows it.
+
+    Attributes:
+        token: How the graph shows it.
+    """
+
+    token: Token
+
+    def adopt(self, endpoint: Entity) -> None:
+        """Own an endpoint until it closes."""
+
+    def forget(self, endpoint: Entity) -> None:
+        """An endpoint was closed."""
+
+
+class ContextCore:
+    """A session, and what belongs to it.
+
+    Attributes:
+        session: The Zenoh session.
+        session_id: Its id as tokens spell it.
+        domain_id: The domain of all keys.
+        lock: Guards queues, matches and the graph. It is never held while Zenoh is called, because
+            Zenoh's threads take it.
+        reader: Calls callbacks.
+        graph: Nodes and endpoints.
+        closing: Whether the context is being closed, or is closed.
+    """
+
+    def __init__(
+        self, session: zenoh.Session, domain_id: int, reader: ReaderThread, graph: ZenohGraph
+    ) -> None:
+        self.session = session
+        self.session_id = str(session.zid())
+        self.domain_id = domain_id
+        self.lock: threading.RLock = graph.lock
+        self.reader = reader
+        self.graph = graph
+        self.closing = False
+        self._numbers = itertools.count()
+        self._threads_ended = threading.Condition(self.lock)
+        self._serving = 0
+        self._ended: list[threading.Thread] = []
+
+    def next_number(self) -> str:
+        """A number for a new node or endpoint."""
+        return str(next(self._numbers))
+
+    def require_open(self, what: str) -> None:
+        """Refuse what a closed context cannot do.
+
+        Raises:
+            WireError: It is closed.
+        """
+        if self.closing:
+            raise WireError(f"{what}: the context is closed")
+
+    def thread_starts(self) -> None:
+        """A subscription is about to get a thread."""
+        with self.lock:
+            self._serving += 1
+
+    def thread_ends(self) -> None:
+        """The thread that calls this has nothing more to do."""
+        with self._threads_ended:
+            self._serving -= 1
+            self._ended = [thread for thread in self._ended if thread.is_alive()]
+            self._ended.append(threading.current_thread())
+            self._threads_ended.notify_all()
+
+    def join_threads(self) -> None:
+        """Wait until the threads of all subscriptions have ended; after closing the session."""
+        with self._threads_ended:
+            self._threads_ended.wait_for(lambda: not self._serving)
+            ended = self._ended
+        for thread in ended:
+            thread.join()

@@ -1,0 +1,122 @@
+"""What all endpoints have in common."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.errors import WireError
+from turtlewire.wire import names
+from turtlewire.wire.base import Entity, EventKind, EventStatus
+from turtlewire.wire.events import StatusEvent
+
+from .qos_text import format_qos
+
+if TYPE_CHECKING:
+    from typing import Protocol
+
+    from turtlewire.wire.base import Event, TypeId
+    from turtlewire.wire.qos import QoS
+
+    from .core import ContextCore, Owner
+    from .token import Token
+
+    class Declared(Protocol):
+        """What Zenoh returns for a publisher, a subscriber and the like."""
+
+        def undeclare(self) -> None:
+            """Take it back."""
+
+
+__all__ = ["ZenohEndpoint"]
+
+
+class ZenohEndpoint(Entity):
+    """An endpoint with its token. The context's lock guards its state.
+
+    Attributes:
+        token: How the graph shows it.
+        gid: 16 bytes, which its messages carry.
+        qos: Its policies.
+        partners: The endpoints that it matches, by gid.
+    """
+
+    #: The kind of its token, and the events that it has.
+    KIND = ""
+    EVENTS = frozenset({EventKind.MATCHED})
+
+    def __init__(
+        self, core: ContextCore, node: Owner, name: str, type_id: TypeId, qos: QoS
+    ) -> None:
+        self.topic = name
+        self.qos = qos
+        self.partners: dict[str, Token] = {}
+        self.token = node.token._replace(
+            entity_id=core.next_number(),
+            kind=self.KIND,
+            name=name,
+            dds_type=names.type_to_dds(type_id.name),
+            type_hash=type_id.type_hash,
+            qos=format_qos(qos),
+        )
+        self.gid: bytes = self.token.gid
+        self._core = core
+        self._node = node
+        self._lock = core.lock
+        self._closed = False
+        self._declared: list[Declared] = []
+        self._matched_count = 0
+        self._events: dict[EventKind, StatusEvent] = {}
+
+    def announce(self, declared: Declared) -> None:
+        """Keep what was declared for its data, and show it in the graph."""
+        self._declared.append(declared)
+        self._core.graph.watch(self)
+        self._core.graph.add(self.token)
+        self._declared.append(self._core.session.liveliness().declare_token(self.token.text))
+        self._node.adopt(self)
+
+    def create_event(self, kind: EventKind) -> Event:
+        """See :meth:`Publisher.create_event`."""
+        if kind not in self.EVENTS:
+            raise WireError(
+                f"{type(self).__name__} of {self.topic} has no event '{kind.value}': deadline and "
+                "liveliness events are not yet implemented in rmw_zenoh_cpp"
+            )
+        return self._event(kind)
+
+    def _event(self, kind: EventKind) -> StatusEvent:
+        with self._lock:
+            return self._events.setdefault(kind, StatusEvent(kind))
+
+    def meet(self, partner: Token) -> None:
+        """See :meth:`Matching.meet`."""
+        if partner.text not in self.partners:
+            self.partners[partner.text] = partner
+            self._matched_count += 1
+            self._report_matched(1)
+
+    def part(self, partner: Token) -> None:
+        """See :meth:`Matching.part`."""
+        if self.partners.pop(partner.text, None) is not None:
+            self._report_matched(-1)
+
+    def _report_matched(self, change: int) -> None:
+        status = EventStatus(self._matched_count, max(change, 0), len(self.partners), change)
+        self._event(EventKind.MATCHED).add(status)
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+        self._core.graph.unwatch(self)
+        if not self._core.closing:  # closing the session takes everything back at once
+            for declared in reversed(self._declared):
+                declared.undeclare()
+        self._core.graph.remove(self.token)
+        with self._lock:
+            self.partners.clear()
+            for event in self._events.values():
+                event.close()
+        self._node.forget(self)

@@ -1,0 +1,210 @@
+"""The graph: nodes and endpoints, from the liveliness tokens of all sessions of a domain."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Protocol
+
+from zenoh import SampleKind
+from zenoh.handlers import Callback
+
+from turtlewire.wire import names
+from turtlewire.wire.base import EndpointInfo, NodeInfo
+from turtlewire.wire.conflicts import NodeNames, TopicTypes
+from turtlewire.wire.graph import GraphView
+from turtlewire.wire.qos import QoS
+from turtlewire.wire.report import warn_once
+
+from .qos_text import parse_qos
+from .token import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import zenoh
+
+    from turtlewire.wire.reader_thread import ReaderThread
+
+__all__ = ["Matching", "ZenohGraph"]
+
+#: Peers on this host answer within a hundredth of it.
+_DISCOVERY_NS = 200_000_000
+
+_TOPIC_KINDS = {PUBLISHER: "publisher", SUBSCRIPTION: "subscription"}
+_PARTNER = {PUBLISHER: SUBSCRIPTION, SUBSCRIPTION: PUBLISHER, CLIENT: SERVICE, SERVICE: CLIENT}
+
+
+class Matching(Protocol):
+    """An endpoint that wants to know its partners. Both methods are called with the lock held."""
+
+    token: Token
+
+    def meet(self, partner: Token) -> None:
+        """An endpoint of the other kind and the same key is there."""
+
+    def part(self, partner: Token) -> None:
+        """It is not there any more."""
+
+
+class ZenohGraph(GraphView):
+    """Collects tokens, and tells this context's endpoints who matches.
+
+    Attributes:
+        lock: Guards all of it.
+    """
+
+    def __init__(self, domain_id: int, reader: ReaderThread) -> None:
+        super().__init__()
+        self.lock = threading.RLock()
+        self._domain_id = domain_id
+        self._reader = reader
+        self._session_id = ""
+        self._tokens: dict[str, Token] = {}
+        self._own: dict[tuple[str, str], dict[Matching, None]] = {}
+        self._by_key: dict[tuple[str, str], dict[str, Token]] = {}
+        self._topic_types = TopicTypes()
+        self._node_names = NodeNames(domain_id)
+        self._is_complete = False
+
+    def start(self, session: zenoh.Session) -> None:
+        """Collect the tokens that are there, and from now on."""
+        self._session_id = str(session.zid())
+        self._subscriber = session.liveliness().declare_subscriber(
+            graph_key(self._domain_id),
+            Callback(self._on_token, indirect=False),
+            history=True,
+        )
+        self._reader.submit_after(_DISCOVERY_NS, self._completed)
+
+    def _completed(self) -> None:
+        self._is_complete = True
+        self.notify_changed()
+
+    def is_complete(self) -> bool:
+        """See :meth:`Graph.is_complete`: nobody tells how many sessions there are."""
+        return self._is_complete
+
+    def _on_token(self, sample: zenoh.Sample) -> None:
+        """On a thread of Zenoh."""
+        text = str(sample.key_expr)
+        token = Token.parse(text)
+        if token is None:
+            warn_once("token", f"ignored a liveliness token that is not one of ROS 2: {text}")
+        elif token.session != self._session_id:  # our own tokens are known without the wire
+            (self.remove if sample.kind == SampleKind.DELETE else self.add)(token)
+
+    def add(self, token: Token) -> None:
+        """A node or endpoint is there. Thread-safe; not with locks held."""
+        with self.lock:
+            if token.text in self._tokens:
+                return
+            self._tokens[token.text] = token
+            if token.kind == NODE:
+                self._compare_nodes(token)
+            else:
+                self._by_key.setdefault((token.kind, token.data_key), {})[token.text] = token
+                self._compare_types(token, add=True)
+                for endpoint in self._partners(token):
+                    endpoint.meet(token)
+        self._reader.submit(self.notify_changed)
+
+    def remove(self, token: Token) -> None:
+        """A node or endpoint has gone. Thread-safe; not with locks held."""
+        with self.lock:
+            if self._tokens.pop(token.text, None) is None:
+                return
+            if token.kind == NODE:
+                self._compare_nodes(token)
+            else:
+                same = self._by_key[token.kind, token.data_key]
+                del same[token.text]
+                if not same:
+                    del self._by_key[token.kind, token.data_key]
+                self._compare_types(token, add=False)
+                for endpoint in self._partners(token):
+                    endpoint.part(token)
+        self._reader.submit(self.notify_changed)
+
+    def watch(self, endpoint: Matching) -> None:
+        """Tell an endpoint of this context its partners, those that are there first."""
+        token = endpoint.token
+        with self.lock:
+            self._own.setdefault((token.kind, token.data_key), {})[endpoint] = None
+            partners = self._by_key.get((_PARTNER[token.kind], token.data_key), {})
+            for partner in list(partners.values()):
+                endpoint.meet(partner)
+
+    def unwatch(self, endpoint: Matching) -> None:
+        """Tell it nothing more."""
+        token = endpoint.token
+        with self.lock:
+            same = self._own.get((token.kind, token.data_key), {})
+            same.pop(endpoint, None)
+            if not same:
+                self._own.pop((token.kind, token.data_key), None)
+
+    def _partners(self, token: Token) -> list[Matching]:
+        return list(self._own.get((_PARTNER[token.kind], token.data_key), ()))
+
+    def _compare_types(self, token: Token, *, add: bool) -> None:
+        if token.kind in _TOPIC_KINDS:
+            change = self._topic_types.add if add else self._topic_types.remove
+            type_name = names.type_from_dds(token.dds_type)
+            own = token.session == self._session_id
+            change(token.name, _TOPIC_KINDS[token.kind], type_name, own=own)
+
+    def _compare_nodes(self, token: Token) -> None:
+        """Warn if another session has a node of the name of one of ours."""
+        if token.session == self._session_id:
+            self._node_names.own(names.fully_qualified_node_name(token.node, token.namespace))
+            return
+        theirs = _full_names(self._nodes_of(token.session))
+        own = _full_names(self._nodes_of(self._session_id))
+        self._node_names.others(token.session.encode(), theirs, own)
+
+    def _nodes_of(self, session: str) -> list[Token]:
+        return [
+            token
+            for token in self._tokens.values()
+            if token.kind == NODE and token.session == session
+        ]
+
+    def nodes(self) -> list[NodeInfo]:
+        """See :meth:`Graph.nodes`."""
+        with self.lock:
+            return [_node_info(token) for token in self._tokens.values() if token.kind == NODE]
+
+    def endpoints(self) -> list[EndpointInfo]:
+        """See :meth:`Graph.endpoints`."""
+        with self.lock:
+            tokens = [token for token in self._tokens.values() if token.kind != NODE]
+        return [info for token in tokens for info in _endpoint_infos(token)]
+
+
+def _full_names(nodes: Iterable[Token]) -> list[str]:
+    return [names.fully_qualified_node_name(node.node, node.namespace) for node in nodes]
+
+
+def _node_info(token: Token) -> NodeInfo:
+    return NodeInfo(token.node, token.namespace, token.enclave)
+
+
+def _endpoint_infos(token: Token) -> list[EndpointInfo]:
+    """What the graph shows of an endpoint; of a service's, its two topics on DDS."""
+    try:
+        qos = parse_qos(token.qos)
+    except ValueError as error:
+        warn_once(f"qos {token.qos}", f"a peer announced {token.name} with a strange QoS: {error}")
+        qos = QoS()
+    node, gid, type_hash = _node_info(token), token.gid, token.type_hash
+    type_name = names.type_from_dds(token.dds_type)
+    kind = _TOPIC_KINDS.get(token.kind)
+    if kind is not None:
+        return [EndpointInfo(kind, token.name, type_name, type_hash, node, gid, qos)]
+    kinds = ("subscription", "publisher")
+    request, reply = kinds if token.kind == SERVICE else reversed(kinds)
+    topics = (
+        (request, names.request_topic(token.name), f"{type_name}_Request"),
+        (reply, names.reply_topic(token.name), f"{type_name}_Response"),
+    )
+    return [EndpointInfo(*topic, type_hash, node, gid, qos) for topic in topics]

@@ -1,0 +1,121 @@
+"""Nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtlewire.wire.base import Node, NodeInfo
+from turtlewire.wire.graph import with_best_available
+
+from .publisher import ZenohPublisher
+from .services import ZenohClient, ZenohService
+from .subscription import ZenohSubscription
+from .token import NODE, Token
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.base import (
+        Client,
+        Context,
+        Entity,
+        MessageInfo,
+        Publisher,
+        Service,
+        ServiceTypes,
+        Sink,
+        Subscription,
+        TypeId,
+    )
+    from turtlewire.wire.qos import QoS
+
+    from .core import ContextCore
+
+__all__ = ["ZenohNode"]
+
+
+class ZenohNode(Node):
+    """A node of a context.
+
+    Args:
+        context: The context that makes it.
+        core: What it shares with its endpoints.
+        info: Name, namespace and enclave.
+        on_closed: Called when it is closed.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        core: ContextCore,
+        info: NodeInfo,
+        on_closed: Callable[[ZenohNode], None],
+    ) -> None:
+        self.context = context
+        self.name, self.namespace = info.name, info.namespace
+        number = core.next_number()
+        self.token = Token(
+            core.domain_id,
+            core.session_id,
+            number,
+            number,
+            NODE,
+            info.enclave,
+            info.namespace,
+            info.name,
+        )
+        self._core = core
+        self._on_closed = on_closed
+        self._endpoints: dict[Entity, None] = {}
+        core.graph.add(self.token)
+        self._liveliness = core.session.liveliness().declare_token(self.token.text)
+
+    def adopt(self, endpoint: Entity) -> None:
+        """Own an endpoint until it closes."""
+        with self._core.lock:
+            self._endpoints[endpoint] = None
+
+    def forget(self, endpoint: Entity) -> None:
+        """An endpoint was closed."""
+        with self._core.lock:
+            self._endpoints.pop(endpoint, None)
+
+    def create_publisher(self, topic: str, type_id: TypeId, qos: QoS) -> Publisher:
+        """See :meth:`Node.create_publisher`."""
+        self._core.require_open(f"create publisher {topic}")
+        qos = with_best_available(qos, topic, "publisher", self.context)
+        return ZenohPublisher(self._core, self, topic, type_id, qos)
+
+    def create_subscription(
+        self,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: Callable[[bytes, MessageInfo], None] | None = None,
+        sink: Sink | None = None,  # noqa: ARG002 - Zenoh's library calls no native code
+    ) -> Subscription:
+        """See :meth:`Node.create_subscription`."""
+        self._core.require_open(f"create subscription {topic}")
+        qos = with_best_available(qos, topic, "subscription", self.context)
+        return ZenohSubscription(self._core, self, topic, type_id, qos, on_message)
+
+    def create_client(self, service: str, types: ServiceTypes, qos: QoS) -> Client:
+        """See :meth:`Node.create_client`."""
+        self._core.require_open(f"create client {service}")
+        return ZenohClient(self._core, self, service, types.service_id(), qos)
+
+    def create_service(self, service: str, types: ServiceTypes, qos: QoS) -> Service:
+        """See :meth:`Node.create_service`."""
+        self._core.require_open(f"create service {service}")
+        return ZenohService(self._core, self, service, types.service_id(), qos)
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        with self._core.lock:
+            endpoints = list(self._endpoints)
+        for endpoint in endpoints:
+            endpoint.close()
+        if not self._core.closing:
+            self._liveliness.undeclare()  # type: ignore[no-untyped-call]
+        self._core.graph.remove(self.token)
+        self._on_closed(self)

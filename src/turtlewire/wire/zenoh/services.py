@@ -1,0 +1,188 @@
+"""Clients and servers: queriers and queryables on the service's key."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections import deque
+from typing import TYPE_CHECKING
+
+import zenoh
+from zenoh.handlers import Callback as Handler
+
+from turtlewire.wire.base import Client, RequestId, Service
+from turtlewire.wire.qos import History
+from turtlewire.wire.queue_wait_set import Queued
+from turtlewire.wire.report import warn_once
+
+from .attachment import Attachment
+from .endpoint import ZenohEndpoint
+from .token import CLIENT, SERVICE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+    from turtlewire.wire.base import TypeId, WaitSet
+    from turtlewire.wire.qos import QoS
+
+    from .core import ContextCore, Owner
+
+__all__ = ["ZenohClient", "ZenohService"]
+
+#: The result of an action is awaited without limit.
+_NO_LIMIT_S = 1e9
+
+
+class _QueuedEndpoint(ZenohEndpoint, Queued):
+    """An end of a service: a queue of what has not been taken yet."""
+
+    EVENTS = frozenset()
+
+    def __init__(
+        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+    ) -> None:
+        super().__init__(core, node, service, type_id, qos)
+        self.service = service
+        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        self._limit = None if qos.history == History.KEEP_ALL else max(qos.depth, 1)
+        self._queue: deque[Any] = deque()
+
+    def _append(self, item: Any) -> Any | None:
+        """Queue something; returns the oldest if there are too many. With the lock held."""
+        self._queue.append(item)
+        for notify in self.watchers.values():
+            notify()
+        return (
+            self._queue.popleft() if len(self._queue) > (self._limit or len(self._queue)) else None
+        )
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether something waits to be taken."""
+        return bool(self._queue)
+
+    def take(self, limit: int = 32) -> list[Any]:
+        """See :meth:`Client.take` and :meth:`Service.take`."""
+        with self._lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        super().close()
+        for wait_set in list(self.watchers):
+            wait_set.detach(self)  # type: ignore[arg-type]  # both subclasses are waitable
+        with self._lock:
+            self._queue.clear()
+
+
+class ZenohClient(_QueuedEndpoint, Client):
+    """Asks all servers of its service."""
+
+    KIND = CLIENT
+
+    def __init__(
+        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+    ) -> None:
+        super().__init__(core, node, service, type_id, qos)
+        self.client_id = int.from_bytes(self.gid, "little")
+        self._numbers = itertools.count(1)
+        self._querier = core.session.declare_querier(
+            self.token.data_key,
+            target=zenoh.QueryTarget.ALL_COMPLETE,
+            consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=_NO_LIMIT_S if "/_action/get_result" in service else None,
+        )
+        self._handler = Handler(self._on_reply, indirect=False)
+        self.announce(self._querier)
+
+    def send_request(self, cdr: bytes) -> int:
+        """See :meth:`Client.send_request`."""
+        number = next(self._numbers)
+        attachment = Attachment(number, time.time_ns(), self.gid)
+        self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
+        return number
+
+    def _on_reply(self, reply: zenoh.Reply) -> None:
+        """On a thread of Zenoh."""
+        sample = reply.ok
+        if sample is None or sample.attachment is None:
+            return  # the time is over, or the server has gone: both end as no answer
+        try:
+            attachment = Attachment.unpack(bytes(sample.attachment))
+        except ValueError as error:
+            warn_once(f"reply {self.service}", f"a response of {self.service} was lost: {error}")
+            return
+        response = attachment.sequence_number, bytes(sample.payload)
+        with self._lock:
+            if not self._closed and self._append(response) is not None:
+                _warn_full("client", self.service)
+
+    def is_ready(self) -> bool:
+        """See :meth:`Client.is_ready`."""
+        return bool(self.partners)
+
+
+class ZenohService(_QueuedEndpoint, Service):
+    """Answers the queries of its key."""
+
+    KIND = SERVICE
+
+    def __init__(
+        self, core: ContextCore, node: Owner, service: str, type_id: TypeId, qos: QoS
+    ) -> None:
+        super().__init__(core, node, service, type_id, qos)
+        self._queries: dict[RequestId, zenoh.Query] = {}
+        handler = Handler(self._on_query, indirect=False)
+        self.announce(core.session.declare_queryable(self.token.data_key, handler, complete=True))
+
+    def _on_query(self, query: zenoh.Query) -> None:
+        """On a thread of Zenoh."""
+        try:
+            attachment = Attachment.unpack(bytes(query.attachment or b""))
+        except ValueError as error:
+            warn_once(f"query {self.service}", f"a request of {self.service} was lost: {error}")
+            return
+        request_id = RequestId(int.from_bytes(attachment.gid, "little"), attachment.sequence_number)
+        request = request_id, bytes(query.payload or b"")
+        with self._lock:
+            if self._closed:
+                return
+            self._queries[request_id] = query
+            oldest = self._append(request)
+            forgotten = self._queries.pop(oldest[0], None) if oldest is not None else None
+        if forgotten is not None:
+            # Without the lock, because it calls Zenoh.
+            forgotten.drop()  # type: ignore[no-untyped-call]
+            _warn_full("server", self.service)
+
+    def send_response(self, request_id: RequestId, cdr: bytes) -> None:
+        """See :meth:`Service.send_response`."""
+        with self._lock:
+            query = self._queries.pop(request_id, None)
+        if query is None:
+            return
+        gid = request_id.client_id.to_bytes(16, "little")
+        attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
+        try:
+            query.reply(self.token.data_key, cdr, attachment=attachment.pack())
+        except zenoh.ZError as error:
+            warn_once(f"reply {self.service}", f"a response of {self.service} was lost: {error}")
+        finally:
+            query.drop()  # type: ignore[no-untyped-call]
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        super().close()
+        with self._lock:
+            queries, self._queries = self._queries, {}
+        for query in queries.values():
+            query.drop()  # type: ignore[no-untyped-call]
+
+
+def _warn_full(who: str, service: str) -> None:
+    warn_once(
+        f"full {who} {service}",
+        f"the queue of a {who} of {service} is full: the oldest was dropped "
+        "(its QoS says how many are kept)",
+    )

@@ -1,0 +1,187 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from typing import TYPE_CHECKING
+
+from zenoh import ext
+from zenoh.handlers import Callback as Handler
+
+from turtlewire.wire.base import EventKind, EventStatus, MessageInfo, Subscription
+from turtlewire.wire.encapsulation import HEADER_SIZE
+from turtlewire.wire.qos import Durability, History, Reliability
+from turtlewire.wire.queue_wait_set import Queued
+from turtlewire.wire.report import call_guarded, warn_once
+
+from .attachment import Attachment
+from .endpoint import ZenohEndpoint
+from .token import SUBSCRIPTION
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+    import zenoh
+
+    from turtlewire.wire.base import TypeId, WaitSet
+    from turtlewire.wire.qos import QoS
+
+    from .core import ContextCore, Owner
+    from .token import Token
+
+    OnMessage = Callable[[bytes, MessageInfo], None]
+
+__all__ = ["ZenohSubscription"]
+
+
+class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
+    """An advanced subscriber that queues on a thread of its own, which the library makes.
+
+    Queuing on Zenoh's receiving thread would stop the whole link while another thread computes.
+    """
+
+    KIND = SUBSCRIPTION
+    EVENTS = frozenset({EventKind.MATCHED, EventKind.MESSAGE_LOST})
+
+    def __init__(
+        self,
+        core: ContextCore,
+        node: Owner,
+        topic: str,
+        type_id: TypeId,
+        qos: QoS,
+        on_message: OnMessage | None = None,
+    ) -> None:
+        super().__init__(core, node, topic, type_id, qos)
+        self.watchers: dict[WaitSet, Callable[[], None]] = {}
+        keep_all = qos.history == History.KEEP_ALL
+        self._queue: deque[tuple[bytes, MessageInfo]] = deque(
+            maxlen=None if keep_all else max(qos.depth, 1)
+        )
+        self._on_message = on_message
+        self._is_delivering = False
+        self._last_numbers: dict[bytes, int] = {}
+        self._lost_count = 0
+        core.thread_starts()
+        self.announce(_on_a_daemon_thread(self._declare))
+
+    def _declare(self) -> ext.AdvancedSubscriber[None]:
+        handler = Handler(self._on_sample, self._core.thread_ends, indirect=True)
+        options: dict[str, Any] = {}
+        if self.qos.durability == Durability.TRANSIENT_LOCAL:
+            options["subscriber_detection"] = True
+            options["history"] = ext.HistoryConfig(
+                detect_late_publishers=True, max_samples=max(self.qos.depth, 1)
+            )
+            if self.qos.reliability != Reliability.BEST_EFFORT:
+                options["recovery"] = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
+        return ext.declare_advanced_subscriber(
+            self._core.session, self.token.data_key, handler, **options
+        )
+
+    def _on_sample(self, sample: zenoh.Sample) -> None:
+        """On the subscription's own thread."""
+        if sample.attachment is None:
+            warn_once(
+                f"attachment {self.topic}",
+                f"messages on {self.topic} without an attachment are dropped: "
+                "their publisher does not speak rmw_zenoh_cpp's protocol",
+            )
+            return
+        cdr = bytes(sample.payload)
+        try:
+            attachment = Attachment.unpack(bytes(sample.attachment))
+        except ValueError as error:
+            warn_once(f"attachment {self.topic}", f"a message on {self.topic} was lost: {error}")
+            return
+        if len(cdr) <= HEADER_SIZE:
+            warn_once(
+                f"short {self.topic}", f"a message on {self.topic} was lost: {len(cdr)} bytes"
+            )
+            return
+        info = MessageInfo(attachment.source_timestamp_ns, time.time_ns(), attachment.gid)
+        with self._lock:
+            if not self._closed:
+                self._count_lost(attachment)
+                self._queue.append((cdr, info))
+                self._tell()
+
+    def _count_lost(self, attachment: Attachment) -> None:
+        number, gid = attachment.sequence_number, attachment.gid
+        missing = number - self._last_numbers.get(gid, number - 1) - 1
+        self._last_numbers[gid] = number
+        if missing > 0:
+            self._lost_count += missing
+            self._event(EventKind.MESSAGE_LOST).add(EventStatus(self._lost_count, missing))
+
+    def _tell(self) -> None:
+        """Wake who waits for the message; called with the lock held."""
+        if self._on_message is not None and not self._is_delivering:
+            self._is_delivering = True
+            self._core.reader.submit(self._deliver)
+        for notify in self.watchers.values():
+            notify()
+
+    def _deliver(self) -> None:
+        """Hand over all waiting messages; on the reader thread."""
+        assert self._on_message is not None
+        with self._lock:
+            self._is_delivering = False
+            messages = list(self._queue)
+            self._queue.clear()
+        for message in messages:
+            call_guarded(self._on_message, message, self.topic)
+
+    def part(self, partner: Token) -> None:
+        """See :meth:`Matching.part`."""
+        super().part(partner)
+        self._last_numbers.pop(partner.gid, None)
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether messages are waiting."""
+        return bool(self._queue)
+
+    def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
+        """See :meth:`Subscription.take`."""
+        with self._lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    def publisher_count(self) -> int:
+        """See :meth:`Subscription.publisher_count`."""
+        return len(self.partners)
+
+    def close(self) -> None:
+        """See :meth:`Entity.close`."""
+        super().close()
+        for wait_set in list(self.watchers):
+            wait_set.detach(self)
+        with self._lock:
+            self._queue.clear()
+
+
+def _on_a_daemon_thread(call: Callable[[], ext.AdvancedSubscriber[None]]) -> Any:
+    """Run ``call`` on a daemon thread.
+
+    The library's thread for a subscriber becomes a daemon if the thread that declares it is one. A
+    program that forgets to close would never end otherwise: Python waits for all other threads
+    before it runs what was registered for the exit.
+    """
+    results: list[Any] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            results.append(call())
+        except BaseException as error:  # noqa: BLE001 - raised again by the caller's thread
+            errors.append(error)
+
+    thread = threading.Thread(target=run, name="turtlewire-declare", daemon=True)
+    thread.start()
+    thread.join()
+    if errors:
+        raise errors[0]
+    return results[0]

@@ -1,0 +1,65 @@
+"""What sessions and routers are opened with, and the variables that change it."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from turtlewire.errors import WireError
+from turtlewire.wire.zenoh.configuration import router_configuration, session_configuration
+
+
+def value(configuration, key: str):
+    return json.loads(configuration.get_json(key))
+
+
+def test_the_range_of_discovery(monkeypatch: pytest.MonkeyPatch):
+    configuration = session_configuration()
+    assert value(configuration, "listen/endpoints") == ["tcp/127.0.0.1:0"]
+    assert value(configuration, "connect/endpoints") == ["tcp/127.0.0.1:7447"]
+    assert value(configuration, "scouting/multicast/enabled") is True
+    assert value(configuration, "scouting/multicast/interface") == "lo"
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    monkeypatch.setenv("ROS_STATIC_PEERS", "10.0.0.7;robot.local")
+    configuration = session_configuration()
+    assert value(configuration, "listen/endpoints") == ["tcp/0.0.0.0:0"]
+    assert value(configuration, "scouting/multicast/interface") == "auto"
+    assert value(configuration, "connect/endpoints")[1:] == [
+        "tcp/10.0.0.7:7447",
+        "tcp/robot.local:7447",
+    ]
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    monkeypatch.delenv("ROS_STATIC_PEERS")
+    configuration = session_configuration()
+    assert value(configuration, "scouting/multicast/enabled") is False
+    assert value(configuration, "connect/endpoints") == []
+
+
+def test_the_router_stays_on_this_computer():
+    configuration = router_configuration()
+    assert value(configuration, "mode") == "router"
+    assert value(configuration, "listen/endpoints") == ["tcp/127.0.0.1:7447"]
+
+
+def test_single_values_are_overridden(monkeypatch: pytest.MonkeyPatch, capfd):
+    monkeypatch.setenv(
+        "ZENOH_CONFIG_OVERRIDE",
+        'mode="client";connect/endpoints=["tcp/10.0.0.1:7447"]; no/such/key=1',
+    )
+    configuration = session_configuration()
+    assert value(configuration, "mode") == "client"
+    assert value(configuration, "connect/endpoints") == ["tcp/10.0.0.1:7447"]
+    [line] = capfd.readouterr().err.splitlines()
+    assert "Ignore the invalid configuration key-value pair: (no/such/key, 1)" in line
+
+
+def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
+    file = tmp_path / "session.json5"
+    file.write_text('{ mode: "client", connect: { endpoints: ["tcp/10.0.0.1:7447"] } }')
+    monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(file))
+    assert value(session_configuration(), "mode") == "client"
+    file.write_text("{ mode: nonsense")
+    with pytest.raises(WireError, match=f"Invalid configuration file {file}") as caught:
+        session_configuration()
+    assert "ZENOH_SESSION_CONFIG_URI" in caught.value.hint
