@@ -6,7 +6,9 @@ Whoever waits, waits for a deadline or a command; a command wakes it.
 
 from __future__ import annotations
 
+import contextlib
 import os
+import sqlite3
 import threading
 import time
 from typing import TYPE_CHECKING
@@ -16,9 +18,10 @@ from rosbag2_transport.play_filter import mistakes, played_topics
 from rosbag2_transport.player_outputs import PlayerOutputs
 from turtlewire.bag import Bag
 from turtlewire.bag.playback import PlayClock, ReadAhead
+from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from rclpy.node import Node
     from rosbag2_transport.options import PlayOptions
@@ -74,6 +77,7 @@ class Player:
         self.on_publish: list[Callable[[BagMessage], None]] = []
         self._source: ReadAhead | None = None
         self._stopped = self._playing = self._ready = False
+        self._failure: Exception | None = None
         self.set_rate(options.rate)
         self._logger.info(f"Playback until timestamp: {self._until_ns}")
 
@@ -127,6 +131,8 @@ class Player:
                     self._logger.info("Stopping playback.")
                 self._playing, self._stopped = False, True
                 self.changed.notify_all()
+        if self._failure is not None:
+            raise self._failure
 
     def _play_once(self) -> bool:
         """Play from the first message to the last one; False when it was stopped."""
@@ -256,12 +262,21 @@ class Player:
             self.changed.notify_all()
             return True
 
+    @contextlib.contextmanager
+    def _command(self) -> Iterator[None]:
+        """Have a damage of the bag end the playback, which raises it; not whoever commands."""
+        with self.changed:
+            try:
+                yield
+            except (BagError, OSError, sqlite3.Error) as error:
+                self._failure, self._stopped = error, True
+            self.changed.notify_all()
+
     def seek(self, time_ns: int) -> None:
         """Continue at a time of the bag; one outside means its start or end."""
-        with self.changed:
+        with self._command():
             self._wait_until_ready()
             self._move(self._clamped(time_ns))
-            self.changed.notify_all()
 
     def play_next(self) -> bool:
         """Publish the next message of a paused playback; False if there is none or it runs."""
@@ -270,7 +285,9 @@ class Player:
                 self._logger.warning("Called play next, but not in paused state.")
                 return False
             self._wait_until_ready()
-            return self._play_now()
+            with self._command():
+                return self._play_now()
+            return False
 
     def burst(self, count: int) -> int:
         """Publish the next messages of a paused playback at once.
@@ -287,8 +304,9 @@ class Player:
                 return 0
             self._wait_until_ready()
             done = 0
-            while (not count or done < count) and self._play_now():
-                done += 1
+            with self._command():
+                while (not count or done < count) and self._play_now():
+                    done += 1
             self._logger.info(f"Burst {done} messages.")
             return done
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sqlite3
 import time
@@ -56,22 +57,26 @@ def record(
     if fault := validate_node_name(name):
         raise RuntimeError(f"'{name}' cannot be the name of a node: {fault.message}")
     with (
-        stopped_by_signals(stop),  # first: an interrupt never leaves a bag without metadata
+        stopped_by_signals(stop),  # an interrupt never leaves a bag without metadata
         Session(name, use_sim_time=options.use_sim_time) as session,
+        contextlib.ExitStack() as at_end,  # the node still tells of the last files
     ):
         writer = make_writer()
         recording = Recording(
             writer, cache_bytes=cache_bytes, snapshot=snapshot, on_failure=lambda _: stop.put(None)
         )
-        failure: Exception | None = None
-        try:
-            _run(session, recording, writer, options, stop, snapshot)
-        finally:
-            try:
-                recording.close()
-            except (OSError, sqlite3.Error) as error:
-                failure = error
-            _report_lost(recording)
+        at_end.callback(_finish, recording, writer)
+        _run(session, recording, writer, options, stop, snapshot)
+
+
+def _finish(recording: Recording, writer: BagWriter) -> None:
+    """Write what waits, and raise why the bag could not be written, if so."""
+    failure: Exception | None = None
+    try:
+        recording.close()
+    except (OSError, sqlite3.Error) as error:
+        failure = error
+    _report_lost(recording)
     failure = recording.failure or failure
     if failure is not None:
         is_whole = os.path.exists(os.path.join(writer.path, METADATA_FILE))

@@ -32,6 +32,8 @@ __all__ = ["Recorder"]
 #: How long the first look at the graph may wait for it to be complete.
 _DISCOVERY_NS = 1_000_000_000
 _BATCH = 1000
+#: How much is taken when a recording is paused or ends while messages keep coming.
+_MOST_BATCHES = 100
 
 
 class Recorder:
@@ -62,7 +64,8 @@ class Recorder:
         self._refused: set[str] = set()
         self._known_publishers: set[bytes] = set()
         self._latched: list[tuple[str, bytes, int]] = []
-        self._lock = threading.Lock()  # guards the pause and what waits for its end
+        self._taking = threading.Lock()  # guards taking, the pause and what waits for its end
+        self._is_closed = False
         self._paused = options.start_paused
         self._stopped = threading.Event()
         self._graph_changed = threading.Event()
@@ -105,24 +108,29 @@ class Recorder:
         self._wait_set.wake()
         self._seeker.join()
         self._taker.join()
-        # Only now: a topic may have been subscribed to while the taker ended.
-        self._take_from(list(self._subscriptions.values()))
         self._remove_listener()
         self._wait_set.close()
-        for subscription in self._subscriptions.values():
-            subscription.close()
+        with self._taking:
+            self._take_all()
+            for subscription in self._subscriptions.values():
+                subscription.close()
+            self._is_closed = True
 
     def pause(self) -> None:
         """Drop messages from now on."""
-        if not self._paused:
+        with self._taking:
+            if self._paused:
+                return
+            self._take_all()  # what came before is recorded
             self._paused = True
-            self._logger.info("Pausing recording.")
+        self._logger.info("Pausing recording.")
 
     def resume(self) -> None:
         """Record again, with the latched messages that arrived meanwhile."""
-        with self._lock:
+        with self._taking:
             if not self._paused:
                 return
+            self._take_all()  # what came before is not recorded
             self._paused = False
             if not self._is_waiting():
                 self._write_latched(self._simulated_ns() or time.time_ns())
@@ -237,20 +245,34 @@ class Recorder:
         while not self._stopped.is_set():
             self._take_from(self._wait_set.wait())
 
+    def _take_all(self) -> None:
+        """Take what has arrived; for the holder of the lock."""
+        if not self._is_closed:
+            for subscription in list(self._subscriptions.values()):
+                for _ in range(_MOST_BATCHES):
+                    if self._take_one(subscription) < _BATCH:
+                        break
+
     def _take_from(self, subscriptions: Iterable[Entity]) -> None:
         for subscription in subscriptions:
             if isinstance(subscription, Subscription):
-                for data, info in subscription.take(_BATCH):
-                    received_ns = self._simulated_ns() or info.received_timestamp_ns
-                    self._keep(subscription.topic, data, received_ns, info.source_timestamp_ns)
+                with self._taking:
+                    self._take_one(subscription)
+
+    def _take_one(self, subscription: Subscription) -> int:
+        """Take a batch of a topic; returns how many messages."""
+        taken = subscription.take(_BATCH)
+        for data, info in taken:
+            received_ns = self._simulated_ns() or info.received_timestamp_ns
+            self._keep(subscription.topic, data, received_ns, info.source_timestamp_ns)
+        return len(taken)
 
     def _keep(self, topic: str, data: bytes, received_ns: int, sent_ns: int) -> None:
-        with self._lock:
-            if not self._is_waiting():
-                self._write_latched(received_ns)
-                self._recording.write(topic, data, received_ns, sent_ns)
-            elif self._requested[topic].durability == Durability.TRANSIENT_LOCAL:
-                self._latched.append((topic, data, sent_ns))
+        if not self._is_waiting():
+            self._write_latched(received_ns)
+            self._recording.write(topic, data, received_ns, sent_ns)
+        elif self._requested[topic].durability == Durability.TRANSIENT_LOCAL:
+            self._latched.append((topic, data, sent_ns))
 
     def _write_latched(self, now_ns: int) -> None:
         for topic, data, sent_ns in self._latched:

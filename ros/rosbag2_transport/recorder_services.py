@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sqlite3
 from typing import TYPE_CHECKING, Any
 
 from rosbag2_interfaces import srv
 from rosbag2_interfaces.msg import WriteSplitEvent
+from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -59,7 +61,10 @@ class RecorderServices:
         return response
 
     def _split(self, _request: Any, response: Any) -> Any:
-        self.report_split(*self._recording.split())
+        try:
+            self.report_split(*self._recording.split())
+        except (BagError, OSError, sqlite3.Error) as error:  # the recording ends, and tells why
+            self._node.get_logger().error(f"The bag file cannot be split: {error}")
         return response
 
     def _snapshot(self, _request: Any, response: Any) -> Any:

@@ -143,18 +143,31 @@ def test_clocks(peer, tmp_path):
     assert times() == [0] * 4  # what was recorded
 
 
-def events(path):
-    """A bag with what a client (its requests are 1x) and a service (2x) told of four calls."""
+def events(path, count=4):
+    """A bag with what a client (its requests are 1x) and a service (2x) told of calls."""
     event = get_message(EVENT)
-    with BagWriter(path) as writer:
+    with BagWriter(path, chunk_bytes=20_000) as writer:
         writer.add_topic("/add/_service_event", EVENT)
-        for i in range(4):
+        for i in range(count):
             for kind, first in ((0, 10 + i), (1, 20 + i)):
                 message = event()
                 message.info.event_type = kind
                 message.request = [AddTwoInts.Request(a=first, b=1)]
                 writer.write("/add/_service_event", message, START + i * SECOND // 10 + kind)
     return path
+
+
+def test_damage_that_a_command_meets_ends_the_playback_with_one_line(bag_verb, tmp_path):
+    path = events(tmp_path / "bag", count=3000)
+    file = path / "bag_0.mcap"
+    data = bytearray(file.read_bytes())
+    data[len(data) // 2 : len(data) // 2 + 2000] = bytes(2000)
+    file.write_bytes(data)
+    program = bag_verb("burst", path)
+    assert program.wait() == 1
+    assert "Traceback" not in program.text
+    assert program.text.count("bag_0.mcap: chunk at byte") == 1
+    assert int(program.wait_for(r"Burst (\d+) messages")[0][1]) > 0
 
 
 def test_a_file_that_is_missing_is_one_error(tmp_path):

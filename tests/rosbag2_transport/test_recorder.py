@@ -148,14 +148,15 @@ def test_latched_messages_that_come_during_a_pause_are_kept(peer, bag_verb, tmp_
     assert peer.call(srv.IsPaused, f"{name}/is_paused").paused
     publish(peer.heard(publisher), ["lost"])
     publish(peer.heard(latched), ["kept"])
+    assert publisher.wait_for_all_acked()
     peer.call(srv.Resume, f"{name}/resume")
     assert not peer.call(srv.IsPaused, f"{name}/is_paused").paused
-    publish(publisher, ["recorded"])
-    wait_until_written(tmp_path / "out", "/numbers", 1)
-    peer.call(srv.Pause, f"{name}/pause")
+    publish(publisher, NAMES)
+    assert publisher.wait_for_all_acked()
+    peer.call(srv.Pause, f"{name}/pause")  # what came before is recorded
     publish(publisher, ["lost, too"])
     assert end(recorder) == 0
-    assert texts(tmp_path / "out", "/numbers") == ["recorded"]
+    assert texts(tmp_path / "out", "/numbers") == NAMES
     assert texts(tmp_path / "out", "/latched") == ["kept"]
     assert recorder.text.count("Resuming recording.") == 1
 

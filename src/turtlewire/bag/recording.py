@@ -80,7 +80,7 @@ class Recording:
         self._waiting: deque[_Message] = deque()
         self._waiting_bytes = 0
         self._changed = threading.Condition()
-        self._closing = False
+        self._closing = self._is_closed = False
         self._disk = threading.Lock()  # the writer is not thread-safe; guards nothing else
         self._thread = threading.Thread(target=self._run, name="bag-writer", daemon=True)
         self._thread.start()
@@ -129,15 +129,26 @@ class Recording:
 
     def take_snapshot(self) -> bool:
         """Write what is kept now; returns whether it is in the file."""
-        self._write_waiting()
-        return self.failure is None
+        return self._write_waiting() and self.failure is None
 
     def split(self) -> tuple[str, str]:
-        """Write what waits, finish the file and begin another; see `BagWriter.split`."""
+        """Write what waits, finish the file and begin another; see `BagWriter.split`.
+
+        Raises:
+            BagError: The recording has ended.
+            OSError: The bag cannot be written any more; `failure` tells it, too.
+            sqlite3.Error: The same of a database.
+        """
         if not self._snapshot:
             self._write_waiting()
         with self._disk:
-            return self._writer.split()
+            if self._is_closed:
+                raise BagError("the recording has ended")
+            try:
+                return self._writer.split()
+            except (OSError, sqlite3.Error) as error:
+                self._fail(error)
+                raise
 
     def close(self) -> None:
         """Write what waits and finish the bag; closing twice does nothing.
@@ -151,7 +162,9 @@ class Recording:
             self._closing = True
             self._changed.notify_all()
         self._thread.join()
-        self._writer.close()
+        with self._disk:
+            self._is_closed = True
+            self._writer.close()
 
     def _take(self) -> list[_Message]:
         with self._changed:
@@ -175,14 +188,18 @@ class Recording:
             )
             return not self._closing
 
-    def _write_waiting(self) -> None:
+    def _write_waiting(self) -> bool:
+        """Write what waits; False if the bag is closed."""
         with self._disk:
+            if self._is_closed:
+                return False
             try:
                 for message in self._take():
                     self._writer.write(*message)
                 self._writer.flush()
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
+        return True
 
     def _fail(self, error: Exception) -> None:
         if self.failure is None:
