@@ -176,6 +176,8 @@ def test_elseif(evaluate):
         ("ament_environment_hooks(a.sh)", 4, "there is no file"),
         ("rosidl_generate_interfaces(robot A.msg)", 4, "A.msg is no msg/….msg, srv/….srv"),
         ("rosidl_generate_interfaces(robot)", 4, "names no files"),
+        ("xacro_add_files(a.xacro)", 4, "xacro_add_files(): there is no file"),
+        ("xacro_add_files(package.xml)", 4, "name the output, or the file .xacro"),
         ("catkin_package()", 4, "is of ROS 1, whose packages do not run here"),
     ],
 )  # fmt: skip

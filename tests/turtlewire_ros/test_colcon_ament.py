@@ -265,6 +265,9 @@ def test_data_templates_extras_and_hooks(built):
     assert (robot / "launch/display.launch.py").is_file()
     assert (robot / "urdf/arm.urdf").is_file()
     assert [path.name for path in (robot / "meshes").iterdir()] == ["arm.stl"]
+    dog = (robot / "robots/leg.urdf").read_text()
+    assert 'name="dog"' in dog
+    assert '<link name="left_leg"/>' in dog
     assert shell(built, "echo $NAV_ROBOT; echo $NAV_RESOURCE_PATH; echo $NAV_MAP_PATH") == [
         "nav_bringup",
         f"{built}/install/nav_bringup/share",

@@ -15,6 +15,7 @@ module          what it holds
 `arguments`     keywords of commands, as ``cmake_parse_arguments`` takes them apart
 `installing`    ``install``
 `ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
+`xacro`         ``xacro_add_files``, for PyPI's xacro has no CMake extras
 `targets`       what would compile C++, and commands without an effect here
 `processes`     ``execute_process``, ``add_custom_command``, ``add_custom_target``
 `tool`          what ``cmake -E`` does

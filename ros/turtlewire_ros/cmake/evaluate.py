@@ -16,6 +16,7 @@ from turtlewire_ros.cmake.plan import Plan
 from turtlewire_ros.cmake.processes import PROCESSES
 from turtlewire_ros.cmake.syntax import CMakeError
 from turtlewire_ros.cmake.targets import TARGETS
+from turtlewire_ros.cmake.xacro import XACRO
 from turtlewire_ros.manifest import read_manifest
 from turtlewire_ros.package_lookup import PackageLookup
 
@@ -64,7 +65,7 @@ def evaluate_package(
         if match is not None:
             variables[match[1]] = match[2]
     interpreter = Interpreter(
-        BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT,
+        BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT | XACRO,
         plan,
         variables,
         environment,
