@@ -78,11 +78,13 @@ class PlayerOutputs:
             self.latched[topic.name] = qos.depth or 1
 
     def wait_for_listeners(self) -> None:
-        """Wait until the subscriptions that exist know the publishers: they miss nothing then."""
+        """Wait until subscriptions and services that exist are known: they miss nothing then."""
         self._graph.wait_for(self._is_matched, _MATCHING_NS)
 
     def _is_matched(self) -> bool:
         if not self._graph.is_complete():
+            return False
+        if not self._requests.are_matched(self._graph.service_names_and_types()):
             return False
         heard = {each.topic for each in self._graph.endpoints() if each.kind == "subscription"}
         return all(

@@ -11,7 +11,7 @@ from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Container
 
     from rclpy.node import Node
     from turtlewire.bag import TopicInfo
@@ -53,6 +53,10 @@ class ServiceRequests:
         client = self._node._rclpy_wire.create_client(service, types, QoS())
         self._clients.append(client)
         return lambda event: self._send(client, topic.type, event)
+
+    def are_matched(self, services: Container[str]) -> bool:
+        """Whether the clients of all services that exist can send."""
+        return all(client.service not in services or client.is_ready() for client in self._clients)
 
     def _send(self, client: Client, event_type: str, data: bytes) -> None:
         client.take(1000)  # answers are of no interest, and must not pile up

@@ -195,7 +195,7 @@ def test_recorded_requests_are_sent_again(peer, tmp_path, capfd):
         (ServiceRequestsSource.CLIENT_INTROSPECTION, [10, 11, 12, 13]),
     ):
         got.clear()
-        played(bag, publish_service_requests=True, service_requests_source=source, delay=1.0)
+        played(bag, publish_service_requests=True, service_requests_source=source)
         peer.wait_for(lambda: len(got) >= 4)
         assert got == expected
 
