@@ -11,15 +11,21 @@ from typing import TYPE_CHECKING, Any
 from launch.conditions import evaluate_condition_expression
 from launch.frontend import Parser
 from launch.frontend.type_utils import list_item_type
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.utilities.parameter_values import evaluate_value, typed
+from launch_ros.utilities.evaluate_parameters import evaluate_value, typed
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
 
-__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+__all__ = [
+    "Parameter",
+    "ParameterFile",
+    "ParameterValue",
+    "SomeSubstitutionsType_types_tuple",
+]
 
 
 class ParameterValue:
@@ -78,20 +84,28 @@ class Parameter:
     def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
         self._name = normalize_to_list_of_substitutions(name)
         self._value = ParameterValue(value, value_type=value_type)
+        self._evaluated: tuple[str, Any] | None = None
 
     @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self._name
+    def name(self) -> str | list[Substitution]:
+        """Its name; before :meth:`evaluate` the substitutions that give it."""
+        return self._name if self._evaluated is None else self._evaluated[0]
 
     @property
-    def value(self) -> ParameterValue:
-        """Its value."""
-        return self._value
+    def value(self) -> Any:
+        """Its value; before :meth:`evaluate` as it was given."""
+        return self._value.value if self._evaluated is None else self._evaluated[1]
+
+    @property
+    def value_type(self) -> Any:
+        """Its type, or None."""
+        return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
         """Name and value, performed."""
-        return perform_substitutions(context, self._name), self._value.evaluate(context)
+        name = perform_substitutions(context, self._name)
+        self._evaluated = name, self._value.evaluate(context)
+        return self._evaluated
 
 
 class ParameterFile:
@@ -110,9 +124,12 @@ class ParameterFile:
         allow_substs: bool | SomeSubstitutionsType = False,
     ) -> None:
         self._param_file = normalize_to_list_of_substitutions(param_file)
-        self._allow_substs = normalize_to_list_of_substitutions(
-            str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
+        self._allow_substs: bool | list[Substitution] = (
+            allow_substs
+            if isinstance(allow_substs, bool)
+            else normalize_to_list_of_substitutions(allow_substs)
         )
+        self._allowed: bool | None = None
         self._copy: str | None = None
 
     @property
@@ -121,9 +138,9 @@ class ParameterFile:
         return self._param_file
 
     @property
-    def allow_substs(self) -> list[Substitution]:
-        """Whether its text holds substitutions."""
-        return self._allow_substs
+    def allow_substs(self) -> bool | list[Substitution]:
+        """Whether its text holds substitutions; before :meth:`evaluate` as it was given."""
+        return self._allow_substs if self._allowed is None else self._allowed
 
     def copy(self) -> ParameterFile:
         """The same file, for another node."""
@@ -137,7 +154,11 @@ class ParameterFile:
             SubstitutionFailure: A substitution has no text.
         """
         path = Path(perform_substitutions(context, self._param_file))
-        if not evaluate_condition_expression(context, self._allow_substs):
+        given = self._allow_substs
+        self._allowed = (
+            given if isinstance(given, bool) else evaluate_condition_expression(context, given)
+        )
+        if not self._allowed:
             return path
         text = perform_substitutions(
             context, Parser().parse_substitution(path.read_text(encoding="utf-8"))

@@ -6,12 +6,14 @@ import asyncio
 import contextlib
 import os
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from rclpy.context import Context
+    from rclpy.executors import SingleThreadedExecutor
     from rclpy.node import Node
 
 __all__ = ["ROSAdapter", "call_service", "get_ros_adapter", "get_ros_node"]
@@ -20,15 +22,36 @@ _KEY = "ros_adapter"
 
 
 class ROSAdapter:
-    """A node with its own context and thread, which run from construction to :meth:`shutdown`."""
+    """A node with its own context and thread, which run from the start to :meth:`shutdown`.
 
-    def __init__(self) -> None:
+    Args:
+        argv: Arguments for its context.
+        autostart: Whether to start at once.
+    """
+
+    def __init__(self, *, argv: list[str] | None = None, autostart: bool = True) -> None:
+        self._argv = ["launch_ros", *(argv or ())]
+        self._context: Any = None
+        self._node: Any = None
+        self._executor: Any = None
+        self._thread: threading.Thread | None = None
+        if autostart:
+            self.start()
+
+    def start(self) -> None:
+        """Make the node and spin it.
+
+        Raises:
+            RuntimeError: It runs already.
+        """
         import rclpy
         from rclpy.context import Context
         from rclpy.executors import SingleThreadedExecutor
 
+        if self._thread is not None:
+            raise RuntimeError("Cannot start a ROS adapter that is already running")
         self._context = Context()
-        rclpy.init(args=["launch_ros"], context=self._context)
+        rclpy.init(args=self._argv, context=self._context)
         self._node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
@@ -36,9 +59,24 @@ class ROSAdapter:
         self._thread.start()
 
     @property
+    def argv(self) -> list[str]:
+        """Arguments of its context."""
+        return self._argv
+
+    @property
+    def ros_context(self) -> Context | None:
+        """The context; None before the start."""
+        return cast("Context | None", self._context)
+
+    @property
     def ros_node(self) -> Node:
-        """The node."""
-        return self._node
+        """The node; None before the start."""
+        return cast("Node", self._node)
+
+    @property
+    def ros_executor(self) -> SingleThreadedExecutor | None:
+        """The executor; None before the start."""
+        return cast("SingleThreadedExecutor | None", self._executor)
 
     def _spin(self) -> None:
         from rclpy.executors import ExternalShutdownException, ShutdownException
@@ -47,10 +85,17 @@ class ROSAdapter:
             self._executor.spin()
 
     def shutdown(self) -> None:
-        """End node and thread; this ends the waits for services, too."""
+        """End node and thread; this ends the waits for services, too.
+
+        Raises:
+            RuntimeError: It does not run.
+        """
+        if self._thread is None:
+            raise RuntimeError("Cannot shutdown a ROS adapter that is not running")
         self._executor.shutdown()
         self._context.try_shutdown()
         self._thread.join()
+        self._thread = None
         self._node.destroy_node()
 
 

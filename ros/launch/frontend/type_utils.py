@@ -49,4 +49,5 @@ def coerce(text: str, data_type: Any) -> Any:
         return data_type(text)
     import yaml
 
-    return yaml.safe_load(text)
+    value = yaml.safe_load(text)
+    return "" if value is None else value  # an empty text is one, and so is YAML's null

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
-from launch.substitution import Substitution
 from launch.substitutions import LocalSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import Parameter, ParameterFile
+from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict, evaluate_parameters
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from launch_ros.utilities.parameter_values import evaluate_parameter_dict
+from launch_ros.utilities.normalize_parameters import normalize_parameters
+from launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from launch_ros.utilities.scope import global_parameters, remaps
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class NodeArguments:
         remappings: ``(from, to)`` pairs.
 
     Raises:
-        TypeError: The parameters are not a list.
+        TypeError: The parameters are not a list, or a parameter or remapping has another form.
     """
 
     def __init__(
@@ -46,19 +47,12 @@ class NodeArguments:
         parameters: SomeParameters | None,
         remappings: SomeRemapRules | None,
     ) -> None:
-        if parameters is not None and (
-            isinstance(parameters, (str, Path, Substitution)) or not hasattr(parameters, "__iter__")
-        ):
-            raise TypeError("Expecting a list of parameter files or parameter dictionaries")
-        self._name = None if name is None else normalize_to_list_of_substitutions(name)
-        self._namespace = (
+        self.given_name = None if name is None else normalize_to_list_of_substitutions(name)
+        self.given_namespace = (
             None if namespace is None else normalize_to_list_of_substitutions(namespace)
         )
-        self._parameters = [parameters] if hasattr(parameters, "items") else list(parameters or ())
-        self._remappings = [
-            (normalize_to_list_of_substitutions(source), normalize_to_list_of_substitutions(target))
-            for source, target in remappings or ()
-        ]
+        self.parameters = [] if parameters is None else normalize_parameters(parameters)
+        self.remappings = list(normalize_remap_rules(remappings or ()))
         self._made_files: list[str] = []
         self._parameter_files: list[ParameterFile] = []
         #: Known once :meth:`expand_names` ran; None when the launch file leaves it to the program.
@@ -74,15 +68,19 @@ class NodeArguments:
 
     def name_words(self) -> list[SomeSubstitutionsType]:
         """The words for the name, which takes its place when the node starts."""
-        if self._name is None:
+        if self.given_name is None:
             return []
         return ["-r", LocalSubstitution("ros_specific_arguments['name']", "node name")]
 
     def expand_names(self, context: LaunchContext) -> None:
         """Find name and namespace."""
-        if self._name is not None:
-            self.name = perform_substitutions(context, self._name)
-        own = None if self._namespace is None else perform_substitutions(context, self._namespace)
+        if self.given_name is not None:
+            self.name = perform_substitutions(context, self.given_name)
+        own = (
+            None
+            if self.given_namespace is None
+            else perform_substitutions(context, self.given_namespace)
+        )
         joined = prefix_namespace(context.launch_configurations.get("ros_namespace"), own)
         if joined is not None:
             self.namespace = make_namespace_absolute(joined)
@@ -99,15 +97,28 @@ class NodeArguments:
                 words += ["-p", f"{entry[0]}:={_yaml_text(entry[1])}"]
             else:
                 words += ["--params-file", str(entry)]
-        for parameter in self._parameters:
+        for parameter in self.parameters:
             words += self._words_for(parameter, context)
         return words
+
+    def evaluated_parameters(self, context: LaunchContext) -> list[Any]:
+        """All parameters in their order: those of the scope, then the node's own."""
+        evaluated: list[Any] = [
+            dict([entry]) if isinstance(entry, tuple) else Path(str(entry))
+            for entry in global_parameters(context)
+        ]
+        for parameter in self.parameters:
+            own = parameter.copy() if isinstance(parameter, ParameterFile) else parameter
+            if isinstance(own, ParameterFile):
+                self._parameter_files.append(own)
+            evaluated += evaluate_parameters(context, [own])
+        return evaluated
 
     def expand_remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
         """``(from, to)`` pairs: those of the scope, then the node's own."""
         own = [
             (perform_substitutions(context, source), perform_substitutions(context, target))
-            for source, target in self._remappings
+            for source, target in self.remappings
         ]
         return remaps(context) + own
 

@@ -9,10 +9,12 @@ from launch.substitutions import TextSubstitution
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from launch.frontend import Parser
     from launch.substitution import Substitution
 
-__all__ = ["parse_parameters", "parse_remappings", "parse_value"]
+__all__ = ["parse_parameter_elements", "parse_parameters", "parse_remappings", "parse_value"]
 
 _TYPES: dict[str, Any] = {"str": str, "int": int, "float": float, "bool": bool}
 _TYPES |= {
@@ -45,8 +47,14 @@ def parse_parameters(entity: Entity, parser: Parser) -> list[Any]:
     Raises:
         RuntimeError: An element has neither or too much.
     """
+    elements = entity.get_attr("param", data_type=list[Entity], optional=True)
+    return parse_parameter_elements(elements or (), parser)
+
+
+def parse_parameter_elements(elements: Iterable[Entity], parser: Parser) -> list[Any]:
+    """The same of ``param`` elements that were found already."""
     parsed: list[Any] = []
-    for parameter in entity.get_attr("param", data_type=list[Entity], optional=True) or ():
+    for parameter in elements:
         path = parameter.get_attr("from", optional=True)
         if path is None:
             parsed.append(_parse_nested(parameter, parser))

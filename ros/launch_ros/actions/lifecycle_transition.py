@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from launch.action import Action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.actions.lifecycle_node import change_state
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
+from lifecycle_msgs.msg import Transition
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -33,6 +34,17 @@ class LifecycleTransition(Action):
     Raises:
         RuntimeError: No nodes or no transitions are given.
     """
+
+    #: The state after each transition that succeeds, by the transition's number.
+    transition_targets: ClassVar[dict[int, str]] = {
+        Transition.TRANSITION_CONFIGURE: "inactive",
+        Transition.TRANSITION_CLEANUP: "unconfigured",
+        Transition.TRANSITION_ACTIVATE: "active",
+        Transition.TRANSITION_DEACTIVATE: "inactive",
+        Transition.TRANSITION_UNCONFIGURED_SHUTDOWN: "finalized",
+        Transition.TRANSITION_INACTIVE_SHUTDOWN: "finalized",
+        Transition.TRANSITION_ACTIVE_SHUTDOWN: "finalized",
+    }
 
     def __init__(
         self,

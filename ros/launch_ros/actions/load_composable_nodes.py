@@ -13,7 +13,7 @@ from launch_ros.actions.node import Node
 from launch_ros.descriptions.composable_node import ComposableNode
 from launch_ros.ros_adapters import call_service, get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from launch_ros.utilities.node_names import add_node_name
+from launch_ros.utilities.track_node_names import add_node_name
 
 if TYPE_CHECKING:
     import asyncio
@@ -23,7 +23,24 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
-__all__ = ["LoadComposableNodes"]
+__all__ = ["LoadComposableNodes", "get_composable_node_load_request"]
+
+
+def get_composable_node_load_request(
+    composable_node_description: ComposableNode, context: LaunchContext
+) -> Any:
+    """The request that loads a node, a ``composition_interfaces/srv/LoadNode.Request``.
+
+    Args:
+        composable_node_description: The node.
+        context: The launch; its scope adds namespace, parameters and remappings.
+
+    Returns:
+        The request, or None if the node's condition is false.
+    """
+    if not composable_node_description.is_wanted(context):
+        return None
+    return composable_node_description.load_request(context)
 
 
 @expose_action("load_composable_node")
@@ -71,11 +88,8 @@ class LoadComposableNodes(Action):
         if context.is_shutdown:
             return
         assert context.asyncio_loop is not None
-        requests = [
-            description.load_request(context)
-            for description in self._descriptions
-            if description.is_wanted(context)
-        ]
+        made = [get_composable_node_load_request(each, context) for each in self._descriptions]
+        requests = [request for request in made if request is not None]
         get_ros_node(context)
         self._task = context.asyncio_loop.create_task(
             self._load(context, self._container_name(context), requests)

@@ -8,9 +8,13 @@ from launch.actions import ExecuteProcess
 from launch.actions.execute_process import split_command_line
 from launch.frontend import expose_action
 from launch_ros._node.arguments import NodeArguments
-from launch_ros._node.elements import parse_parameters, parse_remappings
+from launch_ros._node.elements import (
+    parse_parameter_elements,
+    parse_parameters,
+    parse_remappings,
+)
 from launch_ros.substitutions import ExecutableInPackage
-from launch_ros.utilities.node_names import add_node_name
+from launch_ros.utilities.track_node_names import add_node_name
 from turtlewire_ros.executables import argv_for
 
 if TYPE_CHECKING:
@@ -42,6 +46,9 @@ class Node(ExecuteProcess):
         arguments: Arguments before ``--ros-args``.
         **kwargs: See :class:`launch.actions.ExecuteProcess`.
     """
+
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
 
     def __init__(
         self,
@@ -104,6 +111,11 @@ class Node(ExecuteProcess):
         kwargs["parameters"] = parse_parameters(entity, parser)
         return cls, kwargs
 
+    @staticmethod
+    def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
+        """Read ``param`` elements: files, values, and mappings of nested elements."""
+        return parse_parameter_elements(params, parser)
+
     @property
     def node_package(self) -> SomeSubstitutionsType | None:
         """The package."""
@@ -122,7 +134,7 @@ class Node(ExecuteProcess):
     @property
     def expanded_node_namespace(self) -> str:
         """The namespace within the scope, once executed."""
-        return self._ros.namespace or "<node_namespace_unspecified>"
+        return self._ros.namespace or self.UNSPECIFIED_NODE_NAMESPACE
 
     @property
     def expanded_remapping_rules(self) -> list[tuple[str, str]]:

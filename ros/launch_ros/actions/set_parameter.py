@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 __all__ = ["SetParameter"]
 
@@ -41,6 +42,16 @@ class SetParameter(Action):
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
         kwargs["value"] = parse_value(entity, parser)
         return cls, kwargs
+
+    @property
+    def name(self) -> str | list[Substitution]:
+        """Its name; before the visit the substitutions that give it."""
+        return self._parameter.name
+
+    @property
+    def value(self) -> Any:
+        """Its value; before the visit as it was given."""
+        return self._parameter.value
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""

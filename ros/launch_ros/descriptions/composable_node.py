@@ -9,7 +9,9 @@ from launch.frontend import Entity
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros._node.arguments import NodeArguments
 from launch_ros._node.elements import parse_parameters, parse_remappings, parse_value
-from launch_ros.utilities.parameter_values import evaluate_parameter_dict
+from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
+from launch_ros.utilities.normalize_parameters import normalize_parameters
+from launch_ros.utilities.to_parameters_list import to_parameters_list
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from launch.frontend import Parser
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
     from launch_ros.parameters_type import SomeParameters
     from launch_ros.remap_rule_type import SomeRemapRules
 
@@ -80,6 +83,45 @@ class ComposableNode:
         entity.assert_entity_completely_parsed()
         return cls(**kwargs)
 
+    @property
+    def package(self) -> list[Substitution]:
+        """The package."""
+        return self._package
+
+    @property
+    def node_plugin(self) -> list[Substitution]:
+        """The class."""
+        return self._plugin
+
+    @property
+    def node_name(self) -> list[Substitution] | None:
+        """The node's name, or None."""
+        return self._ros.given_name
+
+    @property
+    def node_namespace(self) -> list[Substitution] | None:
+        """The node's namespace, or None."""
+        return self._ros.given_namespace
+
+    @property
+    def parameters(self) -> list[Any] | None:
+        """Files and mappings of parameters, normalized; None without any."""
+        return self._ros.parameters or None
+
+    @property
+    def remappings(self) -> list[Any] | None:
+        """Pairs of tuples of substitutions; None without any."""
+        return self._ros.remappings or None
+
+    @property
+    def extra_arguments(self) -> list[Any] | None:
+        """What only the container gets, normalized; None without any."""
+        return normalize_parameters(self._extra_arguments) if self._extra_arguments else None
+
+    def condition(self) -> Condition | None:
+        """Decides whether it is loaded; None always loads it."""
+        return self._condition
+
     def is_wanted(self, context: LaunchContext) -> bool:
         """Whether its condition holds."""
         return self._condition is None or self._condition.evaluate(context)
@@ -92,7 +134,6 @@ class ComposableNode:
             RCLInvalidROSArgsError: A parameter file is malformed.
         """
         from composition_interfaces.srv import LoadNode
-        from rclpy.arguments import Arguments
         from rclpy.parameter import Parameter
 
         request = LoadNode.Request()
@@ -105,15 +146,14 @@ class ComposableNode:
             f"{source}:={target}" for source, target in self._ros.expand_remappings(context)
         ]
         try:
-            words = self._ros.expand_parameters(context)
-            values = Arguments.parse_local(["--ros-args", *words]).parameter_overrides(
-                self._ros.full_name
+            request.parameters = to_parameters_list(
+                context,
+                request.node_name,
+                request.node_namespace,
+                self._ros.evaluated_parameters(context),
             )
         finally:
             self._ros.clean_up()
-        request.parameters = [
-            Parameter(name, value=value).to_parameter_msg() for name, value in values.items()
-        ]
         extra: dict[str, Any] = {}
         for mapping in self._extra_arguments:
             extra |= evaluate_parameter_dict(context, mapping)

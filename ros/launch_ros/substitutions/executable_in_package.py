@@ -54,6 +54,14 @@ class ExecutableInPackage(Substitution):
         """The package."""
         return self._package
 
+    def find(self, package_name: str) -> str:
+        """The prefix that a package is installed in.
+
+        Raises:
+            PackageNotFoundError: It is not installed.
+        """
+        return get_package_prefix(package_name)
+
     def describe(self) -> str:
         """Name both."""
         package, executable = (

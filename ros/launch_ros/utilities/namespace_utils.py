@@ -21,13 +21,13 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def make_namespace_absolute(ns: str) -> str:
-    """The namespace with a leading slash; an empty one stays empty."""
-    return ns if not ns or is_namespace_absolute(ns) else f"/{ns}"
+    """The namespace with a leading slash; an empty one is the root."""
+    return ns if is_namespace_absolute(ns) else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
     """``ns`` within ``base_ns``; an absolute ``ns`` stays as it is."""
-    if ns is None or ns == "":
+    if ns is None or (ns == "" and base_ns is not None):
         return base_ns
     if base_ns is None or base_ns == "" or is_namespace_absolute(ns):
         return ns if is_root_namespace(ns) else ns.rstrip("/")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from launch.event import Event
 
@@ -12,6 +12,18 @@ if TYPE_CHECKING:
     from launch_ros.events.named_node import NamedNode
 
 __all__ = ["ChangeState"]
+
+
+def _names(message: str, *prefixes: str) -> dict[int, str]:
+    """Names of a message's constants with one of the prefixes, by their values."""
+    from lifecycle_msgs import msg
+
+    kind: Any = getattr(msg, message)
+    constants = {name: getattr(kind, name) for name in dir(kind) if name.startswith(prefixes)}
+    return {
+        value: next(name.removeprefix(each) for each in prefixes if name.startswith(each)).lower()
+        for name, value in constants.items()
+    }
 
 
 class ChangeState(Event):
@@ -24,6 +36,11 @@ class ChangeState(Event):
     """
 
     name = "launch_ros.events.lifecycle.ChangeState"
+
+    #: Names of the states by their numbers in ``lifecycle_msgs/msg/State``.
+    valid_states: ClassVar[dict[int, str]] = _names("State", "PRIMARY_STATE_", "TRANSITION_STATE_")
+    #: Names of the transitions by their numbers in ``lifecycle_msgs/msg/Transition``.
+    valid_transitions: ClassVar[dict[int, str]] = _names("Transition", "TRANSITION_")
 
     def __init__(
         self, *, lifecycle_node_matcher: Callable[[NamedNode], bool], transition_id: int

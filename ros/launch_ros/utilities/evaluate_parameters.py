@@ -9,11 +9,11 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from launch.launch_context import LaunchContext
 
-__all__ = ["evaluate_parameter_dict", "evaluate_value", "typed"]
+__all__ = ["evaluate_parameter_dict", "evaluate_parameters", "evaluate_value", "typed"]
 
 _SCALARS = (str, bool, int, float, bytes)
 
@@ -37,6 +37,29 @@ def evaluate_parameter_dict(
         else:
             flat[name] = evaluate_value(context, value, name)
     return flat
+
+
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> list[Any]:
+    """Each of several parameter sets, evaluated.
+
+    Args:
+        context: The launch.
+        parameters: As of :func:`launch_ros.utilities.normalize_parameters.normalize_parameters`.
+
+    Returns:
+        A mapping of flat names to values for a mapping, a path for a file, and a ``Parameter``,
+        evaluated, for one.
+    """
+    evaluated: list[Any] = []
+    for parameter in parameters:
+        if hasattr(parameter, "items"):
+            evaluated.append(evaluate_parameter_dict(context, parameter))
+        elif hasattr(parameter, "param_file"):
+            evaluated.append(parameter.evaluate(context))
+        else:
+            parameter.evaluate(context)
+            evaluated.append(parameter)
+    return evaluated
 
 
 def evaluate_value(context: LaunchContext, value: Any, name: str = "") -> Any:

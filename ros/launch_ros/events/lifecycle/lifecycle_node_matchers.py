@@ -1,0 +1,20 @@
+"""Predicates over the managed nodes of a launch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch_ros.utilities.namespace_utils import make_namespace_absolute
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from launch_ros.events.named_node import NamedNode
+
+__all__ = ["matches_node_name"]
+
+
+def matches_node_name(node_name: str) -> Callable[[NamedNode], bool]:
+    """Matches the managed node with this full name."""
+    absolute = make_namespace_absolute(node_name)
+    return lambda node: node.node_name == absolute

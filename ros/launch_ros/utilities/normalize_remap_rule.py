@@ -1,0 +1,37 @@
+"""Remapping rules as pairs of substitutions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from launch.substitution import Substitution
+
+__all__ = ["normalize_remap_rule", "normalize_remap_rules"]
+
+_Rule = tuple[tuple["Substitution", ...], tuple["Substitution", ...]]
+
+
+def normalize_remap_rule(remap_rule: Any) -> _Rule:
+    """A pair of text or substitutions as a pair of tuples of substitutions.
+
+    Raises:
+        TypeError: It is no pair, or not one of such parts.
+    """
+    ensure_argument_type(remap_rule, (tuple, list), "remap_rule")
+    if len(remap_rule) != 2:
+        raise TypeError(
+            f"remap_rule must be a tuple of length 2, but got length {len(remap_rule)}: "
+            f"{remap_rule}"
+        )
+    source, target = (tuple(normalize_to_list_of_substitutions(part)) for part in remap_rule)
+    return source, target
+
+
+def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterator[_Rule]:
+    """Each of several rules, normalized."""
+    return (normalize_remap_rule(rule) for rule in remap_rules)
