@@ -13,7 +13,14 @@ from launch.actions import LogInfo
 from launch.conditions import IfCondition
 from launch.frontend import Parser
 from launch.substitutions import LaunchConfiguration, TextSubstitution
-from launch_ros.actions import Node, ROSTimer, SetParameter, SetROSLogDir, SetUseSimTime
+from launch_ros.actions import (
+    LifecycleTransition,
+    Node,
+    ROSTimer,
+    SetParameter,
+    SetROSLogDir,
+    SetUseSimTime,
+)
 from launch_ros.actions.load_composable_nodes import get_composable_node_load_request
 from launch_ros.descriptions import ComposableNode
 from launch_ros.events.lifecycle import ChangeState, matches_node_name
@@ -30,6 +37,7 @@ from launch_ros.utilities import (
     prefix_namespace,
     to_parameters_list,
 )
+from lifecycle_msgs.msg import State, Transition
 from rclpy.parameter import parameter_value_to_python
 
 
@@ -170,9 +178,21 @@ def test_actions_know_what_they_set(context, monkeypatch):
     assert (setting.name, setting.value) == ("a", 3)
 
 
+def constants(kind, *prefixes, leave_out=()):
+    names = {name for name in dir(kind) if name.startswith(prefixes)} - set(leave_out)
+    return {
+        getattr(kind, name): next(
+            name.removeprefix(prefix) for prefix in prefixes if name.startswith(prefix)
+        ).lower()
+        for name in names
+    }
+
+
 def test_states_and_transitions_have_names():
-    assert ChangeState.valid_states[1] == "unconfigured"
-    assert ChangeState.valid_transitions[1] == "configure"
+    assert ChangeState.valid_states == constants(State, "PRIMARY_STATE_", "TRANSITION_STATE_")
+    own = {name for name in dir(Transition) if "_ON_" in name or "CALLBACK" in name}
+    assert ChangeState.valid_transitions == constants(Transition, "TRANSITION_", leave_out=own)
+    assert set(LifecycleTransition.transition_targets) == set(range(1, 8))
 
     class Managed:
         node_name = "/ns/n"

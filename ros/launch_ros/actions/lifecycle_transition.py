@@ -10,7 +10,6 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.actions.lifecycle_node import change_state
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities.namespace_utils import make_namespace_absolute
-from lifecycle_msgs.msg import Transition
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -37,13 +36,13 @@ class LifecycleTransition(Action):
 
     #: The state after each transition that succeeds, by the transition's number.
     transition_targets: ClassVar[dict[int, str]] = {
-        Transition.TRANSITION_CONFIGURE: "inactive",
-        Transition.TRANSITION_CLEANUP: "unconfigured",
-        Transition.TRANSITION_ACTIVATE: "active",
-        Transition.TRANSITION_DEACTIVATE: "inactive",
-        Transition.TRANSITION_UNCONFIGURED_SHUTDOWN: "finalized",
-        Transition.TRANSITION_INACTIVE_SHUTDOWN: "finalized",
-        Transition.TRANSITION_ACTIVE_SHUTDOWN: "finalized",
+        1: "inactive",  # configure
+        2: "unconfigured",  # clean up
+        3: "active",  # activate
+        4: "inactive",  # deactivate
+        5: "finalized",  # shut down when unconfigured
+        6: "finalized",  # when inactive
+        7: "finalized",  # when active
     }
 
     def __init__(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from launch.event import Event
 
@@ -14,16 +14,31 @@ if TYPE_CHECKING:
 __all__ = ["ChangeState"]
 
 
-def _names(message: str, *prefixes: str) -> dict[int, str]:
-    """Names of a message's constants with one of the prefixes, by their values."""
-    from lifecycle_msgs import msg
-
-    kind: Any = getattr(msg, message)
-    constants = {name: getattr(kind, name) for name in dir(kind) if name.startswith(prefixes)}
-    return {
-        value: next(name.removeprefix(each) for each in prefixes if name.startswith(each)).lower()
-        for name, value in constants.items()
-    }
+# The numbers of `lifecycle_msgs`, whose import would slow each launch; a test compares them.
+_STATES = {
+    0: "unknown",
+    1: "unconfigured",
+    2: "inactive",
+    3: "active",
+    4: "finalized",
+    10: "configuring",
+    11: "cleaningup",
+    12: "shuttingdown",
+    13: "activating",
+    14: "deactivating",
+    15: "errorprocessing",
+}
+_TRANSITIONS = {
+    0: "create",
+    1: "configure",
+    2: "cleanup",
+    3: "activate",
+    4: "deactivate",
+    5: "unconfigured_shutdown",
+    6: "inactive_shutdown",
+    7: "active_shutdown",
+    8: "destroy",
+}
 
 
 class ChangeState(Event):
@@ -38,9 +53,9 @@ class ChangeState(Event):
     name = "launch_ros.events.lifecycle.ChangeState"
 
     #: Names of the states by their numbers in ``lifecycle_msgs/msg/State``.
-    valid_states: ClassVar[dict[int, str]] = _names("State", "PRIMARY_STATE_", "TRANSITION_STATE_")
+    valid_states: ClassVar[dict[int, str]] = _STATES
     #: Names of the transitions by their numbers in ``lifecycle_msgs/msg/Transition``.
-    valid_transitions: ClassVar[dict[int, str]] = _names("Transition", "TRANSITION_")
+    valid_transitions: ClassVar[dict[int, str]] = _TRANSITIONS
 
     def __init__(
         self, *, lifecycle_node_matcher: Callable[[NamedNode], bool], transition_id: int
