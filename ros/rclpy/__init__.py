@@ -34,7 +34,7 @@ module                                      what it holds
 `qos`, `qos_policies`                       `QoSProfile`, its policies and presets
 `qos_compatibility`                         whether two profiles match
 `qos_overriding_options`                    QoS set by parameters
-`event_handler`                             events: incompatible QoS, deadlines, matches
+`event_handler`, `_qos_events`              events: incompatible QoS, deadlines, matches
 `qos_event`                                 the former name of `event_handler`
 `topic_endpoint_info`, `type_hash`          what the graph shows of an endpoint
 `logging`, `impl`                           loggers; their outputs, formats and filters

@@ -6,15 +6,29 @@ What a program can be told of, and ROS 2's default warnings about endpoints that
 from __future__ import annotations
 
 from contextlib import suppress
-from enum import IntEnum
 from types import CoroutineType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
-from turtlewire.wire.base import EventKind, EventStatus
 
 from ._execution.entity import Entity, Host
-from ._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
+from ._qos_events import (
+    IncompatibleTypeInfo,
+    QoSDeadlineOfferedInfo,
+    QoSDeadlineRequestedInfo,
+    QoSLivelinessChangedInfo,
+    QoSLivelinessLostInfo,
+    QoSMessageLostInfo,
+    QoSOfferedIncompatibleQoSInfo,
+    QoSPublisherEventType,
+    QoSPublisherMatchedInfo,
+    QoSRequestedIncompatibleQoSInfo,
+    QoSSubscriptionEventType,
+    QoSSubscriptionMatchedInfo,
+    report,
+)
+from ._rclpy_pybind11 import UnsupportedEventTypeError
+from .logging import get_logger
 from .qos import qos_policy_name_from_kind
 from .waitable import NumberOfEntities, Waitable, WaitSet
 
@@ -24,7 +38,10 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
 
     from .callback_groups import CallbackGroup
+    from .handle import Handle
     from .impl.rcutils_logger import RcutilsLogger
+    from .publisher import Publisher
+    from .subscription import Subscription
 
 __all__ = [
     "EventHandler",
@@ -45,105 +62,6 @@ __all__ = [
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
 ]
-
-
-class QoSPublisherEventType(IntEnum):
-    """The events of a publisher."""
-
-    RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
-    RCL_PUBLISHER_LIVELINESS_LOST = 1
-    RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS = 2
-    RCL_PUBLISHER_INCOMPATIBLE_TYPE = 3
-    RCL_PUBLISHER_MATCHED = 4
-
-
-class QoSSubscriptionEventType(IntEnum):
-    """The events of a subscription."""
-
-    RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
-    RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
-    RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS = 2
-    RCL_SUBSCRIPTION_MESSAGE_LOST = 3
-    RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE = 4
-    RCL_SUBSCRIPTION_MATCHED = 5
-
-
-class QoSDeadlineRequestedInfo(NamedTuple):
-    """Messages did not come in time, or were not sent in time.
-
-    Counted in all and since the last event, as in the other infos.
-    """
-
-    total_count: int
-    total_count_change: int
-
-
-class IncompatibleTypeInfo(NamedTuple):
-    """Endpoints of the topic have another type."""
-
-    total_count: int
-    total_count_change: int
-
-
-class QoSLivelinessLostInfo(NamedTuple):
-    """The publisher did not say in time that it is alive."""
-
-    total_count: int
-    total_count_change: int
-
-
-class QoSMessageLostInfo(NamedTuple):
-    """Messages were lost."""
-
-    total_count: int
-    total_count_change: int
-
-
-class QoSLivelinessChangedInfo(NamedTuple):
-    """The number of matching publishers that are alive changed."""
-
-    alive_count: int
-    not_alive_count: int
-    alive_count_change: int
-    not_alive_count_change: int
-
-
-class QoSRequestedIncompatibleQoSInfo(NamedTuple):
-    """Endpoints of the topic do not match because of their QoS."""
-
-    total_count: int
-    total_count_change: int
-    last_policy_kind: rmw_qos_policy_kind_t
-
-
-class QoSSubscriptionMatchedInfo(NamedTuple):
-    """The number of matching endpoints changed."""
-
-    total_count: int
-    total_count_change: int
-    current_count: int
-    current_count_change: int
-
-
-QoSDeadlineOfferedInfo = QoSDeadlineRequestedInfo
-QoSOfferedIncompatibleQoSInfo = QoSRequestedIncompatibleQoSInfo
-QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo
-
-_INFOS: dict[EventKind, Callable[[EventStatus], Any]] = {
-    EventKind.DEADLINE_MISSED: lambda status: QoSDeadlineRequestedInfo(*status[:2]),
-    EventKind.LIVELINESS_LOST: lambda status: QoSLivelinessLostInfo(*status[:2]),
-    EventKind.MESSAGE_LOST: lambda status: QoSMessageLostInfo(*status[:2]),
-    EventKind.LIVELINESS_CHANGED: lambda status: QoSLivelinessChangedInfo(
-        status.current_count,
-        status.total_count,
-        status.current_count_change,
-        status.total_count_change,
-    ),
-    EventKind.INCOMPATIBLE_QOS: lambda status: QoSRequestedIncompatibleQoSInfo(
-        *status[:2], rmw_qos_policy_kind_t(status.last_policy_kind)
-    ),
-    EventKind.MATCHED: lambda status: QoSSubscriptionMatchedInfo(*status[:4]),
-}
 
 
 class _Event(Entity):
@@ -173,7 +91,7 @@ class EventHandler(Waitable):
         callback_group: Of the callback.
         callback: What to call.
         event_type: Which event.
-        parent_impl: The middleware's side of the publisher or subscription.
+        parent_impl: The publisher or subscription, or its handle.
 
     Raises:
         UnsupportedEventTypeError: The middleware cannot report it.
@@ -184,14 +102,15 @@ class EventHandler(Waitable):
         *,
         callback_group: CallbackGroup,
         callback: Callable[[Any], Any],
-        event_type: EventKind,
-        parent_impl: base.Publisher | base.Subscription,
+        event_type: QoSPublisherEventType | QoSSubscriptionEventType,
+        parent_impl: Publisher[Any] | Subscription[Any] | Handle,
     ) -> None:
         super().__init__(callback_group)
         self.callback = callback
         self.event_type = event_type
+        kind, self._info = report(event_type)
         try:
-            self._event = parent_impl.create_event(event_type)
+            self._event = parent_impl._wire.create_event(kind)
         except WireError as error:
             raise UnsupportedEventTypeError(str(error)) from error
         self._part = _Event(self._event)
@@ -211,7 +130,7 @@ class EventHandler(Waitable):
     def take_data(self) -> Any:
         """What is known of the event; None if there was none after all."""
         status = self._event.take()
-        return None if status is None else _INFOS[self.event_type](status)
+        return None if status is None else self._info(status)
 
     async def execute(self, taken_data: Any) -> None:
         """Call the callback."""
@@ -240,62 +159,58 @@ class QoSEventHandler(EventHandler):
         super().__init__(*args, **kwargs)
 
 
+#: Callbacks by event, None where the program wants none.
+_Wanted = dict["QoSPublisherEventType | QoSSubscriptionEventType", "Callable[[Any], None] | None"]
+
+
 class _EventCallbacks:
     """What publishers and subscriptions have in common."""
 
     #: How ROS 2 warns of an endpoint that does not match.
     _WARNING = ""
 
+    #: The event of it.
+    _INCOMPATIBLE: QoSPublisherEventType | QoSSubscriptionEventType
+
     incompatible_qos: Callable[[Any], None] | None
-    incompatible_type: Callable[[IncompatibleTypeInfo], None] | None
     use_default_callbacks: bool
 
-    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+    def _wanted(self) -> _Wanted:
         raise NotImplementedError
 
-    def create_event_handlers(
+    def _make_handlers(
         self,
         callback_group: CallbackGroup,
-        endpoint: base.Publisher | base.Subscription,
+        endpoint: Publisher[Any] | Subscription[Any],
         topic_name: str,
-        logger: RcutilsLogger,
     ) -> list[EventHandler]:
-        """Make a handler for each callback; called by the node when it creates the endpoint.
-
-        Raises:
-            UnsupportedEventTypeError: The middleware cannot report one of the events.
-        """
-        if self.incompatible_type is not None:
-            raise UnsupportedEventTypeError(
-                "the middleware does not report endpoints of another type"
-            )
-
-        def handler(kind: EventKind, callback: Callable[[Any], None]) -> EventHandler:
+        def handler(event_type: Any, callback: Callable[[Any], None]) -> EventHandler:
             return EventHandler(
                 callback_group=callback_group,
                 callback=callback,
-                event_type=kind,
+                event_type=event_type,
                 parent_impl=endpoint,
             )
 
         handlers = [
-            handler(kind, callback)
-            for kind, callback in self._wanted().items()
+            handler(event_type, callback)
+            for event_type, callback in self._wanted().items()
             if callback is not None
         ]
         if self.incompatible_qos is None and self.use_default_callbacks:
             # Zenoh has no such event, because everything matches.
             with suppress(UnsupportedEventTypeError):
+                logger = get_logger(endpoint.logger_name)
                 warn = self._warn_of_incompatible_qos(topic_name, logger)
-                handlers.append(handler(EventKind.INCOMPATIBLE_QOS, warn))
+                handlers.append(handler(self._INCOMPATIBLE, warn))
         return handlers
 
     def _warn_of_incompatible_qos(
         self, topic_name: str, logger: RcutilsLogger
-    ) -> Callable[[QoSRequestedIncompatibleQoSInfo], None]:
+    ) -> Callable[[Any], None]:
         text = self._WARNING
 
-        def warn(event: QoSRequestedIncompatibleQoSInfo) -> None:
+        def warn(event: QoSRequestedIncompatibleQoSInfo | QoSOfferedIncompatibleQoSInfo) -> None:
             logger.warning(
                 text.format(topic_name, qos_policy_name_from_kind(event.last_policy_kind))
             )
@@ -343,13 +258,27 @@ class SubscriptionEventCallbacks(_EventCallbacks):
         self.matched = matched
         self.use_default_callbacks = use_default_callbacks
 
-    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+    _INCOMPATIBLE = QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS
+
+    def create_event_handlers(
+        self, callback_group: CallbackGroup, subscription: Subscription[Any], topic_name: str
+    ) -> list[EventHandler]:
+        """Make a handler for each callback; called by the node when it creates the subscription.
+
+        Raises:
+            UnsupportedEventTypeError: The middleware cannot report one of the events.
+        """
+        return self._make_handlers(callback_group, subscription, topic_name)
+
+    def _wanted(self) -> _Wanted:
+        event = QoSSubscriptionEventType
         return {
-            EventKind.DEADLINE_MISSED: self.deadline,
-            EventKind.INCOMPATIBLE_QOS: self.incompatible_qos,
-            EventKind.LIVELINESS_CHANGED: self.liveliness,
-            EventKind.MESSAGE_LOST: self.message_lost,
-            EventKind.MATCHED: self.matched,
+            event.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED: self.deadline,
+            event.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS: self.incompatible_qos,
+            event.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: self.liveliness,
+            event.RCL_SUBSCRIPTION_MESSAGE_LOST: self.message_lost,
+            event.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: self.incompatible_type,
+            event.RCL_SUBSCRIPTION_MATCHED: self.matched,
         }
 
 
@@ -388,10 +317,24 @@ class PublisherEventCallbacks(_EventCallbacks):
         self.matched = matched
         self.use_default_callbacks = use_default_callbacks
 
-    def _wanted(self) -> dict[EventKind, Callable[[Any], None] | None]:
+    _INCOMPATIBLE = QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS
+
+    def create_event_handlers(
+        self, callback_group: CallbackGroup, publisher: Publisher[Any], topic_name: str
+    ) -> list[EventHandler]:
+        """Make a handler for each callback; called by the node when it creates the publisher.
+
+        Raises:
+            UnsupportedEventTypeError: The middleware cannot report one of the events.
+        """
+        return self._make_handlers(callback_group, publisher, topic_name)
+
+    def _wanted(self) -> _Wanted:
+        event = QoSPublisherEventType
         return {
-            EventKind.DEADLINE_MISSED: self.deadline,
-            EventKind.INCOMPATIBLE_QOS: self.incompatible_qos,
-            EventKind.LIVELINESS_LOST: self.liveliness,
-            EventKind.MATCHED: self.matched,
+            event.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: self.deadline,
+            event.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS: self.incompatible_qos,
+            event.RCL_PUBLISHER_LIVELINESS_LOST: self.liveliness,
+            event.RCL_PUBLISHER_INCOMPATIBLE_TYPE: self.incompatible_type,
+            event.RCL_PUBLISHER_MATCHED: self.matched,
         }

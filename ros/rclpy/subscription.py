@@ -86,6 +86,11 @@ class Subscription(Entity, Generic[MsgT]):
         self._check_usable()
         return self.topic
 
+    @property
+    def logger_name(self) -> str:
+        """Name of the logger of its node."""
+        return self._core.logger.name
+
     def get_publisher_count(self) -> int:
         """How many matching publishers are known at the moment."""
         self._check_usable()

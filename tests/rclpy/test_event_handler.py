@@ -8,11 +8,16 @@ import sys
 import pytest
 
 import rclpy
-from rclpy import event_handler
+from rclpy import _qos_events, event_handler
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
 from rclpy.context import Context
 from rclpy.duration import Duration
-from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.event_handler import (
+    PublisherEventCallbacks,
+    QoSPublisherEventType,
+    QoSSubscriptionEventType,
+    SubscriptionEventCallbacks,
+)
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -24,7 +29,7 @@ from rclpy.qos_overriding_options import (
 )
 from rclpy.waitable import Waitable
 from std_msgs.msg import String
-from turtlewire.wire.base import EventKind, EventStatus
+from turtlewire.wire.base import EventStatus
 
 RELIABLE = QoSProfile(depth=1)
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -274,7 +279,7 @@ def test_a_liveliness_change_tells_the_living_from_the_others():
     status = EventStatus(
         total_count=1, total_count_change=-2, current_count=3, current_count_change=4
     )
-    info = event_handler._INFOS[EventKind.LIVELINESS_CHANGED](status)
+    info = _qos_events._liveliness(status)
     assert (info.alive_count, info.alive_count_change) == (3, 4)
     assert (info.not_alive_count, info.not_alive_count_change) == (1, -2)
 
@@ -285,7 +290,9 @@ def test_a_handler_is_a_waitable(world):
         String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append)
     )
     handler = next(
-        each for each in publisher.event_handlers if each.event_type is EventKind.MATCHED
+        each
+        for each in publisher.event_handlers
+        if each.event_type is QoSPublisherEventType.RCL_PUBLISHER_MATCHED
     )
     assert isinstance(handler, Waitable)
     assert repr(handler.get_num_entities()) == "<NumberOfEntities(0, 0, 0, 0, 0, 1)>"
@@ -294,8 +301,8 @@ def test_a_handler_is_a_waitable(world):
         former = event_handler.QoSEventHandler(
             callback_group=handler.callback_group,
             callback=seen.append,
-            event_type=EventKind.MATCHED,
-            parent_impl=publisher._wire,
+            event_type=QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
+            parent_impl=publisher.handle,
         )
     former.destroy()
 
@@ -319,3 +326,27 @@ def test_the_former_module_of_events(monkeypatch):
         qos_event = importlib.import_module("rclpy.qos_event")
     for name in qos_event.__all__:
         assert getattr(qos_event, name) is getattr(event_handler, name)
+
+
+def test_a_program_may_make_a_handler_itself(world):
+    published, subscribed = [], []
+    publisher = world.node.create_publisher(String, "a", 1)
+    subscription = world.node.create_subscription(String, "b", print, 1)
+    for endpoint, event_type, seen in (
+        (publisher, QoSPublisherEventType.RCL_PUBLISHER_MATCHED, published),
+        (subscription, QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED, subscribed),
+    ):
+        world.node.add_waitable(
+            event_handler.EventHandler(
+                callback_group=world.node.default_callback_group,
+                callback=seen.append,
+                event_type=event_type,
+                parent_impl=endpoint.handle,
+            )
+        )
+    world.node.create_subscription(String, "a", print, 1)
+    world.node.create_publisher(String, "b", 1)
+    world.spin_until(lambda: published and subscribed)
+    assert type(published[0]) is event_handler.QoSPublisherMatchedInfo
+    assert type(subscribed[0]) is event_handler.QoSSubscriptionMatchedInfo
+    assert published[0].current_count == subscribed[0].current_count == 1

@@ -184,16 +184,15 @@ class NodeEndpoints:
 
     def _own_events(
         self,
-        endpoint: Publisher | Subscription,
+        endpoint: Any,
         topic: str,
         event_callbacks: PublisherEventCallbacks | SubscriptionEventCallbacks,
         callback_group: CallbackGroup | None,
     ) -> None:
         endpoint.event_handlers = event_callbacks.create_event_handlers(
             callback_group or self.default_callback_group,
-            endpoint._wire,
+            endpoint,
             topic,  # ROS 2 names it in its warnings as it was given
-            self._core.logger,
         )
         for handler in endpoint.event_handlers:
             self._own(EventHandler, handler)
