@@ -165,6 +165,13 @@ def test_an_unknown_topic_beside_known_ones(tmp_path, names):
     assert load_transforms(tmp_path / "moving", topics=["/tf"])[1].messages == 1
 
 
+def test_a_topic_of_another_type(tmp_path):
+    path = write_bag(tmp_path / "made")
+    reason = "/chatter is of type std_msgs/msg/String, not tf2_msgs/msg/TFMessage"
+    with pytest.raises(BagError, match=reason):
+        load_transforms(path, topics=["/tf", "/chatter"])
+
+
 def test_a_window_that_ends_before_it_begins(tmp_path):
     import turtlewire
     from turtlewire.bag import load_trajectory, open_bag

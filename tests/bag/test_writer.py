@@ -225,6 +225,13 @@ def test_every_version_of_the_metadata(tmp_path, version, storage):
         assert [qos.depth for qos in bag.topics["/tf"].qos] == depths
 
 
+@pytest.mark.parametrize("options", [{"compression": "gz"}, {"compression_mode": "FLE"}])
+def test_a_wrong_compression_leaves_no_folder(tmp_path, options):
+    with pytest.raises(BagError, match="unknown compression"):
+        BagWriter(tmp_path / "made", **options)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_unknown_version_of_the_metadata(tmp_path):
     with pytest.raises(BagError, match="unknown version 10 of the metadata"):
         BagWriter(tmp_path / "made", metadata_version=10)

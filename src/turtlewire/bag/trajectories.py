@@ -62,7 +62,9 @@ def load_trajectory(
         rows = list(_rows(bag, topic, *POSE_TYPES[kind], (start_ns, end_ns, count), tell))
         tell(1.0)
     if not rows:
-        raise BagError(f"{bag.path} has no message of {topic} in that time")
+        raise BagError(f"{bag.path} has no message of {topic} in that time").with_hint(
+            f"The bag covers {bag.start_ns} to {bag.end_ns}."
+        )
     _, frame, child, _ = rows[0]
     stamps, first = np.unique(np.array([row[0] for row in rows], np.int64), return_index=True)
     poses = np.array([row[3] for row in rows], np.float64)[first]

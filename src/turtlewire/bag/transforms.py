@@ -63,8 +63,8 @@ def load_transforms(
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, none of the topics is in it, or one is missing that is not the
-            default.
+        BagError: It is no bag, none of the topics is in it, or one that is not the default is
+            missing or of another type.
         ValueError: The window ends before it begins.
     """
     buffer = Buffer(cache_time_ns)
@@ -137,6 +137,9 @@ def _names(topics: str | Iterable[str]) -> set[str]:
 def _check_topics(bag: Bag, wanted: set[str], chosen: set[str]) -> None:
     """Refuse a bag without any of the wanted topics, or without one of those chosen by name."""
     missing = sorted(chosen - bag.topics.keys())
+    for name in sorted(chosen & bag.topics.keys()):
+        if bag.topics[name].type not in (_TF_TYPE, ""):  # a damaged file may not tell
+            raise BagError(f"{name} is of type {bag.topics[name].type}, not {_TF_TYPE}")
     if wanted & bag.topics.keys() and not missing:
         return
     similar = [name for name, topic in bag.topics.items() if topic.type == _TF_TYPE]

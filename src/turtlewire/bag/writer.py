@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BagWriter"]
 
+_MODES = ("", "FILE", "MESSAGE")
 _ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
 
 
@@ -90,6 +91,11 @@ class BagWriter:
     ) -> None:
         if storage not in _ENDINGS:
             raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
+        if compression_mode not in _MODES:
+            raise BagError(f"unknown compression mode '{compression_mode}'").with_hint(
+                "Known are FILE, MESSAGE and an empty text."
+            )
+        compress(compression, b"", level)  # refuse one that is not known or not installed
         if compression_mode == "MESSAGE" and storage == "mcap":
             raise BagError("MCAP files compress chunks, not messages").with_hint(
                 "Give compression='zstd' instead."

@@ -70,8 +70,8 @@ def from_bag(  # noqa: D417 - cls is the class
 
     Raises:
         FileNotFoundError: There is nothing at ``path``.
-        BagError: It is no bag, none of the topics is in it, or one is missing that is not the
-            default.
+        BagError: It is no bag, none of the topics is in it, or one that is not the default is
+            missing or of another type.
         ValueError: The window ends before it begins.
     """
     buffer = cls(cache_time_ns)
