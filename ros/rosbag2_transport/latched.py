@@ -58,6 +58,10 @@ class Latched:
             self._sent[topic] = count
         return sorted(missing, key=lambda message: message.log_time_ns)
 
+    def forget(self) -> None:
+        """Send all again at the next move: listeners that start anew with each round need it."""
+        self._sent = dict.fromkeys(self._depths, 0)
+
     def is_known(self, topic: str) -> bool:
         """Whether listeners have the next message of a topic already."""
         return topic in self._passed and self._passed[topic] < self._sent[topic]

@@ -123,7 +123,8 @@ class Player:
         try:
             self._outputs.wait_for_listeners()
             while self._play_once() and self._options.loop:
-                pass
+                with self.changed:
+                    self._latched.forget()
             self._wait_for_acknowledgments()
         finally:
             with self.changed:

@@ -192,6 +192,15 @@ def test_after_a_seek_listeners_have_what_was_latched_then(peer, bag_verb, tmp_p
     assert player.wait() == 0
 
 
+def test_each_round_sends_what_is_latched_before_the_offset(peer, bag_verb, tmp_path):
+    words = peer.listen("/word", LATCHED)
+    bag = write_latched(tmp_path / "bag")
+    player = bag_verb("play", bag, "-l", "-r", "50", "--start-offset", "2.5")
+    peer.wait_for(lambda: len(words) >= 6)
+    assert list(map(content, words[:6])) == ["first", "second"] * 3
+    assert end(player) == 0
+
+
 def stamp(time_ns):
     from builtin_interfaces.msg import Time
 
