@@ -3,6 +3,8 @@
 ==============  =======================================
 module          what it holds
 ==============  =======================================
+`constants`     where the index is
+`cli`           ``ament_index``: resources on the command line
 `packages`      prefixes and share folders of packages
 `resources`     resources of the index, a file for each
 `search_paths`  the prefixes that are searched
@@ -11,6 +13,7 @@ module          what it holds
 
 from __future__ import annotations
 
+from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR, RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.packages import (
     PackageNotFoundError,
     get_package_prefix,
@@ -26,10 +29,11 @@ from ament_index_python.resources import (
     has_resource,
 )
 from ament_index_python.resources import get_resource_types as get_resource_types
-from ament_index_python.search_paths import AMENT_PREFIX_PATH_ENV_VAR, get_search_paths
+from ament_index_python.search_paths import get_search_paths
 
 __all__ = [
     "AMENT_PREFIX_PATH_ENV_VAR",
+    "RESOURCE_INDEX_SUBFOLDER",
     "InvalidResourceNameError",
     "InvalidResourceTypeNameError",
     "PackageNotFoundError",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 
+from ament_index_python.constants import RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.search_paths import get_search_paths
 
 __all__ = [
+    "RESOURCE_INDEX_SUBFOLDER",
     "InvalidResourceNameError",
     "InvalidResourceTypeNameError",
     "get_resource",
@@ -15,8 +17,6 @@ __all__ = [
     "has_resource",
     "name_is_invalid",
 ]
-
-_INDEX = os.path.join("share", "ament_index", "resource_index")
 
 
 class InvalidResourceTypeNameError(Exception):
@@ -46,7 +46,8 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
             f"Could not find the resource '{resource_name}' of type '{resource_type}'"
         )
     with open(
-        os.path.join(str(prefix), _INDEX, resource_type, resource_name), encoding="utf-8"
+        os.path.join(str(prefix), RESOURCE_INDEX_SUBFOLDER, resource_type, resource_name),
+        encoding="utf-8",
     ) as file:
         return file.read(), str(prefix)
 
@@ -57,7 +58,9 @@ def has_resource(resource_type: str, resource_name: str) -> str | bool:
     if not resource_name or name_is_invalid(resource_name):
         raise InvalidResourceNameError(f"Resource name '{resource_name}' is invalid")
     for prefix in get_search_paths():
-        if os.path.isfile(os.path.join(prefix, _INDEX, resource_type, resource_name)):
+        if os.path.isfile(
+            os.path.join(prefix, RESOURCE_INDEX_SUBFOLDER, resource_type, resource_name)
+        ):
             return prefix
     return False
 
@@ -67,7 +70,7 @@ def get_resources(resource_type: str) -> dict[str, str]:
     _check_type(resource_type)
     resources: dict[str, str] = {}
     for prefix in get_search_paths():
-        folder = os.path.join(prefix, _INDEX, resource_type)
+        folder = os.path.join(prefix, RESOURCE_INDEX_SUBFOLDER, resource_type)
         if os.path.isdir(folder):
             for name in os.listdir(folder):
                 if not name.startswith(".") and os.path.isfile(os.path.join(folder, name)):
@@ -79,7 +82,7 @@ def get_resource_types() -> set[str]:
     """All types of resources that any prefix has."""
     types: set[str] = set()
     for prefix in get_search_paths():
-        folder = os.path.join(prefix, _INDEX)
+        folder = os.path.join(prefix, RESOURCE_INDEX_SUBFOLDER)
         if os.path.isdir(folder):
             types |= {
                 name

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-__all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "get_search_paths"]
+from ament_index_python.constants import AMENT_PREFIX_PATH_ENV_VAR
 
-#: Name of the environment variable that lists the prefixes of sourced workspaces.
-AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
+__all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "get_search_paths"]
 
 
 def get_search_paths() -> list[str]:

@@ -1,8 +1,9 @@
-"""The types of interface fields, as ROS 2's package of this name.
+"""What interfaces consist of, as ROS 2's package of this name.
 
-============  =================================================
+============  ===================================================================
 module        what it holds
-============  =================================================
-`definition`  types of fields, of which ``SLOT_TYPES`` consists
-============  =================================================
+============  ===================================================================
+`definition`  types of fields, of which ``SLOT_TYPES`` consists; messages, services
+`idl_file`    files of interfaces in IDL
+============  ===================================================================
 """

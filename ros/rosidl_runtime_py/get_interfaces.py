@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from turtlewire import msg
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection
 
 __all__ = [
     "get_action_interfaces",
@@ -21,11 +21,11 @@ __all__ = [
 _KINDS = ("msg", "srv", "action")
 
 
-def get_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+def get_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
     """Interfaces by package.
 
     Args:
-        package_names: The packages; None for all.
+        package_names: The packages; none means all.
 
     Returns:
         ``{"turtlesim": ["msg/Color", "srv/Spawn", ...]}``.
@@ -36,17 +36,17 @@ def get_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list
     return _interfaces(package_names, _KINDS)
 
 
-def get_message_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+def get_message_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
     """Messages by package; as `get_interfaces`."""
     return _interfaces(package_names, ("msg",))
 
 
-def get_service_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+def get_service_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
     """Services by package; as `get_interfaces`."""
     return _interfaces(package_names, ("srv",))
 
 
-def get_action_interfaces(package_names: Iterable[str] | None = None) -> dict[str, list[str]]:
+def get_action_interfaces(package_names: Collection[str] = []) -> dict[str, list[str]]:
     """Actions by package; as `get_interfaces`."""
     return _interfaces(package_names, ("action",))
 
@@ -83,15 +83,13 @@ def get_interface_path(interface_name: str) -> str:
     return msg.interface_path(interface_name.partition(".")[0])
 
 
-def _interfaces(
-    package_names: Iterable[str] | None, kinds: tuple[str, ...]
-) -> dict[str, list[str]]:
+def _interfaces(package_names: Collection[str], kinds: tuple[str, ...]) -> dict[str, list[str]]:
     packages = msg.interface_names()
     found: dict[str, list[str]] = {}
-    for package in packages if package_names is None else package_names:
+    for package in package_names or packages:
         if package not in packages:
             raise LookupError(f"Unknown package '{package}'")
         names = [f"{kind}/{name}" for kind in kinds for name in packages[package][kind]]
-        if names or package_names is not None:
+        if names or package_names:
             found[package] = names
     return found

@@ -10,10 +10,13 @@ from turtlewire.msg.types import NamespacedType
 
 __all__ = [
     "get_action",
+    "get_action_namespaced_type",
     "get_interface",
     "get_message",
+    "get_message_namespaced_type",
     "get_namespaced_type",
     "get_service",
+    "get_service_namespaced_type",
     "is_action",
     "is_message",
     "is_service",
@@ -32,6 +35,40 @@ def get_namespaced_type(identifier: str) -> NamespacedType:
             f"Expected the full name of an interface (package/msg/Name), got '{identifier}'"
         )
     return NamespacedType.parse(identifier)
+
+
+def get_message_namespaced_type(identifier: str) -> NamespacedType:
+    """Type of a message's name, ``geometry_msgs/msg/Twist`` or ``geometry_msgs/Twist``.
+
+    Raises:
+        ValueError: It is not the name of a message.
+    """
+    return _namespaced_type(identifier, "msg", "message")
+
+
+def get_service_namespaced_type(identifier: str) -> NamespacedType:
+    """Type of a service's name, ``turtlesim/srv/Spawn`` or ``turtlesim/Spawn``.
+
+    Raises:
+        ValueError: It is not the name of a service.
+    """
+    return _namespaced_type(identifier, "srv", "service")
+
+
+def get_action_namespaced_type(identifier: str) -> NamespacedType:
+    """Type of an action's name, ``turtlesim/action/RotateAbsolute`` or without the middle.
+
+    Raises:
+        ValueError: It is not the name of an action.
+    """
+    return _namespaced_type(identifier, "action", "action")
+
+
+def _namespaced_type(identifier: str, kind: str, word: str) -> NamespacedType:
+    found = get_namespaced_type(_full_name(identifier, kind))
+    if found.namespaces[-1] != kind:
+        raise ValueError(f"Expected the full name of a {word}, got '{identifier}'")
+    return found
 
 
 def get_interface(identifier: str) -> Any:
@@ -85,9 +122,12 @@ def is_action(interface: Any) -> bool:
 
 
 def _get(identifier: str, kind: str, base: type, word: str) -> Any:
-    full_name = identifier.replace("/", f"/{kind}/") if identifier.count("/") == 1 else identifier
-    interface = get_interface(full_name)
+    interface = get_interface(_full_name(identifier, kind))
     if not (isinstance(interface, type) and issubclass(interface, base)):
         # ROS 2's class.
         raise ValueError(f"Expected the full name of {word}, got '{identifier}'")  # noqa: TRY004
     return interface
+
+
+def _full_name(identifier: str, kind: str) -> str:
+    return identifier.replace("/", f"/{kind}/") if identifier.count("/") == 1 else identifier

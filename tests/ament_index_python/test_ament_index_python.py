@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 
 import pytest
@@ -82,3 +83,20 @@ def test_prefixes_that_do_not_exist_are_left_out(index, monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{index}")
     assert ament_index_python.get_search_paths()[0] == str(index)
     assert all(Path(path).is_dir() for path in ament_index_python.get_search_paths())
+
+
+def test_the_command_line(capsys):
+    from ament_index_python.cli import main, resource_name_completer, resource_type_completer
+
+    assert main([]) is None
+    assert "packages\n" in capsys.readouterr().out
+    assert main(["packages"]) is None
+    assert "turtlesim\t" in capsys.readouterr().out
+    assert main(["packages", "turtlesim"]) is None
+    assert capsys.readouterr().out
+    assert main(["packages", "no_such"]) == (
+        "Could not find the resource 'no_such' of type 'packages'"
+    )
+    assert resource_type_completer("pack") == ["packages"]
+    chosen = argparse.Namespace(resource_type="packages")
+    assert "turtlesim" in resource_name_completer("turtle", chosen)

@@ -8,6 +8,7 @@ import pytest
 
 import rosidl_runtime_py
 from geometry_msgs.msg import Twist
+from rosidl_runtime_py import utilities
 from rosidl_runtime_py.utilities import (
     get_action,
     get_interface,
@@ -95,3 +96,12 @@ def test_paths_of_nothing_are_errors(name, error, text):
     with pytest.raises(error) as caught:
         rosidl_runtime_py.get_interface_path(name)
     assert str(caught.value).startswith(text)
+
+
+def test_types_of_names_of_one_kind():
+    twist = utilities.get_message_namespaced_type("geometry_msgs/Twist")
+    assert twist == utilities.get_namespaced_type("geometry_msgs/msg/Twist")
+    assert utilities.get_service_namespaced_type("turtlesim/srv/Spawn").name == "Spawn"
+    assert utilities.get_action_namespaced_type("p/Go").namespaces == ("p", "action")
+    with pytest.raises(ValueError, match="full name of a message, got 'turtlesim/srv/Spawn'"):
+        utilities.get_message_namespaced_type("turtlesim/srv/Spawn")

@@ -38,7 +38,14 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["parse_action", "parse_message", "parse_service"]
+__all__ = [
+    "parse_action",
+    "parse_message",
+    "parse_service",
+    "parse_type",
+    "parse_value",
+    "without_comment",
+]
 
 _SEPARATOR = "---"
 
@@ -75,7 +82,7 @@ def parse_message(full_name: str, text: str) -> MessageDefinition:
     fields: list[Field] = []
     constants: list[Constant] = []
     for number, line in enumerate(text.splitlines(), start=1):
-        statement = _without_comment(line).strip()
+        statement = without_comment(line).strip()
         if statement:
             try:
                 _parse_statement(package, statement, fields, constants)
@@ -125,7 +132,8 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
     return ["\n".join(part) for part in parts]
 
 
-def _without_comment(line: str) -> str:
+def without_comment(line: str) -> str:
+    """A line up to the ``#`` that is not within quotes."""
     before, mark, _ = line.partition("#")
     if not mark or ("'" not in before and '"' not in before):
         return before
@@ -150,7 +158,7 @@ def _parse_statement(
         else statement.replace("\t", " ", 1).partition(" ")
     )
     rest = rest.strip()
-    type_ = _parse_type(package, type_text)
+    type_ = parse_type(package, type_text)
     name = _leading_identifier(rest)
     value_text = rest[len(name) :].strip()
     if value_text.startswith("="):
@@ -159,7 +167,7 @@ def _parse_statement(
                 f"'{name}' is not a valid constant name (capital letters, digits, single "
                 "underscores)"
             )
-        constants.append(Constant(name, type_, _parse_value(type_, value_text[1:].strip())))
+        constants.append(Constant(name, type_, parse_value(type_, value_text[1:].strip())))
         return
     if not _is_identifier(name):
         raise ValueError(
@@ -168,7 +176,7 @@ def _parse_statement(
         )
     if iskeyword(name):
         raise ValueError(f"'{name}' is a keyword of Python, and so cannot be a field name")
-    fields.append(Field(name, type_, _parse_value(type_, value_text) if value_text else None))
+    fields.append(Field(name, type_, parse_value(type_, value_text) if value_text else None))
 
 
 def _leading_identifier(text: str) -> str:
@@ -193,7 +201,16 @@ def _is_type_name(name: str) -> bool:
     return name.isascii() and name[:1].isupper() and name.isalnum()
 
 
-def _parse_type(package: str, text: str) -> AbstractType:
+def parse_type(package: str, text: str) -> AbstractType:
+    """The type that a text names, for example ``string<=3[]``.
+
+    Args:
+        package: Where messages are that are named without a package.
+        text: The text.
+
+    Raises:
+        ValueError: It is no type.
+    """
     if not text.endswith("]"):
         return _parse_value_type(package, text)
     base, _, size = text[:-1].rpartition("[")
@@ -231,11 +248,16 @@ def _parse_size(text: str) -> int:
     return int(text)
 
 
-def _parse_value(type_: AbstractType, text: str) -> Any:
+def parse_value(type_: AbstractType, text: str) -> Any:
+    """The value that a text means, for defaults and constants.
+
+    Raises:
+        ValueError: It is no value of the type.
+    """
     if isinstance(type_, AbstractNestedType):
         if not (text.startswith("[") and text.endswith("]")):
             raise ValueError(f"'{text}' is not a list of values ([a, b])")
-        values = [_parse_value(type_.value_type, item) for item in _split_list(text[1:-1])]
+        values = [parse_value(type_.value_type, item) for item in _split_list(text[1:-1])]
         limit = getattr(type_, "maximum_size", getattr(type_, "size", None))
         if limit is not None and (
             len(values) > limit or (isinstance(type_, Array) and len(values) != limit)

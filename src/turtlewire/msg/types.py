@@ -11,6 +11,7 @@ __all__ = [
     "INTEGER_RANGES",
     "TYPE_CODES",
     "AbstractGenericString",
+    "AbstractNestableType",
     "AbstractNestedType",
     "AbstractSequence",
     "AbstractString",
@@ -77,7 +78,13 @@ class AbstractType:
         return f"{type(self).__name__}({', '.join(repr(part) for part in self._parts())})"
 
 
-class BasicType(AbstractType):
+class AbstractNestableType(AbstractType):
+    """A type of which arrays and sequences may consist."""
+
+    __slots__ = ()
+
+
+class BasicType(AbstractNestableType):
     """A number, a ``boolean`` or an ``octet`` (the ``byte`` of .msg files).
 
     Attributes:
@@ -93,7 +100,7 @@ class BasicType(AbstractType):
         return self.typename
 
 
-class NamespacedType(AbstractType):
+class NamespacedType(AbstractNestableType):
     """Another interface, nested.
 
     Attributes:
@@ -126,7 +133,7 @@ class NamespacedType(AbstractType):
         return f"{self.namespaces[0]}/{self.name}"
 
 
-class AbstractGenericString(AbstractType):
+class AbstractGenericString(AbstractNestableType):
     """Text of any kind; ``maximum_size`` exists on the bounded ones."""
 
     __slots__ = ()
@@ -210,6 +217,10 @@ class AbstractNestedType(AbstractType):
     def __init__(self, value_type: AbstractType) -> None:
         self.value_type = value_type
 
+    def has_maximum_size(self) -> bool:
+        """Whether the number of values is limited."""
+        return hasattr(self, "maximum_size")
+
 
 class Array(AbstractNestedType):
     """``T[N]``: exactly ``size`` values."""
@@ -232,10 +243,6 @@ class AbstractSequence(AbstractNestedType):
     """A varying number of values."""
 
     __slots__ = ()
-
-    def has_maximum_size(self) -> bool:
-        """Whether the number of values is limited."""
-        return hasattr(self, "maximum_size")
 
 
 class BoundedSequence(AbstractSequence):

@@ -1,0 +1,11 @@
+"""Where the index is."""
+
+from __future__ import annotations
+
+__all__ = ["AMENT_PREFIX_PATH_ENV_VAR", "RESOURCE_INDEX_SUBFOLDER"]
+
+#: Name of the environment variable that lists the prefixes of sourced workspaces.
+AMENT_PREFIX_PATH_ENV_VAR = "AMENT_PREFIX_PATH"
+
+#: Folder of a prefix that has a folder for each type of resource.
+RESOURCE_INDEX_SUBFOLDER = "share/ament_index/resource_index"

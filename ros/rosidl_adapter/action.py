@@ -1,0 +1,44 @@
+"""An action as an IDL file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosidl_adapter.conversion import convert
+from rosidl_adapter.parser import parse_action_string
+
+if TYPE_CHECKING:
+    import pathlib
+
+    from rosidl_adapter.parser import MessageSpecification
+
+__all__ = [
+    "convert_action_to_idl",
+    "parse_action_string",
+]
+
+
+def convert_action_to_idl(
+    package_dir: pathlib.Path, package_name: str, input_file: pathlib.Path, output_dir: pathlib.Path
+) -> pathlib.Path:
+    """Convert a ``.action`` file, and print what is read and written.
+
+    Args:
+        package_dir: Folder of the package, absolute.
+        package_name: Its name.
+        input_file: Path of the file below the folder.
+        output_dir: Folder for the result.
+
+    Returns:
+        Path of the result.
+
+    Raises:
+        ValueError: A path is not as described, or the file is wrong.
+        InvalidSpecification: The file is wrong.
+    """
+    return convert("action", package_dir, package_name, input_file, output_dir, _messages)
+
+
+def _messages(package: str, name: str, text: str) -> list[MessageSpecification]:
+    spec = parse_action_string(package, name, text)
+    return [spec.goal, spec.result, spec.feedback]

@@ -1,0 +1,56 @@
+"""Converts a file of a package into an IDL file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pathlib
+    from collections.abc import Callable
+
+    from rosidl_adapter.parser import MessageSpecification
+
+    Parse = Callable[[str, str, str], "list[MessageSpecification]"]
+
+__all__ = ["convert"]
+
+
+def convert(
+    kind: str,
+    package_dir: pathlib.Path,
+    package_name: str,
+    input_file: pathlib.Path,
+    output_dir: pathlib.Path,
+    parse: Parse,
+) -> pathlib.Path:
+    """Write the IDL file, and print what is read and written.
+
+    Args:
+        kind: ``msg``, ``srv`` or ``action``, the suffix of the file.
+        package_dir: Folder of the package.
+        package_name: Its name.
+        input_file: Path of the file below the folder.
+        output_dir: Folder for the result.
+        parse: Returns the messages of package, name and text.
+
+    Returns:
+        Path of the result.
+
+    Raises:
+        ValueError: A path is not as described.
+    """
+    from rosidl_adapter.idl import idl_text
+
+    if not package_dir.is_absolute() or input_file.is_absolute():
+        raise ValueError(f"'{package_dir}' must be absolute, and '{input_file}' relative")
+    if input_file.suffix != f".{kind}":
+        raise ValueError(f"'{input_file}' does not end in '.{kind}'")
+    source = package_dir / input_file
+    print(f"Reading input file: {source}")
+    messages = parse(package_name, input_file.stem, source.read_text(encoding="utf-8"))
+    target = output_dir / f"{input_file.stem}.idl"
+    print(f"Writing output file: {target.absolute()}")
+    output_dir.mkdir(parents=True, exist_ok=True)
+    text = idl_text(kind, package_name, input_file.as_posix(), messages)
+    target.write_text(text, encoding="utf-8")
+    return target

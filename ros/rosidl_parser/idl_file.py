@@ -1,0 +1,74 @@
+"""Files of interfaces in IDL: where they are and what they hold."""
+
+from __future__ import annotations
+
+import pathlib
+from typing import Any, TypeVar
+
+__all__ = ["IdlContent", "IdlFile", "IdlLocator", "Include"]
+
+_Element = TypeVar("_Element")
+
+
+class Include:
+    """That a file needs another one.
+
+    Attributes:
+        locator: The other file, for example ``std_msgs/msg/Header.idl``.
+    """
+
+    __slots__ = ("locator",)
+
+    def __init__(self, locator: str) -> None:
+        self.locator = locator
+
+
+class IdlLocator:
+    """Where a file is.
+
+    Attributes:
+        basepath: A folder.
+        relative_path: The path below it.
+    """
+
+    __slots__ = ("basepath", "relative_path")
+
+    def __init__(self, basepath: pathlib.Path, relative_path: pathlib.Path) -> None:
+        self.basepath = pathlib.Path(basepath)
+        self.relative_path = pathlib.Path(relative_path)
+
+    def get_absolute_path(self) -> pathlib.Path:
+        """Both together."""
+        return self.basepath / self.relative_path
+
+
+class IdlContent:
+    """What a file holds.
+
+    Attributes:
+        elements: Includes, messages, services and actions.
+    """
+
+    __slots__ = ("elements",)
+
+    def __init__(self) -> None:
+        self.elements: list[Any] = []
+
+    def get_elements_of_type(self, type_: type[_Element]) -> list[_Element]:
+        """The elements of a class."""
+        return [each for each in self.elements if isinstance(each, type_)]
+
+
+class IdlFile:
+    """A file and what it holds.
+
+    Attributes:
+        locator: Where it is.
+        content: What it holds.
+    """
+
+    __slots__ = ("content", "locator")
+
+    def __init__(self, locator: IdlLocator, content: IdlContent) -> None:
+        self.locator = locator
+        self.content = content
