@@ -10,6 +10,7 @@ packages with C++ stay with colcon-ros.
 from __future__ import annotations
 
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -97,8 +98,6 @@ def _content_fault(manifest: Path) -> str | None:
 
 def _is_for_cmake(path: Path) -> bool:
     """Whether a CMakeLists.txt compiles C++, and there is an ament_cmake to do it."""
-    import os
-
     text = path.read_text(encoding="utf-8", errors="replace")
     return bool(_COMPILES.search(text)) and PackageLookup(os.environ).has_ament_cmake()
 
@@ -185,7 +184,8 @@ class AmentPackageTest(TaskExtensionPoint):
             return 1
         generated = Path(args.build_base) / "rosidl_generator_py"
         if generated.is_dir():
-            environment["PYTHONPATH"] = f"{generated}:{environment.get('PYTHONPATH', '')}"
+            paths = (str(generated), environment.get("PYTHONPATH", ""))
+            environment["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
         failed = False
         for test in tests:
             done = await run(

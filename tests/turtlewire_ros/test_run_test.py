@@ -53,6 +53,18 @@ def test_pytest_writes_the_result_itself(tmp_path):
     assert (status, message) == (1, "assert 1 == 2")
 
 
+def test_no_selected_test_is_no_failure(tmp_path):
+    (tmp_path / "test_it.py").write_text("def test_it():\n    assert 1 == 2\n")
+    words = [str(tmp_path / "test_it.py"), "-k", "another"]
+    assert main_status(tmp_path, words) == 0
+
+
+def main_status(tmp_path, words):
+    result = str(tmp_path / "a.xunit.xml")
+    options = ["--kind", "pytest", "--name", "a", "--result", result, "--timeout", "60"]
+    return main([*options, "--folder", str(tmp_path), "--", *words])
+
+
 def test_a_test_that_cannot_begin_has_a_result_too(tmp_path):
     status, message = result_of(tmp_path, "pytest", ["--no-such-option"])
     assert (status, message) == (4, "the test ended without a result")
