@@ -88,6 +88,33 @@ class Goals:
         with self._lock:
             return [(goal, self._handles[key]) for key, goal in self._goals.items()]
 
+    def to_cancel(self, wanted: Any, codes: Any) -> tuple[list[tuple[Goal, Any]], int]:
+        """The active goals that a cancel request means, with their handles, and a return code.
+
+        No id and no stamp mean all goals, a stamp all that were accepted until then, an id that
+        goal; both are joined.
+
+        Args:
+            wanted: The request's ``action_msgs/msg/GoalInfo``.
+            codes: Has the return codes: the class or an object of the response.
+        """
+        key = goal_key(wanted.goal_id)
+        stamp = (wanted.stamp.sec, wanted.stamp.nanosec)
+        goals = self.all()
+        if any(key) and stamp == (0, 0):
+            named = [pair for pair in goals if pair[0].key == key]
+            if not named:
+                return [], codes.ERROR_UNKNOWN_GOAL_ID
+            if not named[0][0].is_active:
+                return [], codes.ERROR_GOAL_TERMINATED
+            return named, codes.ERROR_NONE
+        found = []
+        for goal, handle in goals:
+            accepted = (goal.info.stamp.sec, goal.info.stamp.nanosec)
+            if goal.is_active and (stamp == (0, 0) or accepted <= stamp or goal.key == key):
+                found.append((goal, handle))
+        return found, codes.ERROR_NONE
+
     def publish_statuses(self) -> None:
         """Publish the states of all goals."""
         with self._lock:  # what is published last is what came last

@@ -351,7 +351,7 @@ class ActionServer(Waitable):
 
     async def _on_cancel(self, header: RequestId, request: Any) -> None:
         response = self._action_type.Impl.CancelGoalService.Response()
-        wanted, response.return_code = self._goals_to_cancel(request.goal_info)
+        wanted, response.return_code = self._goals.to_cancel(request.goal_info, response)
         for goal, goal_handle in wanted:
             decision = await await_or_execute(self._cancel_callback, goal_handle)
             if decision is not CancelResponse.ACCEPT or not goal.is_active:
@@ -362,30 +362,6 @@ class ActionServer(Waitable):
         if wanted and not response.goals_canceling:
             response.return_code = response.ERROR_REJECTED
         self._cancel_service.send_response(response, header)
-
-    def _goals_to_cancel(self, wanted: Any) -> tuple[list[tuple[Goal, ServerGoalHandle]], int]:
-        """Active goals that a cancel request means, and the code of its response.
-
-        No id and no stamp mean all goals, a stamp all that were accepted until then, an id that
-        goal; both are joined.
-        """
-        response = self._action_type.Impl.CancelGoalService.Response
-        key = goal_key(wanted.goal_id)
-        stamp = (wanted.stamp.sec, wanted.stamp.nanosec)
-        goals = self._goals.all()
-        if any(key) and stamp == (0, 0):
-            named = [pair for pair in goals if pair[0].key == key]
-            if not named:
-                return [], response.ERROR_UNKNOWN_GOAL_ID
-            if not named[0][0].is_active:
-                return [], response.ERROR_GOAL_TERMINATED
-            return named, response.ERROR_NONE
-        found = []
-        for goal, handle in goals:
-            accepted = (goal.info.stamp.sec, goal.info.stamp.nanosec)
-            if goal.is_active and (stamp == (0, 0) or accepted <= stamp or goal.key == key):
-                found.append((goal, handle))
-        return found, response.ERROR_NONE
 
     # Publishing
 
