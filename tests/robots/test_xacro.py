@@ -1,0 +1,59 @@
+"""xacro from PyPI prints what the one of ROS 2 printed (`tests/golden/robots/xacro`)."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+GOLDEN = Path(__file__).parent.parent / "golden" / "robots"
+XACRO = Path(sys.executable).parent / "xacro"
+RUNS = {
+    " ".join(run["args"]): run for run in json.loads((GOLDEN / "xacro/expected.json").read_text())
+}
+DEVIATIONS = re.findall(r"^\| (xacro .*?) \|", (GOLDEN / "DEVIATIONS.md").read_text(), re.MULTILINE)
+
+
+def elements(text):
+    return [
+        (each.tag, sorted(each.items()), (each.text or "").strip())
+        for each in ET.fromstring(text).iter()
+    ]
+
+
+def errors(text):
+    """Without the traceback's lines, which name places of an installation."""
+    return [
+        line
+        for line in text.splitlines()
+        if line.strip() and not line.startswith((" ", "Traceback"))
+    ]
+
+
+@pytest.mark.parametrize("name", sorted(RUNS))
+def test_golden(name):
+    expected = RUNS[name]
+    got = subprocess.run(
+        [XACRO, *expected["args"]],
+        cwd=GOLDEN / "xacro",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert got.returncode == expected["exit"]
+    if "--deps" in name:  # xacro prints a set
+        assert sorted(got.stdout.split()) == sorted(expected["stdout"].split())
+    elif expected["stdout"]:
+        assert elements(got.stdout) == elements(expected["stdout"])
+    is_equal = errors(got.stderr) == errors(expected["stderr"])
+    assert is_equal != (f"xacro {name} stderr" in DEVIATIONS)
+
+
+def test_all_runs_are_there():
+    assert len(RUNS) == 8
+    assert len(DEVIATIONS) == 1
