@@ -1,10 +1,13 @@
 """ROS 2's demo nodes in Python: talkers, listeners and services to try the tools on.
 
-==========  =============================================
-module      what it holds
-==========  =============================================
-`services`  a service that adds integers, and its clients
-`spin`      how every demo runs its node
-`topics`    talkers and listeners
-==========  =============================================
+============  ========================================================
+module        what it holds
+============  ========================================================
+`events`      publishers and subscriptions told of each other
+`logging`     the services that change the level of a logger
+`parameters`  parameters of other nodes, and callbacks of one's own
+`services`    a service that adds integers, its clients, introspection
+`spin`        how every demo runs its node
+`topics`      talkers and listeners
+============  ========================================================
 """

@@ -1,0 +1,1 @@
+"""Events of endpoints: who matches whom."""

@@ -1,0 +1,1 @@
+"""The services that change the level of a logger."""

@@ -1,0 +1,1 @@
+"""Parameters of a node: asked for, and checked."""

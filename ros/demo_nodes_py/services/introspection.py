@@ -1,0 +1,40 @@
+"""The parameter with which the introspection demos are configured."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.parameter import Parameter
+from rclpy.service_introspection import ServiceIntrospectionState
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+__all__ = ["check", "state_of"]
+
+_STATES = {
+    "disabled": ServiceIntrospectionState.OFF,
+    "metadata": ServiceIntrospectionState.METADATA,
+    "contents": ServiceIntrospectionState.CONTENTS,
+}
+
+
+def check(name: str, parameters: Sequence[Parameter]) -> SetParametersResult:
+    """Refuse values of the parameter that are none of the three words."""
+    for parameter in parameters:
+        if parameter.name != name:
+            continue
+        if parameter.type_ != Parameter.Type.STRING:
+            return SetParametersResult(successful=False, reason="must be a string")
+        if parameter.value not in _STATES:
+            reason = "must be one of 'disabled', 'metadata', or 'contents'"
+            return SetParametersResult(successful=False, reason=reason)
+    return SetParametersResult(successful=True)
+
+
+def state_of(name: str, parameters: Sequence[Parameter]) -> Iterator[ServiceIntrospectionState]:
+    """The states that values of the parameter ask for."""
+    for parameter in parameters:
+        if parameter.name == name:
+            yield _STATES[parameter.value]
