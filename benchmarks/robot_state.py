@@ -2,14 +2,15 @@
 
 ``bytes to bytes`` is the conversion alone; ``node`` is the whole process with the wire, in which
 the node's subscription, the conversion and the sending are counted. The rival of the conversion is
-its plain-Python twin.
+its plain-Python twin. That of the node is a process that answers datagrams of the same sizes, by
+two system calls each and nothing else: what the operating system takes of the node's time.
 """
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
+import socket
 import statistics
 import subprocess
 import sys
@@ -19,12 +20,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
+from turtlewire.urdf import parse_urdf
+from turtlewire.urdf.joint_messages import JointMessages
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 TITLE = "robot_state_publisher: 60 joints, CPU for each joint state"
-JOINTS, RATE_HZ, MESSAGES, ROUNDS = 60, 500, 1000, 3
+JOINTS, RATE_HZ, WARM_UP, MESSAGES, ROUNDS = 60, 500, 200, 1000, 3
 NAMES = [f"joint_{number}" for number in range(JOINTS)]
 
 
@@ -32,7 +35,10 @@ def rows() -> Iterator[Row]:
     native, plain = convert("native"), convert("python")
     yield Row("bytes to bytes", native, {"plain-Python twin": plain}, "<= 15 us")
     values = [measure() for _ in range(ROUNDS)]
-    yield Row("node, at 500 Hz, wire included", Figure(min(values), statistics.median(values)))
+    figure = Figure(min(values), statistics.median(values))
+    answers = [answer_datagrams() for _ in range(ROUNDS)]
+    rival = {"bare datagrams": Figure(min(answers), statistics.median(answers))}
+    yield Row("node, at 500 Hz, wire included", figure, rival, "<= 15 us")
 
 
 def urdf() -> str:
@@ -76,6 +82,34 @@ def convert(core: str) -> Figure:
     return Figure(min(values), statistics.median(values))
 
 
+def answer_datagrams() -> float:
+    """CPU nanoseconds of a process for each datagram that it receives and answers."""
+    size = len(
+        JointMessages(parse_urdf(urdf())).layout_of(joint_state(0)).transforms(joint_state(0))
+    )
+    code = (
+        "import socket, time; s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)\n"
+        f"s.bind(('127.0.0.1', 0)); print(s.getsockname()[1], flush=True); out = bytes({size})\n"
+        f"for n in range({WARM_UP + MESSAGES}):\n"
+        f"    if n == {WARM_UP}: t = time.process_time_ns()\n"
+        "    _, sender = s.recvfrom(65536); s.sendto(out, sender)\n"
+        f"print((time.process_time_ns() - t) / {MESSAGES})"
+    )
+    command = [sys.executable, "-c", code]
+    with (
+        subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
+    ):
+        assert process.stdout is not None
+        sender.connect(("127.0.0.1", int(process.stdout.readline())))
+        begin = time.monotonic()
+        for number in range(WARM_UP + MESSAGES):
+            sender.send(joint_state(number))
+            sender.recv(65536)
+            time.sleep(max(0.0, begin + (number + 1) / RATE_HZ - time.monotonic()))
+        return float(process.stdout.read())
+
+
 def measure() -> float:
     """CPU nanoseconds of the node's process for each joint state; all are published."""
     environment = {
@@ -83,62 +117,55 @@ def measure() -> float:
         "ROS_DOMAIN_ID": "103",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     }
-    command = [sys.executable, "-m", __name__]
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "robot.urdf"
         path.write_text(urdf())
-        with (
-            subprocess.Popen(
-                [*command, "receive", str(path)], env=environment, stdout=subprocess.PIPE, text=True
-            ) as receiver,
-            subprocess.Popen([*command, "send"], env=environment) as sender,
-        ):
-            output, _ = receiver.communicate(timeout=60)
-            sender.kill()
-    return float(output)
+        module = "from robot_state_publisher.robot_state_publisher import main; main()"
+        options = ["--ros-args", "-p", "ignore_timestamp:=true", "--log-level", "error"]
+        with subprocess.Popen(
+            [sys.executable, "-c", module, str(path), *options], env=environment
+        ) as node:
+            command = [sys.executable, "-m", __name__, str(node.pid)]
+            done = subprocess.run(
+                command, env=environment, stdout=subprocess.PIPE, text=True, check=True, timeout=60
+            )
+            node.terminate()
+    return float(done.stdout)
 
 
-def receive(path: str) -> None:
+def send(pid: int) -> None:
+    """Send joint states to the node, and print its CPU nanoseconds for each."""
     import rclpy
     from rclpy.executors import SingleThreadedExecutor
-    from robot_state_publisher import RobotStatePublisher
-
-    rclpy.init(args=["x", "--ros-args", "-p", "ignore_timestamp:=true", "--log-level", "error"])
-    node = RobotStatePublisher(urdf_file=path)
-    (subscription,) = (each for each in node.subscriptions if each.topic == "/joint_states")
-    handle, count, start = subscription.callback, 0, 0
-
-    def counting(cdr: bytes) -> None:
-        nonlocal count, start
-        handle(cdr)
-        count += 1
-        if count == 200:
-            start = time.process_time_ns()
-
-    subscription.callback = counting
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    while count < 200 + MESSAGES:
-        executor.spin_once()
-    print((time.process_time_ns() - start) / (count - 200))
-
-
-def send() -> None:
-    import rclpy
     from sensor_msgs.msg import JointState
     from tf2_msgs.msg import TFMessage
 
     rclpy.init(args=[])
     node = rclpy.create_node("sender")
     publisher = node.create_publisher(JointState, "/joint_states", 10)
-    node.create_subscription(TFMessage, "/tf", lambda _: None, 10, raw=True)
-    begin, number = time.monotonic(), 0
-    with contextlib.suppress(KeyboardInterrupt):
-        while rclpy.ok():
-            publisher.publish(joint_state(number))
-            number += 1
-            time.sleep(max(0.0, begin + number / RATE_HZ - time.monotonic()))
+    answers = 0
+
+    def count(_cdr: bytes) -> None:
+        nonlocal answers
+        answers += 1
+
+    node.create_subscription(TFMessage, "/tf", count, 1000, raw=True)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    while not answers and rclpy.ok():  # until both know each other
+        publisher.publish(joint_state(0))
+        executor.spin_once(timeout_sec=0.1)
+    cpu_clock = (~pid << 3) | 2  # of another process: clock_getcpuclockid(3)
+    answers, begin, number, start = 0, time.monotonic(), 0, 0
+    while number < WARM_UP + MESSAGES and rclpy.ok():
+        if number == WARM_UP:
+            answers, start = 0, time.clock_gettime_ns(cpu_clock)
+        publisher.publish(joint_state(number))
+        number += 1
+        while (left := begin + number / RATE_HZ - time.monotonic()) > 0:
+            executor.spin_once(timeout_sec=left)
+    print((time.clock_gettime_ns(cpu_clock) - start) / max(1, answers))
 
 
 if __name__ == "__main__":
-    receive(sys.argv[2]) if sys.argv[1] == "receive" else send()
+    send(int(sys.argv[1]))

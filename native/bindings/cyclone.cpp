@@ -120,7 +120,7 @@ void add_cyclone_types(nb::module_& module) {
       .def("take", &take, "reader"_a, "limit"_a,
            "At most `limit` messages of a reader, with the GIL held, as (bytes, number of the "
            "publisher,\ntime of sending in ns); none when the reader has gone.");
-  nb::class_<Writer>(module, "CycloneWriter",
+  nb::class_<Writer, Outlet>(module, "CycloneWriter",
                      "Sends messages.\n\n"
                      "Args:\n"
                      "    library: What it calls.\n"

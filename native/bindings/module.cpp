@@ -3,6 +3,7 @@
 #include "errors.hpp"
 #include "intake.hpp"
 #include "joint_frames.hpp"
+#include "joint_relay.hpp"
 #include "message.hpp"
 #include "record_walk.hpp"
 #include "transform.hpp"
@@ -19,6 +20,7 @@ NB_MODULE(_native, module) {
   add_message_lookup_type(module);
   add_intake_type(module);
   add_joint_frames_type(module);
+  add_joint_relay_type(module);
   add_record_walk_type(module);
   add_cyclone_types(module);
 }

@@ -4,12 +4,14 @@
 #include <array>
 #include <atomic>
 #include <mutex>
+#include <span>
 
+#include "../core/outlet.hpp"
 #include "library.hpp"
 
 namespace turtlewire::cyclone {
 
-class Writer {
+class Writer final : public Outlet {
  public:
   // Not a code of Cyclone's: the bytes are no little endian CDR, the writer was closed, and Cyclone
   // makes no sample of the bytes.
@@ -34,6 +36,12 @@ class Writer {
     void* const sample = sample_of(parts, count, size);
     if (sample == nullptr) return closed_ ? kClosed : kRefused;
     return library_.write(writer_, sample);
+  }
+
+  std::int32_t send(std::span<const unsigned char> bytes) override {
+    Parts parts;
+    parts[0] = block(bytes.data(), bytes.size());
+    return write(parts, 1);
   }
 
   // To be called before the writer is deleted: its type goes with it.

@@ -13,6 +13,7 @@
 
 #include "../core/batch.hpp"
 #include "../core/intake.hpp"
+#include "../core/joint_relay.hpp"
 #include "../core/record_walk.hpp"
 #include "../core/shared_buffer.hpp"
 #include "../core/tf_message.hpp"
@@ -563,6 +564,82 @@ void test_intake_threads() {
   check(SharedBuffer::Access(first)->refusals().by_child().empty(), "in order");
 }
 
+class Sent final : public Outlet {
+ public:
+  std::int32_t send(std::span<const unsigned char> bytes) override {
+    if (refuses) return -1;
+    messages.emplace_back(bytes.begin(), bytes.end());
+    return 0;
+  }
+  bool refuses = false;
+  std::vector<std::vector<unsigned char>> messages;
+};
+
+// A JointState with an empty frame_id and the name "a".
+std::vector<unsigned char> joint_state(std::int32_t second, double position) {
+  std::vector<unsigned char> bytes(48);
+  bytes[1] = 1;
+  std::memcpy(bytes.data() + 4, &second, sizeof second);
+  bytes[12] = 1, bytes[20] = 1, bytes[24] = 2, bytes[28] = 'a', bytes[32] = 1;
+  std::memcpy(bytes.data() + 36, &position, sizeof position);
+  return bytes;
+}
+
+JointRelay::Layout layout_of(const std::vector<unsigned char>& bytes) {
+  const JointFrame frame{{0, 0, 0, 1}, 0, 2., 0.5, 8, 16};
+  return {{bytes.begin() + 12, bytes.begin() + 36},
+          36,
+          44,
+          JointFrames(std::vector<unsigned char>(72), {frame}),
+          {"a"},
+          true};
+}
+
+void test_joint_relay() {
+  Sent outlet;
+  JointRelay relay(outlet, 2);
+  const auto first = joint_state(1, 3.);
+  check(relay.receive(7, 1, first) && !relay.receive(7, 2, first) && !relay.receive(7, 3, first),
+        "Python is called once for a layout that is not known");
+  auto kept = relay.take();
+  check(kept && kept->sent == 2, "only the newest ones are kept back");
+  relay.add_layout(layout_of(first));
+  relay.set_rules({1'000'000'000, false, true});
+  check(relay.receive(7, 4, joint_state(2, 3.)) && outlet.messages.empty(),
+        "nothing overtakes what Python handles");
+  while (relay.take()) {
+  }
+  check(!relay.receive(7, 5, joint_state(2, 3.)) && outlet.messages.size() == 1, "then it answers");
+  double x = 0;
+  std::memcpy(&x, outlet.messages[0].data() + 16, sizeof x);
+  check(x == 6.5 && outlet.messages[0][8] == 2, "with a pose and the stamp");
+  check(relay.receive(7, 6, joint_state(2, 3.)), "Python wants to see what is skipped");
+  while (relay.take()) {
+  }
+  relay.set_rules({1'000'000'000, false, false});
+  check(!relay.receive(7, 7, joint_state(2, 3.)) && outlet.messages.size() == 1, "or does not");
+  outlet.refuses = true;
+  check(relay.receive(7, 8, joint_state(9, 3.)) && relay.earliest({"a"}, 1) == 1,
+        "what cannot be sent is kept back");
+  check(relay.earliest({"a"}, 8'000'000'000) == 2'000'000'000, "and counts as not sent");
+  while (relay.take()) {
+  }
+  outlet.refuses = false;
+  relay.set_time(5);
+  check(relay.receive(7, 9, joint_state(10, 3.)) && relay.moved_back(5) && !relay.moved_back(5),
+        "a clock that was set back is for Python");
+  while (relay.take()) {
+  }
+  relay.set_time({});
+  for (std::size_t size = 0; size < first.size(); ++size) {
+    const auto whole = joint_state(20 + static_cast<std::int32_t>(size), 1.);
+    relay.receive(7, 1, {whole.data(), size});
+    while (relay.take()) {
+    }
+  }
+  check(outlet.messages.size() == 5, "shorter ones are not answered, but for missing padding");
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -577,6 +654,7 @@ int main(int count, char** arguments) {
   test_same_name();
   test_intake();
   test_intake_threads();
+  test_joint_relay();
   test_malformed_messages(messages);
   test_record_walk(messages / 10);
   std::puts("all passed");

@@ -88,6 +88,11 @@ class Publisher(Generic[MsgT]):
             self._check_context()
             raise RCLError(f"Failed to publish: {error}") from error
 
+    @property
+    def _rclpy_outlet(self) -> base.Outlet | None:
+        """What native code sends with, without Python; None where there is none."""
+        return self._wire.outlet()
+
     def _check_context(self) -> None:
         if not self._context.is_open():
             raise RCLError("Failed to publish: publisher's context is invalid") from None

@@ -24,6 +24,10 @@ class Diagnosis:
 
     Args:
         node: Whose logger and timers are used.
+
+    Attributes:
+        is_settled: A joint is known, or the warning that none is was given.
+        tells_of_skipping: The next joint state that is skipped is worth a line.
     """
 
     def __init__(self, node: Node) -> None:
@@ -31,25 +35,25 @@ class Diagnosis:
         self._robot: Robot | None = None
         self._timer: Timer | None = None
         self._unknown: dict[str, None] = {}
-        self._is_settled = False  # a joint is known, or the warning was given
-        self._told_of_skipping = False
+        self.is_settled = False
+        self.tells_of_skipping = True
 
     def start(self, robot: Robot) -> None:
         """Begin anew with a robot, and name its joints that nobody moves."""
         self._robot = robot
         self._cancel()
         self._unknown.clear()
-        self._is_settled = False
+        self.is_settled = False
         for joint in robot.joints.values():
             if joint.type == "floating":
                 self._node.get_logger().info(_floating(joint))
 
     def received(self, names: Iterable[str], knows_a_joint: bool) -> None:
         """A joint state came; ``knows_a_joint`` tells whether one of its joints is the robot's."""
-        if self._is_settled:
+        if self.is_settled:
             return
         if knows_a_joint:
-            self._is_settled = True
+            self.is_settled = True
             self._cancel()
             return
         for name in names:
@@ -60,9 +64,9 @@ class Diagnosis:
 
     def skipped(self, stamp: int, last: int, interval_ms: int, frequency: float) -> None:
         """A joint state was not published, because the stamp is too near to the last one."""
-        if self._told_of_skipping:
+        if not self.tells_of_skipping:
             return
-        self._told_of_skipping = True
+        self.tells_of_skipping = False
         ignore = "ignore_timestamp true", "To publish them all the same"
         if stamp == last:
             what = f"whose stamp, {stamp / 1e9:.9f} s, does not advance"
@@ -80,10 +84,10 @@ class Diagnosis:
 
     def frequency_changed(self) -> None:
         """Skipping is worth a line again."""
-        self._told_of_skipping = False
+        self.tells_of_skipping = True
 
     def _tell_of_unknown_joints(self) -> None:
-        self._is_settled = True
+        self.is_settled = True
         self._cancel()
         robot = self._robot
         assert robot is not None, "joint states are received after the start"

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import SetParametersResult
+from rclpy._node.endpoints import QosOverrides
+from rclpy.clock import JumpThreshold, ROSClock
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.logging import get_logger
 from rclpy.node import Node
@@ -33,7 +36,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from builtin_interfaces.msg import Time
+    from rclpy.clock import TimeJump
     from rclpy.parameter import Parameter
+    from turtlewire._native import JointRelay
     from turtlewire.urdf import Joint, Robot
     from turtlewire.urdf.joint_messages import Layout
 
@@ -43,7 +48,6 @@ _FALLBACK = (
     "No robot_description parameter, but command-line argument available.  Assuming argument is"
     " name of URDF file.  This backwards compatibility fallback will be removed in the future."
 )
-
 
 _NO_DESCRIPTION = (
     "Give the URDF as a parameter, for example in a launch file: {'robot_description':"
@@ -87,34 +91,41 @@ class RobotStatePublisher(Node):
             raise StartError("publish_frequency must be between 0 and 1000")
         self._ignores_stamps: bool = self._declare("ignore_timestamp", False)
         self._prefix: str = self._declare("frame_prefix", "")
-        self._times = PublishTimes()
-        self._last_call = 0
         self._diagnosis = Diagnosis(self)
+        self._dynamic = TransformBroadcaster(self)
+        self._relay = self._make_relay()
+        self._times = PublishTimes() if self._relay is None else self._relay
+        self._follow_clock()
         try:
             self._robot = parse_description(description)
         except DescriptionError as error:
             raise StartError(str(error)) from error
         self._use_robot()
-        self._dynamic = TransformBroadcaster(self)
         self._static = StaticTransformBroadcaster(self)
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._description_publisher = self.create_publisher(String, "robot_description", latched)
         self._publish_robot(description)
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._use_parameters)
-        self.create_subscription(
-            JointState,
-            "joint_states",
-            self._on_joint_state,
-            qos_profile_sensor_data,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-            raw=True,
-        )
+        self._subscribe()
 
     @property
     def robot(self) -> Robot:
         """The robot whose links are published."""
         return self._robot
+
+    def _subscribe(self) -> None:
+        self._rclpy_endpoints.create_subscription(
+            JointState,
+            "joint_states",
+            self._on_joint_state,
+            qos_profile_sensor_data,
+            callback_group=None,
+            event_callbacks=None,
+            raw=True,
+            overrides=QosOverrides(QoSOverridingOptions.with_default_policies(), self._parameters),
+            sink=self._relay,
+        )
 
     def _declare(self, name: str, default: Any) -> Any:
         try:
@@ -127,6 +138,41 @@ class RobotStatePublisher(Node):
                 f" is of type {{{expected}}}, setting it to {{{given}}} is not allowed.",
                 error.hint,
             ) from error
+
+    def _make_relay(self) -> JointRelay | None:
+        """Native code that answers joint states like those that Python has handled before."""
+        outlet = self._dynamic.pub_tf._rclpy_outlet
+        if outlet is None:
+            return None
+        from turtlewire._native import JointRelay
+
+        return JointRelay(outlet, qos_profile_sensor_data.depth)
+
+    def _follow_clock(self) -> None:
+        """Tell the relay the time of a simulated clock, now and whenever it moves."""
+        clock, relay = self.get_clock(), self._relay
+        if relay is None:
+            return
+
+        def moved(_jump: TimeJump | None = None) -> None:
+            is_simulated = isinstance(clock, ROSClock) and clock.ros_time_is_active
+            relay.set_time(clock.now().nanoseconds if is_simulated else None)
+
+        step = Duration(nanoseconds=1)
+        every_jump = JumpThreshold(min_forward=step, min_backward=Duration(nanoseconds=-1))
+        clock.create_jump_callback(every_jump, post_callback=moved)
+        moved()
+
+    def _rules_changed(self) -> None:
+        if self._relay is not None:
+            self._relay.set_rules(
+                self._interval_ms() * 1_000_000,
+                self._ignores_stamps,
+                self._diagnosis.tells_of_skipping,
+            )
+
+    def _interval_ms(self) -> int:
+        return int(1000.0 / self._frequency) if self._frequency else 0
 
     def _read_file(self, path: str | None) -> str:
         if path is None:
@@ -152,9 +198,14 @@ class RobotStatePublisher(Node):
             followers_of(self._robot)
         except UrdfError as error:
             self.get_logger().warning(printable(f"{error} ({error.place})"))
-        self._joints = JointMessages(self._robot, self._prefix)
+        self._use_names()
         self.get_logger().info("Robot initialized")
         self._diagnosis.start(self._robot)
+
+    def _use_names(self) -> None:
+        self._joints = JointMessages(self._robot, self._prefix)
+        if self._relay is not None:
+            self._relay.forget_layouts()
 
     def _publish_robot(self, description: str) -> None:
         self._description_publisher.publish(String(data=description))
@@ -190,15 +241,17 @@ class RobotStatePublisher(Node):
             self._diagnosis.frequency_changed()
         if "ignore_timestamp" in values:
             self._ignores_stamps = values["ignore_timestamp"]
+        self._rules_changed()
         if "frame_prefix" in values:
             self._prefix = values["frame_prefix"]
-            self._joints = JointMessages(self._robot, self._prefix)
+            self._use_names()
         if "robot_description" in values:
             description, self._robot = self._checked
             self._use_robot()
             self._publish_robot(description)
 
     def _on_joint_state(self, cdr: bytes) -> None:
+        """Handle a joint state that the relay left; without a relay, each one."""
         try:
             layout = self._joints.layout_of(cdr)
         except CdrError as error:
@@ -208,13 +261,16 @@ class RobotStatePublisher(Node):
             self._refuse(layout)
             return
         now = self.get_clock().now().nanoseconds
-        if now < self._last_call:
+        if self._times.moved_back(now):
             self.get_logger().warning("Moved backwards in time, re-publishing joint transforms!")
             self._times.clear()
-        self._last_call = now
         self._diagnosis.received(layout.names, layout.knows_a_joint)
-        stamp = stamp_of(cdr)
-        interval_ms = int(1000.0 / self._frequency) if self._frequency else 0
+        self._publish_unless_skipped(layout, cdr, now)
+        if self._relay is not None:
+            self._teach(self._relay, layout)
+
+    def _publish_unless_skipped(self, layout: Layout, cdr: bytes, now: int) -> None:
+        stamp, interval_ms = stamp_of(cdr), self._interval_ms()
         last = self._times.earliest(layout.names, now)
         if not self._ignores_stamps and stamp < last + interval_ms * 1_000_000:
             if layout.knows_a_joint:
@@ -222,6 +278,12 @@ class RobotStatePublisher(Node):
             return
         self._dynamic.pub_tf.publish(layout.transforms(cdr))
         self._times.published(layout.names, stamp)
+
+    def _teach(self, relay: JointRelay, layout: Layout) -> None:
+        """Have the relay answer joint states of this layout from now on."""
+        self._rules_changed()
+        if self._diagnosis.is_settled:
+            layout.teach(relay)
 
     def _refuse(self, layout: Layout) -> None:
         if layout.number_of_positions == 0:

@@ -13,13 +13,22 @@ _MOST_NAMES = 10_000  # beyond it, publishers invent names
 
 
 class PublishTimes:
-    """Stamps in nanoseconds of the last joint state that was published, for each joint."""
+    """Stamps in nanoseconds of the last joint state that was published, for each joint.
+
+    It is the plain-Python twin of that part of ``turtlewire._native.JointRelay``.
+    """
 
     def __init__(self) -> None:
         self._times: dict[str, int] = {}
         # The names of the last joint state, and its stamp, which are not yet in the dictionary.
         self._names: Sequence[str] = ()
         self._time = 0
+        self._last_call = 0
+
+    def moved_back(self, now: int) -> bool:
+        """Whether the clock is behind the time of the last joint state; notes the time."""
+        last, self._last_call = self._last_call, now
+        return now < last
 
     def earliest(self, names: Sequence[str], now: int) -> int:
         """The smallest stamp of these joints, 0 for a new one; ``now`` if all are later."""

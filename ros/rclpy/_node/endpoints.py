@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
+    from turtlewire.wire import base
 
 __all__ = ["NodeEndpoints", "QosOverrides", "endpoints_of"]
 
@@ -146,12 +147,16 @@ class NodeEndpoints:
         event_callbacks: SubscriptionEventCallbacks | None,
         raw: bool,
         overrides: QosOverrides,
+        sink: base.Sink | None = None,
     ) -> Subscription:
-        """See :meth:`rclpy.node.Node.create_subscription`."""
+        """See :meth:`rclpy.node.Node.create_subscription`.
+
+        A sink may handle messages without Python; the callback gets those that it leaves.
+        """
         profile = validate_qos(qos_profile)
         profile = overrides.apply("subscription", profile, lambda: self.names.resolve_topic(topic))
         subscription = self.make_subscription(
-            msg_type, topic, callback, profile, callback_group, raw
+            msg_type, topic, callback, profile, callback_group, raw, sink
         )
         self._own_events(
             subscription, topic, event_callbacks or SubscriptionEventCallbacks(), callback_group
@@ -166,6 +171,7 @@ class NodeEndpoints:
         qos_profile: QoSProfile | int,
         callback_group: CallbackGroup | None,
         raw: bool = False,
+        sink: base.Sink | None = None,
     ) -> Subscription:
         """A subscription that the caller owns."""
         check_is_valid_msg_type(msg_type)
@@ -173,7 +179,7 @@ class NodeEndpoints:
         name = self.names.resolve_topic(topic)
         self._require_context("subscription")
         wire = self._core.wire.create_subscription(
-            name, type_id(type_name(msg_type)), profile.to_wire()
+            name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
         )
         group = callback_group or self.default_callback_group
         return Subscription(wire, msg_type, callback, group, profile, raw, self._core)

@@ -40,14 +40,18 @@ class Moving(NamedTuple):
 
 
 class FramesWriter:
-    """Writes the transforms of the same joints again and again."""
+    """Writes the transforms of the same joints again and again.
+
+    Attributes:
+        frames: What writes them, native where the core is.
+    """
 
     def __init__(self, joints: Sequence[Moving]) -> None:
         template, stamps, poses = _template(joints)
         constants = [number for moving in joints for number in joint_constants(moving.joint)]
         drives = [(moving.factor, moving.offset) for moving in joints]
         make = _native_frames() or PlainFrames
-        self._frames = make(
+        self.frames = make(
             template,
             stamps,
             poses,
@@ -64,7 +68,7 @@ class FramesWriter:
             joint_state: A JointState in CDR, whose stamp the transforms get.
             positions: Where its first position is; all positions must be there.
         """
-        return self._frames.message(joint_state, positions)
+        return self.frames.message(joint_state, positions)
 
 
 class PlainFrames:

@@ -8,12 +8,13 @@ TFMessage in which only stamps and poses are left to write.
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import CdrError
 from turtlewire.urdf.frames_writer import FramesWriter, Moving
 
 if TYPE_CHECKING:
+    from turtlewire._native import JointRelay
     from turtlewire.urdf.model import Joint, Robot
 
 __all__ = ["JointMessages", "Layout", "stamp_of"]
@@ -69,6 +70,13 @@ class Layout:
     def transforms(self, cdr: bytes) -> bytes:
         """The TFMessage of a JointState with this layout, in CDR; stamps are the JointState's."""
         return self._writer.message(cdr, self._positions)
+
+    def teach(self, relay: JointRelay) -> None:
+        """Have native code answer messages with this layout."""
+        frames: Any = self._writer.frames  # native ones, because the relay is native
+        relay.add_layout(
+            self._head, self._positions, self._end, frames, self.names, self.knows_a_joint
+        )
 
 
 class JointMessages:

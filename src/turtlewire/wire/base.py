@@ -45,6 +45,7 @@ __all__ = [
     "MessageInfo",
     "Node",
     "NodeInfo",
+    "Outlet",
     "Publisher",
     "RequestId",
     "Service",
@@ -85,7 +86,8 @@ class Sink(Protocol):
     """Native code that takes the messages of a subscription on the middleware's own threads.
 
     It is a ``turtlewire::Sink`` (``native/core/sink.hpp``). When its ``receive`` returns true, the
-    middleware's reader thread calls :meth:`serve` until nothing is left.
+    middleware's reader thread calls :meth:`serve` until nothing is left, or the subscription
+    without ``on_message`` becomes ready, and its ``take`` calls :meth:`serve`.
     """
 
     def serve(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
@@ -102,6 +104,10 @@ class Sink(Protocol):
         ...
 
 
+class Outlet(Protocol):
+    """Native code that sends messages: a ``turtlewire::Outlet`` (``native/core/outlet.hpp``)."""
+
+
 class Publisher(Entity):
     """Writes messages of one type to one topic."""
 
@@ -115,6 +121,14 @@ class Publisher(Entity):
         Raises:
             WireError: The middleware refused it (closed, or blocked for longer than its limit).
         """
+
+    def outlet(self) -> Outlet | None:
+        """What native code sends with, without Python; None where there is none.
+
+        It may be used for longer than the publisher lives. It blocks only if the publisher keeps
+        all messages.
+        """
+        return None
 
     @abstractmethod
     def subscription_count(self) -> int:
@@ -278,9 +292,9 @@ class Node(Entity):
             on_message: When given, the context's reader thread calls it for every message, and the
                 subscription cannot be attached to a wait set. It must be short and must not raise
                 (an exception is reported once and the message is lost).
-            sink: Given together with ``on_message``, it may get the messages first, without
-                Python and on any thread of the middleware; those that it leaves go to
-                ``on_message``. A middleware is free to do without it.
+            sink: It may get the messages first, without Python and on any thread of the
+                middleware; those that it leaves go to ``on_message``, or are taken. A middleware
+                is free to do without it.
         """
 
     @abstractmethod

@@ -39,6 +39,10 @@ class Inlet:
         dds.set_guard_condition(self.guard, False)
         return self.sink.serve(gid_of)
 
+    def call_again(self) -> None:
+        """Trigger the guard, for there may be more to serve."""
+        dds.set_guard_condition(self.guard, True)
+
     def close(self) -> None:
         """End; to be called when the reader has been deleted and no thread is in native code."""
         dds.delete_listener(self.listener)

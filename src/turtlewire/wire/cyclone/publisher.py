@@ -17,12 +17,14 @@ from .endpoint import (
     read_incompatible,
     read_matched,
 )
+from .native import NATIVE
 from .qos import MAX_BLOCKING_NS, dds_qos
 from .writing import CLOSED, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from turtlewire.wire.base import Outlet
     from turtlewire.wire.encapsulation import Cdr
 
     from .participant import Participant
@@ -84,6 +86,10 @@ class CyclonePublisher(Endpoint, Publisher):
         if code == CLOSED or self._closed:
             raise WireError(f"publish on {self.topic}: the publisher is closed")
         dds.check(code, f"publish on {self.topic}")
+
+    def outlet(self) -> Outlet | None:
+        """See :meth:`Publisher.outlet`."""
+        return None if NATIVE is None else self._writer
 
     def is_heard(self) -> bool:
         """See :meth:`Publisher.is_heard`."""

@@ -44,7 +44,7 @@ class CycloneSubscription(Endpoint, Subscription):
 
     Attributes:
         wait_sets: Those that it is attached to.
-        inlet: how messages reach the sink that it was made with.
+        inlet: How messages reach the sink that it was made with.
     """
 
     _sources: ClassVar[Mapping[EventKind, StatusSource]] = {
@@ -96,7 +96,9 @@ class CycloneSubscription(Endpoint, Subscription):
         self._created(handle)
 
     def condition(self) -> int:
-        """The read condition that is true while messages are waiting."""
+        """The condition that is true while messages are waiting."""
+        if self.inlet is not None:
+            return self.inlet.guard
         with self._lock:
             if not self._condition:
                 condition = dds.create_read_condition(self.handle, dds.ANY_STATE)
@@ -108,6 +110,8 @@ class CycloneSubscription(Endpoint, Subscription):
         with self._lock:
             if self._closed:
                 return []
+            if self.inlet is not None:
+                return self._take_left(self.inlet)
             taken = take_messages(self.handle, limit)
             messages = self._messages_of(taken)
             if self._forget and len(taken) < limit:  # with more to come, their senders are needed
@@ -121,6 +125,14 @@ class CycloneSubscription(Endpoint, Subscription):
         if self._forget and not kept:
             self._forget_publishers(set())
         return messages if kept else None
+
+    def _take_left(self, inlet: Inlet) -> list[tuple[bytes, MessageInfo]]:
+        """What a sink left, for one who waits for it: it stays ready until there is nothing."""
+        while (rest := self.take_rest(inlet)) is not None:
+            if rest:
+                inlet.call_again()
+                return rest
+        return []
 
     def _known_gid(self, publisher: int) -> bytes:
         """The gid of a publisher; empty if it has gone already."""

@@ -1,0 +1,154 @@
+#include "joint_relay.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace turtlewire {
+namespace {
+
+JointRelay::Nanoseconds system_time() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+JointRelay::Nanoseconds stamp_of(std::span<const unsigned char> bytes) {
+  std::int32_t seconds;
+  std::uint32_t nanoseconds;
+  std::memcpy(&seconds, bytes.data() + JointFrames::kStampAt, sizeof seconds);
+  std::memcpy(&nanoseconds, bytes.data() + JointFrames::kStampAt + 4, sizeof nanoseconds);
+  return JointRelay::Nanoseconds{seconds} * 1'000'000'000 + nanoseconds;
+}
+
+}  // namespace
+
+bool JointRelay::receive(std::uint64_t publisher, Nanoseconds sent,
+                         std::span<const unsigned char> bytes) {
+  const std::scoped_lock lock(mutex_);
+  if (busy_ || !kept_.empty() || !relay(bytes)) {
+    if (kept_.size() >= most_kept_) kept_.pop_front();
+    kept_.push_back({publisher, sent, {bytes.begin(), bytes.end()}});
+  } else {
+    ++relayed_;
+  }
+  return !kept_.empty() && !std::exchange(called_, true);
+}
+
+// Call with the lock held. False if the message needs Python; then nothing has changed.
+bool JointRelay::relay(std::span<const unsigned char> bytes) {
+  const Known* known = layout_of(bytes);
+  if (known == nullptr) return false;
+  const Nanoseconds now = time_ ? *time_ : system_time(), stamp = stamp_of(bytes);
+  if (now < last_call_) return false;
+  if (!rules_.ignores_stamps && stamp < earliest(known->joints, now) + rules_.interval) {
+    if (rules_.tells_of_skipping && known->layout.moves) return false;
+  } else {
+    message_.resize(known->layout.frames.size());
+    if (!known->layout.frames.write(bytes, known->layout.positions, message_.data())) return false;
+    if (outlet_.send(message_) < 0) return false;
+    for (const std::size_t joint : known->joints) stamps_[joint] = stamp;
+  }
+  last_call_ = now;
+  return true;
+}
+
+std::optional<JointRelay::Kept> JointRelay::take() {
+  const std::scoped_lock lock(mutex_);
+  called_ = false;
+  busy_ = !kept_.empty();
+  if (!busy_) return std::nullopt;
+  std::optional<Kept> next(std::move(kept_.front()));
+  kept_.pop_front();
+  return next;
+}
+
+void JointRelay::set_rules(Rules rules) {
+  const std::scoped_lock lock(mutex_);
+  rules_ = rules;
+}
+
+void JointRelay::set_time(std::optional<Nanoseconds> now) {
+  const std::scoped_lock lock(mutex_);
+  time_ = now;
+}
+
+void JointRelay::add_layout(Layout layout) {
+  const std::scoped_lock lock(mutex_);
+  std::vector<std::size_t> joints = joints_of(layout.names);
+  std::erase_if(layouts_, [&](const Known& known) { return known.layout.head == layout.head; });
+  if (layouts_.size() >= kMostLayouts) layouts_.pop_back();
+  layouts_.push_front({std::move(layout), std::move(joints)});
+  busy_ = false;
+}
+
+void JointRelay::forget_layouts() {
+  const std::scoped_lock lock(mutex_);
+  layouts_.clear();
+}
+
+// Call with the lock held. The layout goes to the front, where the next message finds it first.
+JointRelay::Known* JointRelay::layout_of(std::span<const unsigned char> bytes) {
+  if (bytes.size() < kHeadAt || bytes[0] != 0 || bytes[1] != 1) return nullptr;
+  const auto rest = bytes.subspan(kHeadAt);
+  const auto fits = [&](const Known& known) {
+    const auto& head = known.layout.head;
+    return bytes.size() >= known.layout.end && rest.size() >= head.size() &&
+           std::memcmp(rest.data(), head.data(), head.size()) == 0;
+  };
+  const auto found = std::find_if(layouts_.begin(), layouts_.end(), fits);
+  if (found == layouts_.end()) return nullptr;
+  std::rotate(layouts_.begin(), found, found + 1);
+  return &layouts_.front();
+}
+
+// Call with the lock held. Where the stamps of joints are; a new joint gets 0.
+std::vector<std::size_t> JointRelay::joints_of(const std::vector<std::string>& names) {
+  if (joints_.size() > kMostNames) {  // publishers invent names
+    layouts_.clear();
+    joints_.clear();
+    stamps_.clear();
+  }
+  std::vector<std::size_t> joints;
+  for (const std::string& name : names) {
+    const auto [place, is_new] = joints_.try_emplace(name, stamps_.size());
+    if (is_new) stamps_.push_back(0);
+    joints.push_back(place->second);
+  }
+  return joints;
+}
+
+// Call with the lock held.
+JointRelay::Nanoseconds JointRelay::earliest(const std::vector<std::size_t>& joints,
+                                             Nanoseconds now) const {
+  for (const std::size_t joint : joints) now = std::min(now, stamps_[joint]);
+  return now;
+}
+
+JointRelay::Nanoseconds JointRelay::earliest(const std::vector<std::string>& names,
+                                             Nanoseconds now) {
+  const std::scoped_lock lock(mutex_);
+  return earliest(joints_of(names), now);
+}
+
+void JointRelay::published(const std::vector<std::string>& names, Nanoseconds stamp) {
+  const std::scoped_lock lock(mutex_);
+  for (const std::size_t joint : joints_of(names)) stamps_[joint] = stamp;
+}
+
+bool JointRelay::moved_back(Nanoseconds now) {
+  const std::scoped_lock lock(mutex_);
+  return now < std::exchange(last_call_, now);
+}
+
+void JointRelay::forget_stamps() {
+  const std::scoped_lock lock(mutex_);
+  std::fill(stamps_.begin(), stamps_.end(), 0);
+}
+
+std::uint64_t JointRelay::relayed() {
+  const std::scoped_lock lock(mutex_);
+  return relayed_;
+}
+
+}  // namespace turtlewire

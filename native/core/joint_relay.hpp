@@ -1,0 +1,111 @@
+// Answers JointStates with TFMessages on the thread that receives them, and keeps back those that
+// need Python.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "fork.hpp"
+#include "joint_frames.hpp"
+#include "outlet.hpp"
+
+namespace turtlewire {
+
+// Python handles JointStates with names that are not known yet, malformed ones, those that find the
+// clock set back, those whose skipping is worth a log line, and those whose answer cannot be sent
+// at once. It asks for the same stamps, and tells those of its own answers. The order of all
+// messages is kept: until Python has found nothing left to take, further messages are kept back as
+// well.
+class JointRelay final : public ForkAware {
+ public:
+  using Nanoseconds = std::int64_t;
+  static constexpr std::size_t kHeadAt = 12;  // behind the encapsulation and the stamp
+
+  // JointStates with the same frame_id, names and number of positions.
+  struct Layout {
+    std::vector<unsigned char> head;  // their bytes from kHeadAt on, up to that number
+    std::size_t positions, end;       // where the first position is, and where the last one ends
+    JointFrames frames;
+    std::vector<std::string> names;
+    bool moves;  // whether a joint of the robot is among the names
+  };
+  struct Rules {
+    Nanoseconds interval = 0;  // by which stamps must advance
+    bool ignores_stamps = false;
+    bool tells_of_skipping = true;  // Python wants to see what is skipped
+  };
+  struct Kept {
+    std::uint64_t publisher;
+    Nanoseconds sent;
+    std::vector<unsigned char> bytes;
+  };
+
+  // The outlet must not block, for the receiving thread would block. At most `most_kept` messages
+  // are kept back, the newest ones.
+  JointRelay(Outlet& outlet, std::size_t most_kept) : outlet_(outlet), most_kept_(most_kept) {}
+
+  // Answers or skips a message, or keeps it back. True if Python is to be woken, which was not told
+  // to come before.
+  bool receive(std::uint64_t publisher, Nanoseconds sent, std::span<const unsigned char> bytes);
+  // For Python, which repeats it until there is nothing: the next message that was kept back.
+  std::optional<Kept> take();
+
+  void set_rules(Rules rules);
+  // The time of a simulated clock; nothing: the system's time counts.
+  void set_time(std::optional<Nanoseconds> now);
+  // Answer such messages from now on; Python is done with the one that it took, which was such.
+  void add_layout(Layout layout);
+  void forget_layouts();
+
+  // The smallest stamp of these joints, 0 for a new one; `now` if all are later.
+  Nanoseconds earliest(const std::vector<std::string>& names, Nanoseconds now);
+  // Python published a message of these joints.
+  void published(const std::vector<std::string>& names, Nanoseconds stamp);
+  // Notes the time of a message; whether it is before that of the last one.
+  bool moved_back(Nanoseconds now);
+  void forget_stamps();
+
+  // How many messages were answered or skipped without Python.
+  std::uint64_t relayed();
+
+  void before_fork() override { mutex_.lock(); }
+  void after_fork(bool) noexcept override { mutex_.unlock(); }
+
+ private:
+  static constexpr std::size_t kMostLayouts = 64, kMostNames = 10'000;
+  struct Known {
+    Layout layout;
+    std::vector<std::size_t> joints;  // where their stamps are
+  };
+
+  bool relay(std::span<const unsigned char> bytes);
+  Known* layout_of(std::span<const unsigned char> bytes);
+  std::vector<std::size_t> joints_of(const std::vector<std::string>& names);
+  Nanoseconds earliest(const std::vector<std::size_t>& joints, Nanoseconds now) const;
+
+  Outlet& outlet_;
+  const std::size_t most_kept_;
+  std::mutex mutex_;  // guards all that follows
+  Rules rules_;
+  std::optional<Nanoseconds> time_;
+  Nanoseconds last_call_ = 0;
+  std::deque<Known> layouts_;
+  std::unordered_map<std::string, std::size_t> joints_;
+  std::vector<Nanoseconds> stamps_;  // when each was published last
+  std::vector<unsigned char> message_;
+  std::deque<Kept> kept_;
+  bool busy_ = false;    // Python handles what it took
+  bool called_ = false;  // Python was told to come
+  std::uint64_t relayed_ = 0;
+  const ForkRegistration registration_{*this, Order::outer};
+};
+
+}  // namespace turtlewire
