@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import rclpy
+from rcl_interfaces.srv import SetParameters
 from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import PointCloud2
 
@@ -41,6 +42,12 @@ def start(run):
         return run(ROS2, "run", package, executable, *arguments, **options)
 
     return start
+
+
+def wait_for_parameters_of(name):
+    with rclpy.init():
+        client = rclpy.create_node("waiting").create_client(SetParameters, f"{name}/set_parameters")
+        assert client.wait_for_service(60)
 
 
 def end(program) -> None:
@@ -122,6 +129,7 @@ def test_a_listener_of_bytes(start):
 
 def test_parameters_with_callbacks(start, run):
     node = start("demo_nodes_py", "set_parameters_callback")
+    wait_for_parameters_of("set_parameters_callback")
     setting = run(ROS2, "param", "set", "/set_parameters_callback", "param1", "1.0")
     assert setting.wait() == 0
     reading = run(ROS2, "param", "get", "/set_parameters_callback", "param2")
@@ -138,10 +146,9 @@ def test_parameters_of_another_node(start, run):
     assert alone.wait() == 1
     assert "parameter services of /parameter_blackboard are not there" in alone.text
     run(sys.executable, "-c", BLACKBOARD)
-    for _ in range(5):  # the blackboard may take a while to start
-        client = start("demo_nodes_py", "async_param_client")
-        if client.wait() == 0:
-            break
+    wait_for_parameters_of("parameter_blackboard")
+    client = start("demo_nodes_py", "async_param_client")
+    assert client.wait() == 0
     assert "  - string_parameter: Fee Fi Fo Fum" in client.text
     assert "  - int_parameter: 10" in client.text
 
