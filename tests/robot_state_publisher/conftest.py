@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 
 import pytest
@@ -126,6 +127,7 @@ def rig(request, monkeypatch):
     rigs = []
 
     def make(description, **parameters):
+        gc.collect()  # a node that refused to start keeps its name until it is collected
         rigs.append(Rig(context, description, **parameters))
         return rigs[-1]
 

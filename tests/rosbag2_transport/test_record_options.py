@@ -242,6 +242,8 @@ def test_simulated_time_splits_compression_and_overrides(peer, bag_verb, tmp_pat
     peer.heard(clock)
     word.publish(String(data="before the clock runs"))
     assert word.wait_for_all_acked()
+    for _ in range(20):  # the recorder's thread takes it meanwhile, on a busy machine too
+        peer.call(srv.IsPaused, "/black_box/is_paused")
     seconds = [100, 105, 111, 122]
     for second in seconds:
         for _ in range(3):
