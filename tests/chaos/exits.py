@@ -138,9 +138,42 @@ def spin_and_shutdown():
     rclpy.shutdown()
 
 
+def publish():
+    """Daemon threads that publish, which another one receives."""
+    import rclpy
+    from rclpy._rclpy_pybind11 import RCLError
+    from rclpy.exceptions import InvalidHandle
+    from std_msgs.msg import String
+
+    rclpy.init()
+    node = rclpy.create_node(f"exits_{os.getpid()}")
+    received = threading.Event()
+    node.create_subscription(String, "flood", lambda _: received.set(), 10)
+    publisher = node.create_publisher(String, "flood", 10)
+    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+
+    def send():
+        try:
+            publisher.publish(String(data="x" * 100))
+        except (InvalidHandle, RCLError):
+            threading.Event().wait()  # the program has begun to end
+
+    in_daemons(send)
+    received.wait()
+
+
 KINDS = {
     kind.__name__: kind
-    for kind in (wait, batch, intake, expected_message, change_listener, spin, spin_and_shutdown)
+    for kind in (
+        wait,
+        batch,
+        intake,
+        expected_message,
+        change_listener,
+        spin,
+        spin_and_shutdown,
+        publish,
+    )
 }
 
 if __name__ == "__main__":

@@ -13,19 +13,21 @@ import pytest
 
 PROGRAM = Path(__file__).with_name("exits.py")
 KINDS = (
-    ["wait", "batch", "intake", "expected_message", "change_listener", "spin", "spin_and_shutdown"]
+    ["wait", "batch", "intake", "expected_message", "change_listener"]
     if importlib.util.find_spec("turtlewire._native")
-    else ["wait", "batch", "change_listener", "spin", "spin_and_shutdown"]
+    else ["wait", "batch", "change_listener"]
 )
+OVER_THE_WIRE = ["spin", "spin_and_shutdown", "publish"]
+MIDDLEWARES = ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"]
 
 
-def ends_of(kind: str, count: int) -> set[tuple[int, str]]:
+def ends_of(kind: str, count: int, middleware: str = "rmw_cyclonedds_cpp") -> set[tuple[int, str]]:
     """The different exit statuses, with stderr, of as many runs."""
 
     def run(_: int) -> tuple[int, str]:
         done = subprocess.run(
             [sys.executable, PROGRAM, kind],
-            env={**os.environ, "PYTHONFAULTHANDLER": "1"},
+            env=os.environ | {"PYTHONFAULTHANDLER": "1", "RMW_IMPLEMENTATION": middleware},
             stderr=subprocess.PIPE,
             text=True,
             check=False,
@@ -41,8 +43,22 @@ def test_exit(kind: str) -> None:
     assert ends_of(kind, 5) == {(0, "")}
 
 
+@pytest.mark.parametrize("middleware", MIDDLEWARES)
+@pytest.mark.parametrize("kind", OVER_THE_WIRE)
+def test_exit_of_a_node(kind: str, middleware: str) -> None:
+    assert ends_of(kind, 3, middleware) == {(0, "")}
+
+
 @pytest.mark.slow
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("kind", KINDS)
 def test_200_exits(kind: str) -> None:
     assert ends_of(kind, 200) == {(0, "")}
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("middleware", MIDDLEWARES)
+@pytest.mark.parametrize("kind", OVER_THE_WIRE)
+def test_200_exits_of_a_node(kind: str, middleware: str) -> None:
+    assert ends_of(kind, 200, middleware) == {(0, "")}

@@ -17,6 +17,7 @@ module                       what it holds
 `configuration`              the configuration of sessions and routers, and ``ZENOH_*`` variables
 `library`                    the import of ``eclipse-zenoh``
 `context`                    a participant
+`calls`                      who is in Zenoh's library
 `core`                       what a context shares with its nodes and endpoints
 `graph`                      nodes and endpoints, from the tokens
 `node`                       nodes

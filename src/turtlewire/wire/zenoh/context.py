@@ -109,12 +109,14 @@ class ZenohContext(Context):
             nodes = list(self._nodes)
         atexit.unregister(self.close)
         self._core.reader.close()
+        self._core.calls.close()
         self._core.session.close()  # type: ignore[no-untyped-call]
         for node in nodes:
             node.close()
         for wait_set in list(self._wait_sets):
             wait_set.close()
         self._graph.end_waits()
+        self._core.calls.join()
         self._core.join_threads()
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from turtlewire.errors import WireError
 
+from .calls import Calls
+
 if TYPE_CHECKING:
     import zenoh
 
@@ -47,6 +49,7 @@ class ContextCore:
             Zenoh's threads take it.
         reader: Calls callbacks.
         graph: Nodes and endpoints.
+        calls: Who is in Zenoh's library.
         closing: Whether the context is being closed, or is closed.
     """
 
@@ -59,6 +62,7 @@ class ContextCore:
         self.lock: threading.RLock = graph.lock
         self.reader = reader
         self.graph = graph
+        self.calls = Calls()
         self.closing = False
         self._numbers = itertools.count()
         self._threads_ended = threading.Condition(self.lock)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
@@ -72,7 +73,8 @@ class ZenohEndpoint(Entity):
         self._declared.append(declared)
         self._core.graph.watch(self)
         self._core.graph.add(self.token)
-        self._declared.append(self._core.session.liveliness().declare_token(self.token.text))
+        with self._core.calls:
+            self._declared.append(self._core.session.liveliness().declare_token(self.token.text))
         self._node.adopt(self)
 
     def create_event(self, kind: EventKind) -> Event:
@@ -112,8 +114,9 @@ class ZenohEndpoint(Entity):
             self._closed = True
         self._core.graph.unwatch(self)
         if not self._core.closing:  # closing the session takes everything back at once
-            for declared in reversed(self._declared):
-                declared.undeclare()
+            with suppress(WireError), self._core.calls:
+                for declared in reversed(self._declared):
+                    declared.undeclare()
         self._core.graph.remove(self.token)
         with self._lock:
             self.partners.clear()

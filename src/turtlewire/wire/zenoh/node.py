@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from turtlewire.errors import WireError
 from turtlewire.wire.base import Node, NodeInfo
 from turtlewire.wire.graph import with_best_available
 
@@ -68,7 +70,8 @@ class ZenohNode(Node):
         self._on_closed = on_closed
         self._endpoints: dict[Entity, None] = {}
         core.graph.add(self.token)
-        self._liveliness = core.session.liveliness().declare_token(self.token.text)
+        with core.calls:
+            self._liveliness = core.session.liveliness().declare_token(self.token.text)
 
     def adopt(self, endpoint: Entity) -> None:
         """Own an endpoint until it closes."""
@@ -116,6 +119,7 @@ class ZenohNode(Node):
         for endpoint in endpoints:
             endpoint.close()
         if not self._core.closing:
-            self._liveliness.undeclare()  # type: ignore[no-untyped-call]
+            with suppress(WireError), self._core.calls:
+                self._liveliness.undeclare()  # type: ignore[no-untyped-call]
         self._core.graph.remove(self.token)
         self._on_closed(self)

@@ -43,9 +43,10 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
     ) -> None:
         super().__init__(core, node, topic, type_id, qos)
         self._numbers = itertools.count(1)
-        self._publisher = ext.declare_advanced_publisher(
-            core.session, self.token.data_key, **_options(qos)
-        )
+        with core.calls:
+            self._publisher = ext.declare_advanced_publisher(
+                core.session, self.token.data_key, **_options(qos)
+            )
         self.announce(self._publisher)
 
     def publish(self, cdr: Cdr) -> None:
@@ -56,7 +57,8 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
             raise WireError(f"publish on {self.topic}: the publisher is closed")
         attachment = Attachment(next(self._numbers), time.time_ns(), self.gid)
         try:
-            self._publisher.put(cdr, attachment=attachment.pack())
+            with self._core.calls:
+                self._publisher.put(cdr, attachment=attachment.pack())
         except zenoh.ZError as error:
             raise WireError(f"publish on {self.topic}: {error}") from error
 

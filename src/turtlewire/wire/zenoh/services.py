@@ -87,12 +87,13 @@ class ZenohClient(_QueuedEndpoint, Client):
         super().__init__(core, node, service, type_id, qos)
         self.client_id = int.from_bytes(self.gid, "little")
         self._numbers = itertools.count(1)
-        self._querier = core.session.declare_querier(
-            self.token.data_key,
-            target=zenoh.QueryTarget.ALL_COMPLETE,
-            consolidation=zenoh.ConsolidationMode.NONE,
-            timeout=_NO_LIMIT_S if "/_action/get_result" in service else None,
-        )
+        with core.calls:
+            self._querier = core.session.declare_querier(
+                self.token.data_key,
+                target=zenoh.QueryTarget.ALL_COMPLETE,
+                consolidation=zenoh.ConsolidationMode.NONE,
+                timeout=_NO_LIMIT_S if "/_action/get_result" in service else None,
+            )
         self._handler = Handler(self._on_reply, indirect=False)
         self.announce(self._querier)
 
@@ -100,7 +101,8 @@ class ZenohClient(_QueuedEndpoint, Client):
         """See :meth:`Client.send_request`."""
         number = next(self._numbers)
         attachment = Attachment(number, time.time_ns(), self.gid)
-        self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
+        with self._core.calls:
+            self._querier.get(self._handler, payload=cdr, attachment=attachment.pack())
         return number
 
     def _on_reply(self, reply: zenoh.Reply) -> None:
@@ -134,7 +136,9 @@ class ZenohService(_QueuedEndpoint, Service):
         super().__init__(core, node, service, type_id, qos)
         self._queries: dict[RequestId, zenoh.Query] = {}
         handler = Handler(self._on_query, indirect=False)
-        self.announce(core.session.declare_queryable(self.token.data_key, handler, complete=True))
+        with core.calls:
+            queryable = core.session.declare_queryable(self.token.data_key, handler, complete=True)
+        self.announce(queryable)
 
     def _on_query(self, query: zenoh.Query) -> None:
         """On a thread of Zenoh."""
@@ -164,6 +168,10 @@ class ZenohService(_QueuedEndpoint, Service):
             return
         gid = request_id.client_id.to_bytes(16, "little")
         attachment = Attachment(request_id.sequence_number, time.time_ns(), gid)
+        with self._core.calls:
+            self._reply(query, cdr, attachment)
+
+    def _reply(self, query: zenoh.Query, cdr: bytes, attachment: Attachment) -> None:
         try:
             query.reply(self.token.data_key, cdr, attachment=attachment.pack())
         except zenoh.ZError as error:

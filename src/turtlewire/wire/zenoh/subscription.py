@@ -65,8 +65,10 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         self._is_delivering = False
         self._last_numbers: dict[bytes, int] = {}
         self._lost_count = 0
-        core.thread_starts()
-        self.announce(_on_a_daemon_thread(self._declare))
+        with core.calls:
+            core.thread_starts()
+            subscriber = _on_a_daemon_thread(self._declare)
+        self.announce(subscriber)
 
     def _declare(self) -> ext.AdvancedSubscriber[None]:
         handler = Handler(self._on_sample, self._core.thread_ends, indirect=True)
