@@ -304,6 +304,12 @@ SIGTERM of launch may leave orphans
 what launched processes start outlives a launch that ends or is killed, and so do processes that ignore signals
   launch/test_interrupts.py test_not_even_sigkill_leaves_children
   chaos/test_processes.py test_ros2_run_leaves_nothing test_ros2_launch_leaves_nothing
+pytest imports launch at each start
+  launch_testing/test_runs.py test_plain_tests_do_not_wait_for_launch
+`assertWaitFor` says only that the output timed out
+  launch_testing/test_runs.py test_what_fails_with_launch_test
+`launch_testing.legacy` runs tests as actions of a launch
+  surface/test_surface.py test_share
 a start that fails, and errors in a launch file, print a traceback
   launch/test_launch_files.py test_malformed_files
   launch/test_launch_service.py test_debug_shows_tracebacks_and_events

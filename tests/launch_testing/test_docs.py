@@ -15,10 +15,11 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "test_a_node.md"
 def test_the_page_does_what_it_says(tmp_path):
     text = PAGE.read_text()
     blocks = re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    assert [kind for kind, _ in blocks] == ["python", "sh", "python", "sh"]
+    assert [kind for kind, _ in blocks] == ["python", "sh", "sh", "python", "sh"]
     names = ("test_talker.py", "test_talker_functions.py")
     assert [f"`{name}`" in text for name in names] == [True, True]
-    for name, (_, code) in zip(names, blocks[::2], strict=True):
+    programs = [code for kind, code in blocks if kind == "python"]
+    for name, code in zip(names, programs, strict=True):
         (tmp_path / name).write_text(code)
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     for line in "".join(code for kind, code in blocks if kind == "sh").splitlines():

@@ -88,6 +88,23 @@ def generate_test_description():
 """
 
 
+DOMAIN = """
+import os
+import unittest
+import launch_testing.actions
+import launch_testing.util
+from launch import LaunchDescription
+
+def generate_test_description():
+    ready = launch_testing.actions.ReadyToTest()
+    return LaunchDescription([launch_testing.util.KeepAliveProc(), ready])
+
+class TestDomain(unittest.TestCase):
+    def test_domain(self):
+        assert int(os.environ["ROS_DOMAIN_ID"]) > 0
+"""
+
+
 @pytest.mark.parametrize(
     ("words", "status", "says"),
     [
@@ -112,6 +129,19 @@ def test_the_command_line(tmp_path, words, status, says):
     done = run(*LAUNCH_TEST, *words, cwd=tmp_path)
     assert done.returncode == status, done.stdout
     assert says in done.stdout
+
+
+def test_ros2_test_chooses_a_domain(tmp_path, monkeypatch):
+    (tmp_path / "test_domain.py").write_text(DOMAIN)
+    monkeypatch.delenv("ROS_DOMAIN_ID")
+    program = "import sys; from ros2cli.main import main; sys.exit(main())"
+    ros2 = (sys.executable, "-c", program, "test", "test_domain.py")
+    done = run(*ros2, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert "Running with ROS_DOMAIN_ID " in done.stdout
+    done = run(*ros2, "--disable-isolation", cwd=tmp_path)
+    assert done.returncode == 1, done.stdout
+    assert "KeyError: 'ROS_DOMAIN_ID'" in done.stdout
 
 
 def test_plain_tests_do_not_wait_for_launch(tmp_path):

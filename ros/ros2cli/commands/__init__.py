@@ -21,6 +21,7 @@ COMMANDS = {
     "pkg": "List and create packages",
     "run": "Run an executable of a package",
     "service": "List services, call one, watch the calls of others",
+    "test": "Run a launch test in a domain of its own",
     "topic": "List topics, listen to one, publish to one",
     "wtf": "The same as doctor",
 }
