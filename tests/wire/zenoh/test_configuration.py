@@ -63,3 +63,4 @@ def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
     with pytest.raises(WireError, match=f"Invalid configuration file {file}") as caught:
         session_configuration()
     assert "ZENOH_SESSION_CONFIG_URI" in caught.value.hint
+    assert ".rs:" not in caught.value.hint  # places in Zenoh's sources help nobody

@@ -19,6 +19,8 @@ from turtlewire.wire import environment
 from turtlewire.wire.environment import Range
 from turtlewire.wire.report import warn_once
 
+from .library import reason_of
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -67,7 +69,9 @@ def _configuration(variable: str, default: Callable[[], dict[str, Any]]) -> zeno
             configuration = zenoh.Config.from_file(path)
         except zenoh.ZError as error:
             failed = WireError(f"Invalid configuration file {path}")
-            raise failed.with_hint(f"{variable} names it; Zenoh says: {error}") from error
+            raise failed.with_hint(
+                f"{variable} names it; Zenoh says: {reason_of(error)}"
+            ) from error
     _override(configuration)
     return configuration
 

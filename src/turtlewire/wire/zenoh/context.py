@@ -18,6 +18,7 @@ from turtlewire.wire.reader_thread import ReaderThread
 from .configuration import session_configuration
 from .core import ContextCore
 from .graph import ZenohGraph
+from .library import reason_of
 from .node import ZenohNode
 
 if TYPE_CHECKING:
@@ -124,4 +125,4 @@ def _open() -> zenoh.Session:
     try:
         return zenoh.open(session_configuration())
     except zenoh.ZError as error:
-        raise WireError(f"cannot open a Zenoh session: {error}") from error
+        raise WireError(f"cannot open a Zenoh session: {reason_of(error)}") from error

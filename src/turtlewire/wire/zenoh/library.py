@@ -1,12 +1,13 @@
-"""Whether ``eclipse-zenoh`` is here; the other modules import it at their top."""
+"""Whether ``eclipse-zenoh`` is here, and its errors; the others import it at their top."""
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
 
 from turtlewire.errors import WireError
 
-__all__ = ["require_zenoh"]
+__all__ = ["reason_of", "require_zenoh"]
 
 
 def require_zenoh() -> None:
@@ -21,3 +22,8 @@ def require_zenoh() -> None:
     except ImportError as error:
         failed = WireError(f"Zenoh is not available: {error}")
         raise failed.with_hint("Install it: pip install 'turtlewire[zenoh]'") from error
+
+
+def reason_of(error: Exception) -> str:
+    """What a ``ZError`` says, without the places in Zenoh's sources."""
+    return re.sub(r"\s+at \S+\.rs:\d+\.?", "", str(error))

@@ -16,6 +16,7 @@ from turtlewire.wire.qos import Durability, History, Reliability
 
 from .attachment import Attachment
 from .endpoint import ZenohEndpoint
+from .library import reason_of
 from .token import PUBLISHER
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class ZenohPublisher(ZenohEndpoint, Publisher):
             with self._core.calls:
                 self._publisher.put(cdr, attachment=attachment.pack())
         except zenoh.ZError as error:
-            raise WireError(f"publish on {self.topic}: {error}") from error
+            raise WireError(f"publish on {self.topic}: {reason_of(error)}") from error
 
     def subscription_count(self) -> int:
         """See :meth:`Publisher.subscription_count`."""

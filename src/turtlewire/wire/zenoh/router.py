@@ -10,6 +10,7 @@ import zenoh
 from turtlewire.errors import WireError
 
 from .configuration import router_configuration
+from .library import reason_of
 
 __all__ = ["route"]
 
@@ -27,7 +28,7 @@ def route() -> None:
     try:
         session = zenoh.open(configuration)
     except zenoh.ZError as error:
-        failed = WireError(f"cannot start a Zenoh router: {error}")
+        failed = WireError(f"cannot start a Zenoh router: {reason_of(error)}")
         raise failed.with_hint(
             "If its port is taken, a router may be running already; another address: "
             "ZENOH_CONFIG_OVERRIDE='listen/endpoints=[\"tcp/127.0.0.1:7448\"]'"

@@ -17,6 +17,7 @@ from turtlewire.wire.report import warn_once
 
 from .attachment import Attachment
 from .endpoint import ZenohEndpoint
+from .library import reason_of
 from .token import CLIENT, SERVICE
 
 if TYPE_CHECKING:
@@ -175,7 +176,10 @@ class ZenohService(_QueuedEndpoint, Service):
         try:
             query.reply(self.token.data_key, cdr, attachment=attachment.pack())
         except zenoh.ZError as error:
-            warn_once(f"reply {self.service}", f"a response of {self.service} was lost: {error}")
+            warn_once(
+                f"reply {self.service}",
+                f"a response of {self.service} was lost: {reason_of(error)}",
+            )
         finally:
             query.drop()  # type: ignore[no-untyped-call]
 
