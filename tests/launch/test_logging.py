@@ -76,11 +76,22 @@ def test_times_on_the_screen(launch, monkeypatch):
     assert re.search(r"^\d{10}\.\d{7} \[echo-\d+\] there$", outcome.text, re.MULTILINE)
 
 
-def test_other_styles_of_formats_are_refused():
-    with pytest.raises(
-        ValueError, match=r"only the style '\{' of log formats is supported, not '%'"
-    ):
-        logging.launch_config.set_screen_format("%(message)s", screen_style="%")
+@pytest.mark.parametrize(
+    ("style", "layout"), [("%", "<%(message)s>"), ("$", "<${message}>"), ("{", "<{message}>")]
+)
+def test_styles_of_formats(capsys, style, layout):
+    logging.launch_config.set_screen_format(layout, screen_style=style)
+    logging.launch_config.set_log_format(layout, log_style=style)
+    try:
+        logging.get_logger("launch.styles").warning("hello")
+        path = logging.launch_config.get_log_file_path()
+        assert capsys.readouterr().out == "<hello>\n"
+        with open(path) as file:
+            assert file.read().endswith("<hello>\n")
+    finally:
+        logging.reset()
+    with pytest.raises(ValueError, match="the style of a log format is"):
+        logging.launch_config.set_screen_format("x", screen_style="?")
 
 
 def test_the_folder_can_be_chosen_before_its_first_use(tmp_path):

@@ -8,7 +8,7 @@ import logging
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from launch.logging.directory import default_log_dir, make_launch_log_dir
 
@@ -24,6 +24,7 @@ __all__ = [
     "reset",
 ]
 
+_Style = Literal["%", "{", "$"]
 _SCREEN_FORMAT = "[{levelname}] [{name}]: {message}"
 _LOG_FORMAT = "{created:.7f} [{levelname}] [{name}]: {message}"
 _NAMED_FORMATS = {
@@ -52,8 +53,8 @@ _OUTPUTS: dict[str, dict[str, set[str]]] = {
 class _Formatter(logging.Formatter):
     """Shows the output of processes unchanged, and other lines with their level and name."""
 
-    def __init__(self, style: str, *, colored: bool = False) -> None:
-        super().__init__(style, style="{")
+    def __init__(self, layout: str, style: _Style, *, colored: bool = False) -> None:
+        super().__init__(layout, style=style)
         self._colored = colored
 
     def format(self, record: logging.LogRecord) -> str:
@@ -133,6 +134,8 @@ class LaunchConfig:
         self._screen_handler: logging.Handler | None = None
         self._screen_format = os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT") or _SCREEN_FORMAT
         self._log_format = os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT") or _LOG_FORMAT
+        self._screen_style: _Style = "{"
+        self._log_style: _Style = "{"
 
     @property
     def level(self) -> int:
@@ -159,14 +162,22 @@ class LaunchConfig:
         self._log_dir = path
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of the screen: ``default``, ``default_with_timestamp``, or braces."""
-        _refuse_other_style(screen_style)
+        """Set the format of the screen.
+
+        Args:
+            screen_format: ``default``, ``default_with_timestamp``, or a format of :mod:`logging`.
+            screen_style: The style of that format: ``{``, ``%`` or ``$``; by default ``{``.
+
+        Raises:
+            ValueError: There is no such style.
+        """
+        self._screen_style = _known_style(screen_style)
         self._screen_format = screen_format
         self._screen_handler = None
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
         """Set the format of the log files, as for the screen."""
-        _refuse_other_style(log_style)
+        self._log_style = _known_style(log_style)
         self._log_format = log_format
         self._log_handlers.clear()
 
@@ -176,7 +187,11 @@ class LaunchConfig:
             self._screen_handler = _ScreenHandler()
             layout = _NAMED_FORMATS.get(self._screen_format, self._screen_format)
             self._screen_handler.setFormatter(
-                _Formatter(layout, colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR"))
+                _Formatter(
+                    layout,
+                    "{" if self._screen_format in _NAMED_FORMATS else self._screen_style,
+                    colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR"),
+                )
             )
         return self._screen_handler
 
@@ -188,7 +203,9 @@ class LaunchConfig:
         """The handler that writes to a log file of this launch, created at its first line."""
         if file_name not in self._log_handlers:
             handler = _FileHandler(self.get_log_file_path(file_name))
-            handler.setFormatter(_Formatter(_NAMED_FORMATS.get(self._log_format, self._log_format)))
+            layout = _NAMED_FORMATS.get(self._log_format, self._log_format)
+            style = "{" if self._log_format in _NAMED_FORMATS else self._log_style
+            handler.setFormatter(_Formatter(layout, style))
             self._log_handlers[file_name] = handler
         return self._log_handlers[file_name]
 
@@ -292,6 +309,11 @@ def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
     return normalized
 
 
-def _refuse_other_style(style: str | None) -> None:
-    if style not in (None, "{"):
-        raise ValueError(f"only the style '{{' of log formats is supported, not '{style}'")
+def _known_style(style: str | None) -> _Style:
+    if style is None or style == "{":
+        return "{"
+    if style == "%":
+        return "%"
+    if style == "$":
+        return "$"
+    raise ValueError(f"the style of a log format is '{{', '%' or '$', not '{style}'")
