@@ -1,7 +1,8 @@
 """Checks and reports of ``ros2 doctor``, and those of other packages.
 
 A package adds a check by an entry point in the group ``ros2doctor.checks``, and a report by one in
-``ros2doctor.report``.
+``ros2doctor.report``: `run_checks` and `generate_reports` include them. The command ``ros2 doctor``
+prints its own findings only.
 
 ========  ====================================
 module    what it holds
