@@ -154,7 +154,7 @@ def load_component_into_container(
     direct = DirectNode.around(node)
     answer = ask(direct, remote_container_node_name, "load_node", LoadNode, request)
     if not answer.success:
-        raise RuntimeError(f"Failed to load component: {answer.error_message.capitalize()}")
+        raise RuntimeError(f"Failed to load component: {answer.error_message}")
     return answer.unique_id, answer.full_node_name
 
 

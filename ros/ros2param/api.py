@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros2cli import completion
 from ros2cli.direct_node import DirectNode
+from ros2cli.node.strategy import NodeStrategy
 
 if TYPE_CHECKING:
     import argparse
@@ -116,7 +116,9 @@ class ParameterNameCompleter:
 
     def __call__(self, prefix: str, parsed_args: argparse.Namespace, **kwargs: Any) -> list[str]:
         """Names of the parameters there are now."""
-        return completion.parameter_names(parsed_args=parsed_args)
+        with NodeStrategy(parsed_args) as node:
+            found = call_list_parameters(node=node, node_name=parsed_args.node_name)
+        return [] if found is None else sorted(found.result.names)
 
 
 def _client(node: Any, node_name: str) -> AsyncParameterClient:

@@ -107,6 +107,20 @@ def test_parameters_and_states(node, peer):
     assert "activate" in [each.transition.label for each in possible]
 
 
+def test_completions(peer):
+    """They take the command line of any extension, with no options of ours in it."""
+    from ros2node.api import NodeNameCompleter
+    from ros2param.api import ParameterNameCompleter
+    from ros2topic.api import TopicMessagePrototypeCompleter, TopicNameCompleter, TopicTypeCompleter
+
+    args = argparse.Namespace(node_name=peer, topic="/said", type="std_msgs/msg/Bool")
+    assert peer in NodeNameCompleter()("", args)
+    assert "speed" in ParameterNameCompleter()("", args)
+    assert "/said" in TopicNameCompleter()("", args)
+    assert TopicTypeCompleter(topic_name_key="topic")("", args) == ["std_msgs/msg/String"]
+    assert TopicMessagePrototypeCompleter(topic_type_key="type")("", args) == ["{data: false}"]
+
+
 def test_rate_and_bandwidth_of_a_topic(node, capsys):
     """As rqt_topic uses them: callbacks of a node that the program spins."""
     from ros2topic.verb.bw import ROSTopicBandwidth
