@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from launch_testing.asserts.assert_output import assertInStream
-from launch_testing.util.proc_lookup import NoMatchingProcessException
+from launch_testing.util.proc_lookup import NoMatchingProcessException, resolveProcesses
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, KeysView
@@ -161,14 +161,22 @@ class ActiveIoHandler:
         """
         assert self.waitFor(*args, **kwargs), self._failure(*args, **kwargs)
 
-    def _failure(self, expected_output: Any, *_: Any, **kwargs: Any) -> str:
+    def _failure(
+        self, expected_output: Any, process: Any = None, cmd_args: Any = None, **kwargs: Any
+    ) -> str:
         stream = kwargs.get("stream", "stderr")
-        written = "".join(
-            event.text.decode(errors="replace")
+        text = f"Waiting for output timed out: {expected_output!r} on {stream}. "
+        try:
+            actions = resolveProcesses(
+                self, process=process, cmd_args=cmd_args, strict_proc_matching=False
+            )
+        except NoMatchingProcessException as error:
+            return f"{text}{error}"
+        written = b"".join(
+            event.text
             for event in self
-            if (event.from_stderr if stream == "stderr" else event.from_stdout)
-        )
+            if event.action in actions
+            and (event.from_stderr if stream == "stderr" else event.from_stdout)
+        ).decode(errors="replace")
         last = "\n".join(f"    {line}" for line in written.splitlines()[-10:])
-        return f"Waiting for output timed out: {expected_output!r} on {stream}. " + (
-            f"Its last lines:\n{last}" if last else f"Nothing was written to {stream}."
-        )
+        return text + (f"Last lines:\n{last}" if last else f"Nothing was written to {stream}.")
