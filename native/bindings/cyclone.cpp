@@ -121,11 +121,11 @@ void add_cyclone_types(nb::module_& module) {
            "At most `limit` messages of a reader, with the GIL held, as (bytes, number of the "
            "publisher,\ntime of sending in ns); none when the reader has gone.");
   nb::class_<Writer, Outlet>(module, "CycloneWriter",
-                     "Sends messages.\n\n"
-                     "Args:\n"
-                     "    library: What it calls.\n"
-                     "    writer: The DDS writer.\n"
-                     "    sertype: Address of its ddsi_sertype.")
+                             "Sends messages.\n\n"
+                             "Args:\n"
+                             "    library: What it calls.\n"
+                             "    writer: The DDS writer.\n"
+                             "    sertype: Address of its ddsi_sertype.")
       .def(nb::init<const Library&, Entity, std::uintptr_t>(), "library"_a, "writer"_a, "sertype"_a)
       .def("write", &write, "cdr"_a,
            "Send a message, which is one buffer or a tuple of the buffers that make it up, "

@@ -19,12 +19,9 @@ enum Class : std::size_t {
   extrapolation,
   kClasses
 };
-constexpr std::array<const char*, kClasses> kNames{"CdrError",
-                                                   "InvalidArgumentException",
-                                                   "LookupException",
-                                                   "ConnectivityException",
-                                                   "TransformException",
-                                                   "ExtrapolationException"};
+constexpr std::array<const char*, kClasses> kNames{"CdrError",           "InvalidArgumentException",
+                                                   "LookupException",    "ConnectivityException",
+                                                   "TransformException", "ExtrapolationException"};
 std::array<PyObject*, kClasses> classes;  // those of turtlewire.errors
 
 // The attributes of the exceptions, by the names that turtlewire.errors documents.
@@ -45,9 +42,9 @@ enum Field : std::size_t {
   kFields
 };
 constexpr std::array<const char*, kFields> kFieldNames{
-    "frame",        "_buffer",     "target_frame", "source_frame", "target_root", "source_root",
-    "parent_frame", "child_frame", "requested_ns", "oldest_ns",    "newest_ns",   "_has_data",
-    "reason"};
+    "frame",       "_buffer",      "target_frame", "source_frame", "target_root",
+    "source_root", "parent_frame", "child_frame",  "requested_ns", "oldest_ns",
+    "newest_ns",   "_has_data",    "reason"};
 std::array<PyObject*, kFields> field_names;
 
 PyObject* text_of(const std::string& text) {
