@@ -54,9 +54,14 @@ FILES = {
 }
 
 
-@pytest.fixture
-def source(tmp_path, monkeypatch):
+@pytest.fixture(autouse=True)
+def own_registry(monkeypatch):
+    """What a test generates registers itself, and must not meet the next test."""
     monkeypatch.setattr(registry, "_registered", {})
+
+
+@pytest.fixture
+def source(tmp_path):
     folder = tmp_path / "src" / "some_folder"
     for name, text in FILES.items():
         path = folder / name
