@@ -52,6 +52,7 @@ class Context:
         self._arguments: Arguments | None = None
         self._valid = False
         self.ended_by_signal = False
+        self.ended_at_exit = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
         self.waits: set[threading.Event] = set()
         self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()
@@ -282,6 +283,7 @@ _open_contexts: set[Any] = set()
 def _close_open_contexts() -> None:
     """Leave the domain at the end of the process, so that peers need not wait for our lease."""
     for context in list(_open_contexts):
+        context.ended_at_exit = True
         context.try_shutdown()
 
 

@@ -141,6 +141,9 @@ class Executor:
         try:
             while self._context.ok() and not scheduler.is_shutdown:
                 self.spin_once()
+        except ExternalShutdownException:
+            if not self._context.ended_at_exit:  # a daemon thread's; nobody is left to be told
+                raise
         finally:
             scheduler.serves_endlessly = outer
         self._after_spin()
