@@ -150,6 +150,18 @@ def test_jumps_are_not_told_twice(tmp_path):
     assert line.startswith("jump of time: ")
 
 
+def test_many_jumps_are_summed_up(tmp_path):
+    with BagWriter(tmp_path / "made") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for log_time in range(2000):
+            i = log_time + (500 if log_time % 2 else 0)
+            writer.write("/tf", transform(i), log_time)
+    _, report = load_transforms(tmp_path / "made")
+    lines = [line for line in report.complaints() if line.startswith("jump of time: ")]
+    assert len(report.jumps) == 999
+    assert lines[5:] == ["jump of time: and 994 more, by up to 4.990 s"]
+
+
 @pytest.mark.parametrize("names", [{"topics": ["/tf", "/robto/tf"]}, {"static_topics": "/nothing"}])
 def test_an_unknown_topic_beside_known_ones(tmp_path, names):
     path = write_bag(tmp_path / "made")

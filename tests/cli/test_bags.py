@@ -280,6 +280,29 @@ def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):
     assert "1 messages of /tf are no TFMessage" in done.out
 
 
+def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tmp_path):
+    with BagWriter(tmp_path / "both") as writer:
+        for topic in ("/tf", "/tf_static"):
+            writer.add_topic(topic, "tf2_msgs/msg/TFMessage")
+        writer.write("/tf_static", transform(0, "base_link", "wheel"), 1)
+        writer.write("/tf", transform(0, "base_link", "wheel"), 2)
+    out = run(capsys, "bag", "tf", tmp_path / "both").out
+    assert out.startswith("both: 2 messages of /tf (publishers unknown), /tf_static (publ")
+    assert "wheel  static and one stamp" in out
+    assert "0.0 Hz" not in out
+
+
+def test_the_doctor_names_a_loop_in_a_bag(capsys, tmp_path):
+    with BagWriter(tmp_path / "loop") as writer:
+        writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for i in range(20):
+            writer.write("/tf", transform(i, "a", "b"), START + i)
+            writer.write("/tf", transform(i, "b", "a"), START + i)
+    done = run(capsys, "doctor", tmp_path / "loop")
+    assert done.status == 1
+    assert "PROBLEM: The frames form a loop, from child to parent: a -> b -> a." in done.out
+
+
 def test_damage_is_named_where_it_left_no_transforms(capsys, tmp_path):
     """A bag of one chunk, cut before its first transform: not "no transforms" alone, but why."""
     shutil.copytree(GOLDEN / "d_mcap", tmp_path / "cut")

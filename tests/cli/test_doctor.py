@@ -182,6 +182,18 @@ def test_separate_trees(context, broadcasters):
     ]
 
 
+def test_a_loop_of_frames(context, broadcasters):
+    one, two = broadcasters
+    traffic = traffic_of(
+        (transform("a", "b"), one, False),
+        (transform("b", "a"), two, False),
+        (transform("a", "c"), two, True),
+    )
+    assert texts(tf_findings(context.graph, traffic)) == [
+        "The frames form a loop, from child to parent: a -> b -> a."
+    ]
+
+
 def test_mixed_and_stale_times(context, broadcasters):
     one, _ = broadcasters
     old = NOW_NS - 5_000_000_000

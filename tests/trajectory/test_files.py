@@ -135,6 +135,10 @@ def test_comments_headings_exponents_and_a_byte_order_mark(tmp_path):
         ("1 0 0 0 0 0 0 1 9\n", r"walk, line 1: expected 8 numbers.*found 9"),
         ("1 0 0 x 0 0 0 1\n", r"line 1: .*could not convert string to float: 'x'"),
         ("1.x 0 0 0 0 0 0 1\n", r"line 1: .*'1\.x' is not a time"),
+        (
+            "1 0 0 0 0 0 0 1\n1700000000000000000 0 0 0 0 0 0 1\n",
+            r"walk, line 2: .* beyond the year 2262; seconds are expected here: is it in nanosec",
+        ),
         ("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "walk: stamps must increase; stamp 1"),
         ("1 0 0 0 0 0 0 0.5\n", "quaternion of pose 0 has the length 0.5"),
         ("1 0 0 0 nan 0 0 1\n", "pose 0 has a number that is not finite"),

@@ -73,5 +73,8 @@ def test_what_is_wrong_is_said():
     assert len(sample_trajectory(filled(), "base", "camera", stamps=[5])) == 1
     with pytest.raises(turtlewire.errors.ExtrapolationException):
         sample_trajectory(filled(), "map", "base", stamps=[99 * SECOND])
-    with pytest.raises(ValueError, match="rate is 0 Hz"):
-        sample_trajectory(filled(), "map", "base", rate_hz=0)
+    for rate in (0, -1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match=f"rate is {rate} Hz; it must be positive and finite"):
+            sample_trajectory(filled(), "map", "base", rate_hz=rate)
+    with pytest.raises(ValueError, match=r"1e\+12 Hz makes more than 20,000,000 poses of 4.\d+ s"):
+        sample_trajectory(filled(), "map", "base", rate_hz=1e12)

@@ -116,7 +116,7 @@ class TransformReport:
             lines.append(f"no TFMessage: {self.malformed.messages} messages: {self.malformed.last}")
         lines += [f"{each.kind}: {each.text}" for each in self.conflicts]
         lines += [_parent_line(each) for each in self.new_parents]
-        lines += [_jump_line(jump) for jump in self.jumps]
+        lines += _jump_lines(self.jumps)
         lines += [_steps_line(child, steps) for child, steps in self._steps_without_jumps()]
         lines += [_gap_line(child, gaps) for child, gaps in self.gaps.items()]
         lines += [_refused_line(child, refused) for child, refused in self.refused.items()]
@@ -183,6 +183,8 @@ def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
 
 
 def _publishers(count: int) -> str:
+    if not count:  # the recorder noted no QoS, as older ones do not
+        return "publishers unknown"
     return "1 publisher" if count == 1 else f"{count} publishers"
 
 
@@ -208,6 +210,15 @@ def _table(links: list[LinkInfo]) -> list[str]:
 def _seconds(stamp_ns: int) -> str:
     seconds, nanoseconds = divmod(stamp_ns, 1_000_000_000)
     return f"{seconds}.{nanoseconds:09d}"
+
+
+def _jump_lines(jumps: list[Jump]) -> list[str]:
+    """A line for each of the first jumps, and one for all the others."""
+    lines = [_jump_line(jump) for jump in jumps[:_MOST_SHOWN]]
+    if rest := jumps[_MOST_SHOWN:]:
+        largest = max(jump.back_ns for jump in rest) / 1e9
+        lines.append(f"jump of time: and {len(rest):,} more, by up to {largest:.3f} s")
+    return lines
 
 
 def _jump_line(jump: Jump) -> str:

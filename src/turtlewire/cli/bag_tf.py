@@ -12,6 +12,7 @@ from turtlewire.printable import printable
 if TYPE_CHECKING:
     from turtlewire.bag import TransformReport
     from turtlewire.cli.frame_picture import Picture
+    from turtlewire.tf.inspection import LinkInfo
 
 __all__ = ["show_transforms"]
 
@@ -34,10 +35,11 @@ def show_transforms(
     buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
     now_ns = max((link.newest_ns for link in report.links), default=0)
     picture = take_picture(buffer, now_ns)
-    return _json(picture, report) if as_json else "\n".join(_lines(picture, report))
+    fixed = {static_topics} if isinstance(static_topics, str) else set(static_topics)
+    return _json(picture, report) if as_json else "\n".join(_lines(picture, report, fixed))
 
 
-def _lines(picture: Picture, report: TransformReport) -> list[str]:
+def _lines(picture: Picture, report: TransformReport, fixed: set[str]) -> list[str]:
     links = {link.child_frame: link for link in report.links}
     rows = [("frame", "rate", "samples", "from [s]", "to [s]", "gaps")]
     for row in picture.rows:
@@ -48,7 +50,7 @@ def _lines(picture: Picture, report: TransformReport) -> list[str]:
             continue
         times = f"{link.oldest_ns / 1e9:.3f}", f"{link.newest_ns / 1e9:.3f}"
         gaps = str(len(report.gaps.get(row.frame, ())) or "")
-        rows.append((name, f"{link.rate_hz:.1f} Hz", f"{link.samples:,}", *times, gaps))
+        rows.append((name, _rate(link, fixed), f"{link.samples:,}", *times, gaps))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     table = [
         "  ".join((row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:]))).rstrip()
@@ -56,6 +58,13 @@ def _lines(picture: Picture, report: TransformReport) -> list[str]:
     ]
     loops = [f"loop: {printable(' -> '.join((*loop, loop[0])))}" for loop in picture.loops]
     return [report.headline(), *table, *loops, *report.complaints()]
+
+
+def _rate(link: LinkInfo, fixed: set[str]) -> str:
+    """The rate of a moving link, and whether it is sent on a static topic, too."""
+    rate = f"{link.rate_hz:.1f} Hz" if link.rate_hz else "one stamp"
+    both = any(sender.name in fixed for sender in link.senders)
+    return f"static and {rate}" if both else rate
 
 
 def _json(picture: Picture, report: TransformReport) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.graph_findings import owner_of
 from turtlewire.cli.tf_traffic import tf_publishers
+from turtlewire.tf.frame_tree import find_loops
 
 if TYPE_CHECKING:
     from turtlewire.cli.tf_traffic import TfTraffic
@@ -23,6 +24,10 @@ _ONE_PARENT = "A frame has one parent at a time; lookups fail or jump. Rename on
 _JOIN_TREES = (
     "No lookup between them is possible: publish a transform from one root to the other "
     "(static_transform_publisher)."
+)
+_NO_LOOP = (
+    "Lookups with these frames fail. One of the frames has the wrong parent: mend or stop the node "
+    "that publishes it."
 )
 _ONE_CLOCK = "Set use_sim_time to the same value for all nodes."
 _SLOW = "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."
@@ -68,6 +73,10 @@ def _tree_findings(traffic: TfTraffic) -> list[Finding]:
         for child, parents in sorted(traffic.parents.items())
         if len(parents) > 1
     ]
+    only = {child: min(of) for child, of in sorted(traffic.parents.items()) if len(of) == 1}
+    for loop in find_loops(only):
+        way = " -> ".join((*loop, loop[0]))
+        found.append(problem(f"The frames form a loop, from child to parent: {way}.", _NO_LOOP))
     parents = {parent for of_child in traffic.parents.values() for parent in of_child}
     roots = sorted(parents - traffic.parents.keys())
     if len(roots) > 1:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from turtlewire.tf.links import HasLinks, LinkInfo
 
 
-__all__ = ["FrameTree", "Link", "read_frame_tree"]
+__all__ = ["FrameTree", "Link", "find_loops", "read_frame_tree"]
 
 #: tf2 divides by at least this [s] for a rate.
 _SHORTEST = 1e-4
@@ -61,7 +61,7 @@ class FrameTree:
         frames = dict.fromkeys(
             name for link in self.links.values() for name in (link.parent, link.child)
         )
-        self.loops = _loops(self.links)
+        self.loops = find_loops({link.child: link.parent for link in self.links.values()})
         cut = {loop[0] for loop in self.loops}
         self.roots = [frame for frame in frames if frame not in self.links] + [
             loop[0] for loop in self.loops
@@ -94,18 +94,23 @@ def _link(info: LinkInfo) -> Link:
     )
 
 
-def _loops(links: dict[str, Link]) -> list[list[str]]:
+def find_loops(parents: Mapping[str, str]) -> list[list[str]]:
+    """The frames that are their own ancestors: for each loop its frames, from child to parent.
+
+    Args:
+        parents: Each child with its parent; a loop begins with the child that stands first here.
+    """
     loops, settled = [], set[str]()
-    for start in links:
+    for start in parents:
         way: dict[str, None] = {}
         frame = start
-        while frame in links and frame not in way and frame not in settled:
+        while frame in parents and frame not in way and frame not in settled:
             way[frame] = None
-            frame = links[frame].parent
+            frame = parents[frame]
         if frame in way:  # the walk has come back to itself
             walked = list(way)
             loop = walked[walked.index(frame) :]
-            first = min(loop, key=list(links).index)
+            first = min(loop, key=list(parents).index)
             loops.append(loop[loop.index(first) :] + loop[: loop.index(first)])
         settled.update(way)
     return loops

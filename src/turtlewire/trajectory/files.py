@@ -41,6 +41,8 @@ __all__ = [
 FORMATS = {"tum": ".tum", "kitti": ".kitti", "euroc": ".euroc", "csv": ".csv"}
 
 _SECOND = 1_000_000_000
+#: Stamps are int64.
+_LATEST_NS = (1 << 63) - 1
 
 
 def read_tum(path: str | os.PathLike[str]) -> Trajectory:
@@ -238,9 +240,13 @@ def _seconds(stamp_ns: int) -> str:
 def _nanoseconds(text: str, unit: int) -> int:
     """A time in nanoseconds, ``unit`` of which make 1; without going through float."""
     try:
-        return int(Decimal(text) * unit)
+        stamp_ns = int(Decimal(text) * unit)
     except (InvalidOperation, ValueError, OverflowError):
         raise ValueError(f"'{text}' is not a time") from None
+    if abs(stamp_ns) > _LATEST_NS:
+        said = "seconds are expected here: is it in nanoseconds?" if unit == _SECOND else ""
+        raise ValueError(f"the time '{text}' is beyond the year 2262; {said}".rstrip("; "))
+    return stamp_ns
 
 
 def _in_order(stamps: list[int], path: str | os.PathLike[str]) -> NDArray[np.int64]:

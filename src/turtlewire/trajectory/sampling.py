@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,8 @@ __all__ = ["find_gaps", "sample_trajectory"]
 _GAP_FACTOR = 10
 #: Pauses shorter than this are no gaps, however regular the other samples are.
 _SHORTEST_GAP_NS = 500_000_000
+#: So many poses take a gigabyte; a kilohertz for five hours and a half.
+_MOST_POSES = 20_000_000
 
 
 def sample_trajectory(
@@ -49,7 +52,8 @@ def sample_trajectory(
 
     Raises:
         TransformException: The frames are unknown or not connected.
-        ValueError: Nothing moves on the way and no stamps were given.
+        ValueError: Nothing moves on the way and no stamps were given, or the rate is no positive
+            number or makes more poses than memory should hold.
     """
     moving = _moving_links(buffer, target_frame, source_frame)
     histories = [_stamps_of(buffer, child) for child in moving]
@@ -121,7 +125,13 @@ def _times(histories: list[NDArray[np.int64]], rate_hz: float | None) -> NDArray
     if rate_hz is None:
         times = np.unique(np.concatenate(histories))
         return times[(times >= start) & (times <= end)]
-    if rate_hz <= 0:
-        raise ValueError(f"the rate is {rate_hz} Hz; it must be positive")
+    if not 0.0 < rate_hz < math.inf:  # also true for NaN
+        raise ValueError(f"the rate is {rate_hz} Hz; it must be positive and finite")
+    length_s = max(0, end - start) / 1e9
+    if length_s * rate_hz >= _MOST_POSES:
+        raise ValueError(
+            f"a rate of {rate_hz:g} Hz makes more than {_MOST_POSES:,} poses of {length_s:.3f} s; "
+            f"take at most {_MOST_POSES / length_s:.4g} Hz"
+        )
     count = int((end - start) * rate_hz / 1e9) + 1 if end >= start else 0
     return start + np.round(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)
