@@ -6,7 +6,7 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.type_utils import coerce, is_entity_list, list_item_type
+from launch.frontend.type_utils import coerce, is_entity_list, list_item_type, may_become
 
 __all__ = ["Entity"]
 
@@ -90,7 +90,7 @@ class Entity(BaseEntity):
             separator = separator or ","
             return [coerce(item.strip(), item_type) for item in text.split(separator)]
         except ValueError as error:
-            if can_be_str:
+            if can_be_str and may_become(text, data_type):
                 return text
             raise TypeError(
                 f"Attribute '{name}' of Entity '{self.type_name}' "

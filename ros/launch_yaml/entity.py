@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.type_utils import is_entity_list, list_item_type
+from launch.frontend.type_utils import is_entity_list, list_item_type, may_become
 
 __all__ = ["Entity"]
 
@@ -88,7 +88,9 @@ class Entity(BaseEntity):
         value = self._element[name]
         if is_entity_list(data_type):
             return self._entities(name, value)
-        if _is_of_type(value, data_type) or (can_be_str and isinstance(value, str)):
+        if _is_of_type(value, data_type):
+            return value
+        if can_be_str and isinstance(value, str) and may_become(value, data_type):
             return value
         raise TypeError(
             f"Attribute '{name}' of Entity '{self._type_name}' "

@@ -218,6 +218,52 @@ def test_elements_that_are_wrong(launch_file, xml, yaml, error):
 
 
 @pytest.mark.parametrize(
+    ("element", "attribute", "value"),
+    [
+        ("group", "scoped", "maybe"),
+        ("group", "scoped", "5"),
+        ("group", "scoped", "$(var a)"),
+        ("group", "forwarding", "maybe"),
+        ("executable", "shell", "maybe"),
+        ("executable", "shell", "$(var a)"),
+        ("executable", "emulate_tty", "maybe"),
+        ("executable", "respawn", "maybe"),
+        ("append_env", "prepend", "maybe"),
+    ],
+)
+def test_truth_values_that_are_wrong(launch_file, element, attribute, value):
+    others = {"group": {}, "executable": {"cmd": "true"}, "append_env": {"name": "A", "value": "b"}}
+    attributes = {**others[element], attribute: value}
+    xml = " ".join(f'{name}="{text}"' for name, text in attributes.items())
+    yaml = ", ".join(f"{name}: '{text}'" for name, text in attributes.items())
+    children = ", children: []" if element == "group" else ""
+    outcome = launch_file(
+        f'<launch><arg name="a" default="false"/><{element} {xml}/></launch>',
+        f"launch:\n- arg: {{name: a, default: 'false'}}\n- {element}: {{{yaml}{children}}}",
+    )
+    assert outcome.status == 1
+    assert (
+        f"Attribute '{attribute}' of Entity '{element}' expected to be of type '<class 'bool'>'"
+        in outcome.text
+    )
+
+
+@pytest.mark.parametrize("value", ["true", "1", "$(var a)"])
+def test_truth_values_from_texts(launch_file, value):
+    outcome = launch_file(
+        f"""<launch><arg name="a" default="true"/><set_env name="TURTLE_FRONTEND" value="x"/>
+<append_env name="TURTLE_FRONTEND" value="y" separator="" prepend="{value}"/>
+<log message="$(env TURTLE_FRONTEND)"/></launch>""",
+        f"""launch:
+- arg: {{name: a, default: 'true'}}
+- set_env: {{name: TURTLE_FRONTEND, value: x}}
+- append_env: {{name: TURTLE_FRONTEND, value: y, separator: '', prepend: '{value}'}}
+- log: {{message: $(env TURTLE_FRONTEND)}}""",
+    )
+    assert "[INFO] [launch.user]: yx" in outcome.lines
+
+
+@pytest.mark.parametrize(
     ("text", "performed"),
     [
         ("", ""),

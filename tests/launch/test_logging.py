@@ -94,6 +94,35 @@ def test_styles_of_formats(capsys, style, layout):
         logging.launch_config.set_screen_format("x", screen_style="?")
 
 
+@pytest.mark.parametrize(
+    ("layout", "style", "error"),
+    [
+        ("nofields", None, r"'nofields' is no log format of the style '\{', as '\{message\}' is"),
+        ("%(message)s", None, r"'%\(message\)s' is no log format of the style '\{'"),
+        ("{message}", "%", r"'\{message\}' is no log format of the style '%', as '%\(message\)s'"),
+        ("default", "%", "the format 'default' has its own style"),
+        ("default_with_timestamp", "{", "the format 'default_with_timestamp' has its own style"),
+    ],
+)
+def test_formats_that_are_wrong_are_refused_at_once(capsys, layout, style, error):
+    with pytest.raises(ValueError, match=error):
+        logging.launch_config.set_screen_format(layout, screen_style=style)
+    with pytest.raises(ValueError, match=error):
+        logging.launch_config.set_log_format(layout, log_style=style)
+    logging.get_logger("launch.formats").warning("as before")
+    assert capsys.readouterr().out == "[WARNING] [launch.formats]: as before\n"
+
+
+def test_a_named_format_after_one_of_another_style(capsys):
+    try:
+        logging.launch_config.set_screen_format("%(message)s", screen_style="%")
+        logging.launch_config.set_screen_format("default")
+        logging.get_logger("launch.named").warning("hello")
+        assert capsys.readouterr().out == "[WARNING] [launch.named]: hello\n"
+    finally:
+        logging.reset()
+
+
 def test_the_folder_can_be_chosen_before_its_first_use(tmp_path):
     logging.launch_config.log_dir = str(tmp_path / "mine")
     logging.get_logger("launch.test").warning("hello")

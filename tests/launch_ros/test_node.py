@@ -234,6 +234,20 @@ def test_parameter_files_with_substitutions(nodes, tmp_path):
     assert not any(map(os.path.exists, copies))
 
 
+def test_a_variable_says_whether_a_parameter_file_has_substitutions(nodes, tmp_path):
+    (tmp_path / "params.yaml").write_text("x: $(var asked)")
+    path = tmp_path / "x.launch.xml"
+    path.write_text(
+        "<launch><node pkg='shows' exec='show' output='screen'>"
+        f"<param from='{tmp_path}/params.yaml' allow_substs='$(var asked)'/></node></launch>"
+    )
+    found = [
+        nodes(SetLaunchConfiguration("asked", asked), IncludeLaunchDescription(str(path)))
+        for asked in ("true", "false")
+    ]
+    assert [node["files"] for (node,) in found] == [["x: true"], ["x: $(var asked)"]]
+
+
 def test_what_a_scope_adds(nodes, tmp_path):
     (tmp_path / "params.yaml").touch()
     inside, outside = nodes(
@@ -462,6 +476,10 @@ def test_launch_files_in_other_languages(nodes, tmp_path, language):
         (
             "<param name='x' value='1' unit='m'/>",
             "Unexpected attribute(s) found in `param`: {'unit'}",
+        ),
+        (
+            "<param from='x' allow_substs='maybe'/>",
+            "Attribute 'allow_substs' of Entity 'param' expected to be of type '<class 'bool'>'",
         ),
     ],
 )

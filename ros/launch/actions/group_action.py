@@ -62,7 +62,7 @@ class GroupAction(Action):
         """Read a ``group`` element; ``keep`` children set launch configurations inside."""
         _, kwargs = super().parse(entity, parser)
         for attribute in ("scoped", "forwarding"):
-            value = entity.get_attr(attribute, data_type=bool, optional=True)
+            value = entity.get_attr(attribute, data_type=bool, optional=True, can_be_str=False)
             if value is not None:
                 kwargs[attribute] = value
         if (kept := kept_configurations(entity, parser)) is not None:

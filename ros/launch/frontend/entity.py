@@ -50,7 +50,7 @@ class Entity:
                 ``List[Entity]`` for child elements.
             optional: Return None when it is not there.
             can_be_str: Return text as it is when it is not of the type, since it may hold
-                substitutions.
+                substitutions. For ``bool`` it must hold some, or be a truth value.
 
         Raises:
             AttributeError: It is not there.

@@ -7,7 +7,7 @@ from typing import Any
 
 from launch.frontend.entity import Entity
 
-__all__ = ["coerce", "is_entity_list", "list_item_type"]
+__all__ = ["coerce", "is_entity_list", "list_item_type", "may_become"]
 
 _TRUE = ("yes", "true", "on")
 _FALSE = ("no", "false", "off")
@@ -51,3 +51,15 @@ def coerce(text: str, data_type: Any) -> Any:
 
     value = yaml.safe_load(text)
     return "" if value is None else value  # an empty text is one, and so is YAML's null
+
+
+def may_become(text: str, data_type: Any) -> bool:
+    """Whether a text may have a value of a type once its substitutions are performed.
+
+    Args:
+        text: The text as it is in the launch file.
+        data_type: The type. Only ``bool`` is checked here; other types are when they are used.
+    """
+    if data_type is not bool or "$(" in text:
+        return True
+    return text.strip().lower() in (*_TRUE, *_FALSE, "1", "0")

@@ -31,6 +31,7 @@ _NAMED_FORMATS = {
     "default": _SCREEN_FORMAT,
     "default_with_timestamp": "{created:.7f} [{levelname}] [{name}]: {message}",
 }
+_EXAMPLES = {"{": "{message}", "%": "%(message)s", "$": "${message}"}
 # A pipe without reader, and a terminal that was closed.
 _READER_GONE = (errno.EPIPE, errno.EIO)
 _COLORS = {
@@ -169,15 +170,16 @@ class LaunchConfig:
             screen_style: The style of that format: ``{``, ``%`` or ``$``; by default ``{``.
 
         Raises:
-            ValueError: There is no such style.
+            ValueError: There is no such style, the format has no field in that style, or a
+                style is given for a named format, which has its own.
         """
-        self._screen_style = _known_style(screen_style)
+        self._screen_style = _checked_style(screen_format, screen_style)
         self._screen_format = screen_format
         self._screen_handler = None
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
         """Set the format of the log files, as for the screen."""
-        self._log_style = _known_style(log_style)
+        self._log_style = _checked_style(log_format, log_style)
         self._log_format = log_format
         self._log_handlers.clear()
 
@@ -189,7 +191,7 @@ class LaunchConfig:
             self._screen_handler.setFormatter(
                 _Formatter(
                     layout,
-                    "{" if self._screen_format in _NAMED_FORMATS else self._screen_style,
+                    self._screen_style,
                     colored=sys.stdout.isatty() and not os.environ.get("NO_COLOR"),
                 )
             )
@@ -204,8 +206,7 @@ class LaunchConfig:
         if file_name not in self._log_handlers:
             handler = _FileHandler(self.get_log_file_path(file_name))
             layout = _NAMED_FORMATS.get(self._log_format, self._log_format)
-            style = "{" if self._log_format in _NAMED_FORMATS else self._log_style
-            handler.setFormatter(_Formatter(layout, style))
+            handler.setFormatter(_Formatter(layout, self._log_style))
             self._log_handlers[file_name] = handler
         return self._log_handlers[file_name]
 
@@ -307,6 +308,23 @@ def _normalized(output_config: str | Mapping[str, Any]) -> dict[str, set[str]]:
             )
         normalized[stream] = choices
     return normalized
+
+
+def _checked_style(layout: str, style: str | None) -> _Style:
+    """The style of a format, which must suit it; the style of named formats is ``{``."""
+    if layout in _NAMED_FORMATS:
+        if style is not None:
+            raise ValueError(f"the format '{layout}' has its own style: give it without '{style}'")
+        return "{"
+    known = _known_style(style)
+    try:
+        logging.Formatter(layout, style=known)
+    except ValueError as error:
+        raise ValueError(
+            f"'{layout}' is no log format of the style '{known}', as '{_EXAMPLES[known]}' is: "
+            f"{error}"
+        ) from error
+    return known
 
 
 def _known_style(style: str | None) -> _Style:

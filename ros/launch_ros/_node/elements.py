@@ -62,7 +62,12 @@ def parse_parameter_elements(elements: Iterable[Entity], parser: Parser) -> list
             if parameter.get_attr("name", optional=True) is not None:
                 raise RuntimeError("name and from attributes are mutually exclusive")
             allow = parameter.get_attr("allow_substs", data_type=bool, optional=True)
-            parsed.append(ParameterFile(parser.parse_substitution(path), allow_substs=bool(allow)))
+            parsed.append(
+                ParameterFile(
+                    parser.parse_substitution(path),
+                    allow_substs=parser.parse_if_substitutions(allow or False),
+                )
+            )
         parameter.assert_entity_completely_parsed()
     return parsed
 
