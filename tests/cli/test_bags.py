@@ -288,7 +288,7 @@ def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tm
         writer.write("/tf", transform(0, "base_link", "wheel"), 2)
     out = run(capsys, "bag", "tf", tmp_path / "both").out
     assert out.startswith("both: 2 messages of /tf (publishers unknown), /tf_static (publ")
-    assert "wheel  static and one stamp" in out
+    assert "wheel   static and one stamp" in out
     assert "0.0 Hz" not in out
 
 
