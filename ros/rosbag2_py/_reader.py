@@ -15,6 +15,7 @@ from rosbag2_py._storage import (
     ReadOrderSortBy,
     StorageFilter,
     StorageOptions,
+    check_format,
     folder_size,
     from_engine,
     topic_of,
@@ -51,13 +52,15 @@ class SequentialReader:
         self._last: BagMessage | None = None
 
     def open(
-        self, storage_options: StorageOptions, _converter_options: ConverterOptions | None = None
+        self, storage_options: StorageOptions, converter_options: ConverterOptions | None = None
     ) -> None:
         """Open a bag; it begins at its first message.
 
         Raises:
-            RuntimeError: There is no such bag, or it cannot be read.
+            RuntimeError: There is no such bag, it cannot be read, or not as the format asked for.
         """
+        if converter_options is not None:
+            check_format(converter_options.output_serialization_format)
         try:
             self._bag = open_bag(storage_options.uri)
         except (BagError, OSError) as error:

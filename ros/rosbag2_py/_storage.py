@@ -32,6 +32,7 @@ __all__ = [
     "ReadOrderSortBy",
     "StorageFilter",
     "StorageOptions",
+    "check_format",
     "convert_rclcpp_qos_to_rclpy_qos",
     "folder_size",
     "from_engine",
@@ -85,6 +86,16 @@ class ConverterOptions:
 
     input_serialization_format: str = ""
     output_serialization_format: str = ""
+
+
+def check_format(name: str) -> None:
+    """Refuse a serialization format other than ``cdr``, which an empty text means, too.
+
+    Raises:
+        RuntimeError: Nothing converts from or to it.
+    """
+    if name not in ("", "cdr"):
+        raise RuntimeError(f"Could not find converter for format {name}; there is only cdr")
 
 
 @dataclass(slots=True)

@@ -8,6 +8,7 @@ from weakref import WeakSet
 
 from rosbag2_py._compression_options import CompressionMode, CompressionOptions
 from rosbag2_py._open_writer import make_writer
+from rosbag2_py._storage import check_format
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -60,13 +61,16 @@ class SequentialWriter:
         self.close()
 
     def open(
-        self, storage_options: StorageOptions, _converter_options: ConverterOptions | None = None
+        self, storage_options: StorageOptions, converter_options: ConverterOptions | None = None
     ) -> None:
         """Begin a bag.
 
         Raises:
-            RuntimeError: It exists, or the options do not fit.
+            RuntimeError: It exists, the options do not fit, or a format is not known.
         """
+        if converter_options is not None:
+            check_format(converter_options.input_serialization_format)
+            check_format(converter_options.output_serialization_format)
         self._writer = make_writer(storage_options, self._mode)
         _open_writers.add(self)
 

@@ -25,6 +25,7 @@ def publisher_qos(topic: TopicInfo) -> tuple[QoS, str | None]:
 
     A latched topic is as deep as it needs to be for one that joins late to get what all recorded
     publishers kept; rosbag2 gives the last ten messages, and loses parts of larger static trees.
+    It is not deeper: what each round of a loop repeats would pile up.
 
     Returns:
         The QoS, and a warning if the recorded publishers differed.
@@ -57,4 +58,4 @@ def _latched_depth(topic: TopicInfo) -> int:
     kept = sum(depths) if all(depths) else topic.message_count
     if topic.type == "tf2_msgs/msg/TFMessage":  # each message may bring other frames
         kept = topic.message_count
-    return max(_DEFAULT_DEPTH, min(kept, topic.message_count))
+    return min(max(_DEFAULT_DEPTH, kept), topic.message_count) or _DEFAULT_DEPTH

@@ -13,10 +13,10 @@ from rosbag2_transport.progress import ProgressLine, bytes_text, time_text
 from rosbag2_transport.recorder import Recorder
 from rosbag2_transport.recorder_services import RecorderServices
 from rosbag2_transport.session import Session, handle_keys, stopped_by_signals
-from rosbag2_transport.topic_filter import check_patterns
+from rosbag2_transport.topic_filter import EVENT_TOPIC, check_patterns
 from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
-from turtlewire.wire.names import validate_node_name
+from turtlewire.wire.names import validate_node_name, validate_topic_name
 
 if TYPE_CHECKING:
     import queue
@@ -51,6 +51,7 @@ def record(
         RuntimeError: An option is wrong, or the bag could not be written any more.
     """
     check_patterns(options)
+    _check_names(options)
     if snapshot and not cache_bytes:
         raise RuntimeError("Max cache size must be greater than 0 when snapshot mode is enabled")
     name = options.node_prefix + node_name
@@ -67,6 +68,15 @@ def record(
         )
         at_end.callback(_finish, recording, writer)
         _run(session, recording, writer, options, stop, snapshot)
+
+
+def _check_names(options: RecordOptions) -> None:
+    """Refuse what no topic or service can be called; it would be waited for in vain."""
+    for kind, names in (("topic", options.topics), ("service", options.services)):
+        for name in (each.removesuffix(EVENT_TOPIC) for each in names):
+            if fault := validate_topic_name(name):
+                text = fault.message.replace("topic", kind, 1)
+                raise RuntimeError(f"'{name}' cannot be the name of a {kind}: {text}")
 
 
 def _finish(recording: Recording, writer: BagWriter) -> None:
@@ -97,7 +107,8 @@ def _run(
     logger = session.node.get_logger()
     recorder = Recorder(session.node, recording, options)
     services = RecorderServices(session.node, recorder, recording, snapshot=snapshot)
-    writer.on_split = lambda closed, opened: _split(services, writer, closed, opened)
+    writer.on_split = lambda closed, opened: _split(services, closed, opened)
+    writer.on_compress = _say_that_it_compresses
     with handle_keys({b" ": recorder.toggle_paused}, not options.disable_keyboard_controls):
         if not options.disable_keyboard_controls:
             logger.info("Press SPACE for pausing/resuming")
@@ -112,16 +123,12 @@ def _run(
     recorder.stop()  # takes what has arrived, which a pause would drop
     recorder.pause()
     _say_that_it_writes()
-    if writer.metadata.compression_mode == "FILE":
-        _say_that_it_compresses(writer.file_path)
     logger.info("Event publisher thread: Exiting")
     logger.info("Recording stopped")
 
 
-def _split(services: RecorderServices, writer: BagWriter, closed: str, opened: str) -> None:
+def _split(services: RecorderServices, closed: str, opened: str) -> None:
     _say_that_it_writes()
-    if writer.metadata.compression_mode == "FILE":
-        _say_that_it_compresses(closed.removesuffix(".zstd"))
     services.report_split(closed, opened)
 
 

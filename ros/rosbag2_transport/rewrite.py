@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import shutil
 import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -43,7 +44,7 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
 
     Args:
         inputs: Open bags.
-        outputs: They are closed at the end.
+        outputs: They are closed at the end; Ctrl-C removes them, because half a bag looks whole.
 
     Raises:
         RuntimeError: A pattern is no regular expression.
@@ -64,9 +65,23 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> None:
                     if message.topic in topics and _is_in_time(output, message.log_time_ns):
                         output.writer.write(*_fields(message))
                 done += 1
+    except KeyboardInterrupt:
+        _discard(outputs, done)
+        raise
     finally:
         for output in outputs:
             output.writer.close()
+
+
+def _discard(outputs: Sequence[Output], done: int) -> None:
+    """Remove the bags of an interrupted conversion, and tell it."""
+    for output in outputs:
+        output.writer.close()
+        shutil.rmtree(output.writer.path)
+    paths = ", ".join(output.writer.path for output in outputs)
+    get_logger("rosbag2_transport").warning(
+        f"Interrupted after {done} messages: what was converted is incomplete and removed ({paths})"
+    )
 
 
 def _progress(done: int, expected: int, seconds: float) -> str:

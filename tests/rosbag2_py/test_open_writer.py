@@ -78,3 +78,14 @@ def test_presets_of_another_storage(tmp_path, capfd):
     assert "sqlite3 has no preset profile 'zstd_fast', which is ignored" in capfd.readouterr().err
     with pytest.raises(RuntimeError, match="Please provide a value greater than 1024"):
         write(tmp_path / "four", max_bagfile_size=1000)
+
+
+def test_a_format_that_nothing_converts_is_refused(tmp_path):
+    unknown = rosbag2_py.ConverterOptions("cdr", "xml")
+    bag = rosbag2_py.StorageOptions(uri=str(write(tmp_path / "bag")))
+    with pytest.raises(RuntimeError, match="Could not find converter for format xml"):
+        rosbag2_py.SequentialReader().open(bag, unknown)
+    new = rosbag2_py.StorageOptions(uri=str(tmp_path / "new"))
+    with pytest.raises(RuntimeError, match="Could not find converter for format xml"):
+        rosbag2_py.SequentialWriter().open(new, unknown)
+    assert not (tmp_path / "new").exists()

@@ -142,6 +142,24 @@ def test_one_that_joins_late_gets_all_static_transforms(peer, bag_verb):
     assert end(player) == 0
 
 
+def test_rounds_of_a_loop_do_not_pile_up_for_one_that_joins_late(peer, bag_verb):
+    early = peer.listen("/latched", LATCHED)
+    topics = ("--topics", "/latched", "/tf_static")
+    player, name = bag_verb("play", SMALL, "-l", "-r", "50", *topics), "/rosbag2_player"
+    peer.wait_for(lambda: len(early) >= 8)
+    peer.call(srv.Pause, f"{name}/pause")
+    peer.call(srv.Burst, f"{name}/burst")  # to the end of the round
+    words, leaves = (
+        peer.listen(topic, LATCHED, type_)
+        for topic, type_ in (("/latched", String), ("/tf_static", TFMessage))
+    )
+    peer.wait_for(lambda: len(words) >= 2 and len(leaves) >= 13)
+    peer.call(srv.Stop, f"{name}/stop")
+    assert player.wait() == 0
+    assert list(map(content, words)) == ALL_LATCHED["/latched"]
+    assert list(map(content, leaves)) == LEAVES
+
+
 def write_latched(path, **options):
     """A bag of 4 s: `/word` was sent before it began, and again in its third second."""
     with BagWriter(path, **options) as writer:

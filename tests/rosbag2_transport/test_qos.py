@@ -56,6 +56,7 @@ def test_new_publishers_that_do_not_fit_are_told():
     [
         ("tf2_msgs/msg/TFMessage", [LATCHED], 250, 250),  # each may bring other frames
         ("nav_msgs/msg/OccupancyGrid", [LATCHED], 250, 10),
+        ("nav_msgs/msg/OccupancyGrid", [LATCHED], 2, 2),  # rounds of a loop do not pile up
         ("nav_msgs/msg/OccupancyGrid", [LATCHED] * 30, 250, 30),
         ("std_msgs/msg/String", [PLAIN._replace(depth=500)], 250, 10),
     ],

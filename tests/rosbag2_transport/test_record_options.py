@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import re
 from datetime import timedelta
 
 import pytest
@@ -264,3 +265,35 @@ def test_simulated_time_splits_compression_and_overrides(peer, bag_verb, tmp_pat
         assert [file.message_count for file in bag.metadata.files] == [2, 1, 1]
         found = [(m.decode().data, m.log_time_ns // 10**9) for m in bag.messages("/word")]
     assert found == [(f"at {second}", second) for second in seconds]
+
+
+@pytest.mark.parametrize(
+    ("option", "told"),
+    [
+        ("--topics", "'/bad name' cannot be the name of a topic: topic name must not contain"),
+        ("--services", "'/bad name' cannot be the name of a service: service name must not"),
+    ],
+)
+def test_a_name_that_cannot_be_is_refused(bag_verb, tmp_path, option, told):
+    recorder = bag_verb("record", "-o", "out", "--disable-keyboard-controls", option, "/bad name")
+    recorder.wait_for(told)
+    assert recorder.wait() == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_each_file_is_told_when_it_is_compressed_also_at_the_end(bag_verb, tmp_path, peer):
+    word = peer.publisher("/word")
+    recorder = bag_verb(
+        *("record", "-o", "out", "--topics", "/word", "--disable-keyboard-controls"),
+        *("--max-bag-size", "2000", "--compression-mode", "file", "--compression-format", "zstd"),
+    )
+    recorder.wait_for("All requested topics are subscribed")
+    peer.heard(word)
+    for _ in range(40):
+        word.publish(String(data="x" * 1000))
+    assert word.wait_for_all_acked()
+    assert end(recorder) == 0
+    with open_bag(tmp_path / "out") as bag:
+        files = [path.removesuffix(".zstd") for path in bag.metadata.paths]
+    told = re.findall(r"Compressing file: .*/(out_\d+\.mcap)\s", recorder.text + "\n")
+    assert told == files

@@ -67,6 +67,7 @@ class BagWriter:
         metadata: What the finished files hold.
         on_split: Called with the paths of the finished and of the new file when a file begins
             because the one before has its size or lasts long enough.
+        on_compress: Called with the path of a finished file before it is compressed as a whole.
 
     Raises:
         FileExistsError: ``path`` exists.
@@ -112,6 +113,7 @@ class BagWriter:
             "checksums": checksums,
         }
         self.on_split: Callable[[str, str], None] | None = None
+        self.on_compress: Callable[[str], None] | None = None
         self._max_file_bytes = max_file_bytes
         self._max_file_ns = max_file_ns
         self._splits = bool(max_file_bytes or max_file_ns)
@@ -329,6 +331,8 @@ class BagWriter:
         finally:
             file.close()
         if self.metadata.compression_mode == "FILE":
+            if self.on_compress is not None:
+                self.on_compress(file.path)
             write_zstd_file(file.path, file.path + ".zstd")
             os.remove(file.path)
             self.metadata.paths[-1] += ".zstd"
