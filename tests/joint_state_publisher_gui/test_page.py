@@ -69,6 +69,15 @@ def test_a_value_is_typed_in_the_unit_that_is_shown(gui, open_page):
     wait_for_value(page, "lift", "0.500")
 
 
+def test_an_angle_of_more_than_half_a_turn_is_typed_for_an_endless_joint(gui, open_page):
+    page = open_page(gui.screen.url)
+    page.get_by_role("button", name="Degrees").click()
+    value(page, "swivel").fill("270")
+    value(page, "swivel").press("Enter")
+    assert gui.next_command() == Set("swivel", pytest.approx(-math.pi / 2))
+    wait_for_value(page, "swivel", "-90.0")
+
+
 def test_nonsense_in_a_field_changes_nothing(gui, open_page):
     page = open_page(gui.screen.url)
     value(page, "elbow").fill("")
@@ -136,6 +145,28 @@ def test_search(gui, open_page):
     page.keyboard.type("W i")
     assert page.locator(".joint:visible").count() == 3
     assert page.locator("#count").inner_text() == "3 of 5 joints"
+
+
+def test_a_slash_searches_after_a_slider_was_used(gui, open_page):
+    page = open_page(gui.screen.url)
+    row(page, "elbow").locator("input[type=range]").focus()
+    page.keyboard.type("/elb")
+    assert page.locator("#search").input_value() == "elb"
+
+
+def test_a_robot_without_joints_is_not_waited_for(gui, open_page):
+    page = open_page(gui.screen.url)
+    row(page, "elbow").wait_for()
+    gui.sliders.show(JointSet("rock"))
+    gui.screen.update()
+    page.get_by_text("The robot rock has no joints to move.").wait_for()
+    assert page.locator("#empty:visible").count() == 0
+    for name in ("Randomize", "Center", "Play"):
+        assert page.get_by_role("button", name=name).is_disabled()
+    gui.sliders.show(gui.joints)
+    gui.screen.update()
+    page.wait_for_selector("#rigid", state="hidden")
+    assert page.get_by_role("button", name="Play").is_enabled()
 
 
 def test_another_robot_replaces_the_joints(gui, open_page):

@@ -84,7 +84,7 @@ export class JointRow {
     this.#value.setAttribute("aria-label", `value of ${this.#joint.name}`);
     this.#value.onchange = () => {
       const position = this.#value.valueAsNumber / this.#unit.scale;
-      if (Number.isFinite(position)) this.#change(position);
+      if (Number.isFinite(position)) this.#changeEndlessly(position);
       this.show(this.#position, true);
     };
     box.append(this.#value, this.#unitName);
@@ -156,9 +156,13 @@ export class JointRow {
   }
 
   #nudge(side) {
-    const { minimum, maximum, kind } = this.#joint;
-    const position = this.#position + side * NUDGE * (maximum - minimum);
-    this.#change(kind === "continuous" ? wrapped(position) : position);
+    const { minimum, maximum } = this.#joint;
+    this.#changeEndlessly(this.#position + side * NUDGE * (maximum - minimum));
+  }
+
+  /** An endless joint takes any angle; others stop at their limits. */
+  #changeEndlessly(position) {
+    this.#change(this.#joint.kind === "continuous" ? wrapped(position) : position);
   }
 
   #change(position) {

@@ -34,7 +34,10 @@ function takeJoints({ version: newVersion, node, robot, joints }) {
   rows = joints.map((joint) => new JointRow(joint, (position) => set(joint.name, position)));
   rows.forEach((row) => row.setUnit(degrees));
   part.joints.replaceChildren(...rows.map((row) => row.element));
-  part.empty.hidden = joints.length > 0;
+  part.empty.hidden = Boolean(robot) || joints.length > 0;
+  part.rigid.hidden = !robot || joints.length > 0;
+  part.rigid.textContent = `The robot ${robot} has no joints to move.`;
+  for (const button of [part.randomize, part.center, part.play]) button.disabled = !joints.length;
   part.help.hidden = !joints.some(({ mimic }) => mimic === null);
   search();
 }
@@ -89,7 +92,7 @@ for (const type of ["pointerup", "pointercancel", "blur"]) {
   addEventListener(type, () => (held = null));
 }
 addEventListener("keydown", (event) => {
-  if (event.key !== "/" || event.target.matches("input")) return;
+  if (event.key !== "/" || event.target.matches("input:not([type=range])")) return;
   event.preventDefault();
   part.search.focus();
 });
