@@ -20,7 +20,12 @@ def generate_launch_description() -> LaunchDescription:
             Node(
                 package="robot_state_publisher",
                 executable="robot_state_publisher",
-                parameters=[{"robot_description": ParameterValue(xacro, value_type=str)}],
+                parameters=[
+                    {
+                        "robot_description": ParameterValue(xacro, value_type=str),
+                        "publish_frequency": 100.0,  # the program sends 25 states a second
+                    }
+                ],
             ),
             ExecuteProcess(
                 cmd=[sys.executable, PathJoinSubstitution([here, "walker.py"])],

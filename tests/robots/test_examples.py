@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import math
+import re
 import signal
 import sys
 from pathlib import Path
@@ -43,6 +45,16 @@ def test_the_rover_drives(run):
     launch.wait()
     assert "Traceback" not in launch.text
     assert launch.survivors() == []
+
+
+@pytest.mark.parametrize("robot", ["walker", "rover"])
+def test_all_joint_states_are_published(robot):
+    """robot_state_publisher's default, 20 a second, would drop some and log that it does."""
+    period = importlib.import_module(robot).PERIOD
+    text = (ROBOTS / f"{robot}.launch.py").read_text()
+    frequency = re.search(r'"publish_frequency": ([\d.]+)', text)
+    assert frequency is not None
+    assert float(frequency[1]) >= 2 / period
 
 
 def test_a_rover_that_turns_drives_a_circle():
