@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from xml.etree.ElementTree import ParseError
 
 from joint_state_publisher.joints import FreeJoint, JointSet, Mimic
+from turtlewire.urdf.faults import XACRO_LEFT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -72,6 +73,7 @@ def read_joints(text: str, options: Options, warn: Callable[[str], None]) -> Joi
         if element.get("type", "") not in _SKIPPED_IN_URDF:
             _add_urdf_joint(joints, element, options)
     _free_mimics_of_nothing(joints, robot, options, warn)
+    _warn_of_oddities(joints, root, warn)
     return joints
 
 
@@ -148,6 +150,17 @@ def _free_mimics_of_nothing(
             )
             del joints.mimics[name]
             joints.free[name] = _urdf_free_joint(elements[name], options)
+
+
+def _warn_of_oddities(joints: JointSet, root: Element, warn: Callable[[str], None]) -> None:
+    if any(element.tag.partition("}")[0].endswith("/xacro") for element in root.iter()):
+        warn(XACRO_LEFT)
+    for joint in joints.free.values():
+        if joint.minimum > joint.maximum:
+            warn(
+                f"Joint '{joint.name}' cannot move: its lower limit, {joint.minimum:g}, is above "
+                f"its upper limit, {joint.maximum:g}."
+            )
 
 
 def _read_sdf(root: Element, options: Options) -> JointSet:

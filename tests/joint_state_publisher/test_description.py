@@ -8,6 +8,7 @@ import pytest
 
 from joint_state_publisher.description import DescriptionError, Options, read_joints
 from joint_state_publisher.joints import Mimic
+from turtlewire.urdf.faults import XACRO_LEFT
 
 LIMIT = '<limit lower="-1" upper="2" effort="1" velocity="3"/>'
 
@@ -39,6 +40,21 @@ def test_joints_that_do_not_move_are_left_out_and_the_order_is_the_files():
     assert joints.robot == "r"
     assert (joints.free["b"].minimum, joints.free["b"].maximum) == (-math.pi, math.pi)
     assert joints.free["z"].max_velocity == 3.0
+
+
+def test_elements_of_xacro_and_limits_the_wrong_way_round_are_warnings():
+    warnings: list[str] = []
+    text = (
+        "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><link name='a'/>"
+        "<xacro:macro name='leg'/><xacro:leg/>"
+        + joint("j", "revolute", '<limit lower="2" upper="1"/>')
+        + "</robot>"
+    )
+    read_joints(text, Options({}, {}), warnings.append)
+    assert warnings == [
+        XACRO_LEFT,
+        "Joint 'j' cannot move: its lower limit, 2, is above its upper limit, 1.",
+    ]
 
 
 def test_start_values():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from turtlewire.urdf import Mimic, Pose, UrdfError, load_urdf, parse_urdf
 from turtlewire.urdf.elements import MAX_DEPTH
-from turtlewire.urdf.faults import log_lines
+from turtlewire.urdf.faults import XACRO_LEFT, log_lines
 from turtlewire.urdf.model import Box, Cylinder, JointLimits, Mesh
 from turtlewire.urdf.values import as_number
 
@@ -157,9 +157,32 @@ def test_robots_that_urdfdom_refuses():
 
 def test_an_unknown_material_is_a_warning():
     visual = '<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>'
-    found = parse_urdf(robot("", f'<link name="l">{visual}</link>'))
+    found = parse_urdf(robot("", f'<link name="l">\n\n{visual}</link>'))
     assert [warning.text for warning in found.warnings] == ["link 'l' material 'm' undefined."]
-    assert found.warnings[0].line == 3
+    assert found.warnings[0].place == 'line 5 in <visual> in <link name="l">'
+
+
+def test_elements_of_xacro_are_one_warning():
+    left = '<xacro:macro name="leg"/>\n<xacro:leg/>'
+    found = parse_urdf(robot("", f'<link name="l"/>\n{left}'))
+    assert [warning.text for warning in found.warnings] == [XACRO_LEFT]
+    assert "xacro FILE" in XACRO_LEFT
+    assert found.warnings[0].place == 'line 4 in <xacro:macro name="leg">'
+
+
+def test_limits_the_wrong_way_round_are_a_warning():
+    ends = '<parent link="a"/><child link="b"/><limit lower="2" upper="1" effort="1" velocity="1"/>'
+    links = '<link name="a"/><link name="b"/>'
+    for kind, number in (("revolute", 1), ("prismatic", 1), ("continuous", 0)):
+        found = parse_urdf(robot("", f'{links}<joint name="j" type="{kind}">{ends}</joint>'))
+        assert len(found.warnings) == number
+        for warning in found.warnings:
+            assert "its lower limit, 2, is above its upper limit, 1" in warning.text
+
+
+def test_what_is_no_text():
+    with pytest.raises(TypeError, match="str or bytes, got NoneType; a file: load_urdf"):
+        parse_urdf(None)
 
 
 def test_a_material_of_the_robot_colours_its_visuals():

@@ -12,8 +12,13 @@ from turtlewire.printable import printable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["UrdfError", "UrdfWarning", "log_lines", "reported"]
+__all__ = ["XACRO_LEFT", "UrdfError", "UrdfWarning", "log_lines", "reported"]
 
+#: The warning of a description in which elements of xacro are left.
+XACRO_LEFT = (
+    "The description has elements of xacro, which are ignored, and so are the links and joints that"
+    " xacro makes of them. Expand it first: xacro FILE > robot.urdf"
+)
 
 _LONGEST = 1000
 
@@ -47,10 +52,10 @@ class UrdfError(TurtlewireError, ValueError):
 
 @dataclass(frozen=True, slots=True)
 class UrdfWarning:
-    """Something that urdfdom warns of and accepts.
+    """Something odd that urdfdom accepts.
 
     Attributes:
-        text: urdfdom's text.
+        text: urdfdom's text; ours where urdfdom is silent.
         line: The line of the element.
         element: The element.
     """

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.urdf.bodies import read_link, read_material
 from turtlewire.urdf.elements import Element, parse_xml
-from turtlewire.urdf.faults import UrdfError, UrdfWarning, reported
+from turtlewire.urdf.faults import XACRO_LEFT, UrdfError, UrdfWarning, reported
 from turtlewire.urdf.joints import read_joint
 from turtlewire.urdf.model import Robot
 from turtlewire.urdf.tree import root_of
@@ -15,10 +15,13 @@ from turtlewire.urdf.values import as_number
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterator
 
     from turtlewire.urdf.model import Joint, Link, Material, Visual
 
 __all__ = ["load_urdf", "parse_urdf"]
+
+_LIMITED = frozenset({"revolute", "prismatic"})
 
 
 def load_urdf(path: str | os.PathLike[str]) -> Robot:
@@ -42,9 +45,13 @@ def parse_urdf(text: str | bytes) -> Robot:
         text: The XML; for xacro files, what ``xacro`` makes of them.
 
     Raises:
+        TypeError: ``text`` is neither str nor bytes.
         UrdfError: urdfdom refuses the description, or the links are no tree, or the XML declares
             entities. ``line`` and ``element`` of the error say where.
     """
+    if not isinstance(text, (str, bytes)):
+        got = type(text).__name__
+        raise TypeError(f"parse_urdf takes the XML as str or bytes, got {got}; a file: load_urdf")
     if not text.strip():
         raise UrdfError("The description is empty")
     root = parse_xml(text)
@@ -54,14 +61,25 @@ def parse_urdf(text: str | bytes) -> Robot:
     if name is None:
         raise root.error("No name given for the robot.")
     _check_version(root)
-    warnings: list[UrdfWarning] = []
+    warnings = [*_xacro_left(root)]
     materials = _materials(root, warnings)
     links = _links(root, materials, warnings)
     if not links:
         raise root.error("No link elements found in urdf file")
-    joints = _joints(root)
+    joints = _joints(root, warnings)
     top = root_of(root, links, joints)
     return Robot(name, links, joints, materials, top, tuple(warnings))
+
+
+def _xacro_left(root: Element) -> Iterator[UrdfWarning]:
+    """A warning at the first element of xacro: urdfdom ignores what xacro would make of it."""
+    left = [root]
+    while left:
+        element = left.pop()
+        if element.tag.startswith("xacro:"):
+            yield UrdfWarning(XACRO_LEFT, element.line, element.described())
+            return
+        left += reversed(element.children)
 
 
 def _check_version(root: Element) -> None:
@@ -99,14 +117,19 @@ def _links(
         if link.name in found:
             raise element.error(f"link '{link.name}' is not unique.")
         visuals = tuple(
-            _with_material(visual, element, materials, warnings) for visual in link.visuals
+            _with_material(visual, part, link.name, materials, warnings)
+            for visual, part in zip(link.visuals, element.all("visual"), strict=True)
         )
         found[link.name] = replace(link, visuals=visuals) if visuals else link
     return found
 
 
 def _with_material(
-    visual: Visual, link: Element, materials: dict[str, Material], warnings: list[UrdfWarning]
+    visual: Visual,
+    element: Element,
+    link: str,
+    materials: dict[str, Material],
+    warnings: list[UrdfWarning],
 ) -> Visual:
     """The visual with the colour of the material of that name; its own material wins."""
     material = visual.material
@@ -117,12 +140,12 @@ def _with_material(
         return visual
     if material.name in materials:
         return replace(visual, material=materials[material.name])
-    text = f"link '{link.get('name')}' material '{material.name}' undefined."
-    warnings.append(UrdfWarning(text, link.line, link.described()))
+    text = f"link '{link}' material '{material.name}' undefined."
+    warnings.append(UrdfWarning(text, element.line, element.described()))
     return visual
 
 
-def _joints(root: Element) -> dict[str, Joint]:
+def _joints(root: Element, warnings: list[UrdfWarning]) -> dict[str, Joint]:
     found: dict[str, Joint] = {}
     for element in root.all("joint"):
         with reported("joint xml is not initialized correctly"):
@@ -130,4 +153,11 @@ def _joints(root: Element) -> dict[str, Joint]:
         if joint.name in found:
             raise element.error(f"joint '{joint.name}' is not unique.")
         found[joint.name] = joint
+        limits = joint.limits
+        if joint.type in _LIMITED and limits is not None and limits.lower > limits.upper:
+            text = (
+                f"joint '{joint.name}' cannot move: its lower limit, {limits.lower:g}, is above its"
+                f" upper limit, {limits.upper:g}"
+            )
+            warnings.append(UrdfWarning(text, element.line, element.described()))
     return found
