@@ -206,6 +206,8 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
         ("bag tf nothing", "there is no bag at nothing"),
         ("doctor nothing", "there is no bag at nothing"),
         ("doctor BAG --listen 2", "a bag is not listened to"),
+        ("doctor --topic /r1/tf", "are of a bag: name one"),
+        ("trajectory BAG /odom --topic /r1/tf", "tell where transforms are: name two frames"),
     ],
 )
 def test_mistakes(capsys, bag, words, text):
@@ -232,7 +234,8 @@ def test_the_doctor_finds_on_a_bag_what_it_finds_live(capsys):
         "PROBLEM: Transforms of 'nozzle' are refused: 1 nan_value.",
         "note: 'pump' leaves its parent 'nozzle' for 'ladder' at 1795317835.382 s.",
         "note: 'scarecrow' pauses once, for up to 3.328 s.",
-        "note: The newest transform of 'weathercock' is 3.1 s old.",
+        "note: The newest transform of 'weathercock' is 3.1 s old at the end of the bag.",
+        "    Its publisher ended before the recording",
         "note: The frame 'drone' leaps by up to 0.5 m between transforms.",
     ):
         assert text in done.out
@@ -290,6 +293,29 @@ def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tm
     assert out.startswith("both: 2 messages of /tf (publishers unknown), /tf_static (publ")
     assert "wheel   static and one stamp" in out
     assert "0.0 Hz" not in out
+
+
+def test_transforms_on_other_topics(capsys, tmp_path):
+    bag = tmp_path / "r1"
+    with BagWriter(bag) as writer:
+        for topic in ("/r1/tf", "/r1/tf_static"):
+            writer.add_topic(topic, "tf2_msgs/msg/TFMessage")
+        for i in range(20):
+            writer.write("/r1/tf", transform(i), START + i * 10_000_000)
+        writer.write("/r1/tf_static", transform(0, "base_link", "wheel"), START)
+    done = run(capsys, "doctor", bag)
+    options = ("--topic", "/r1/tf", "--static-topic", "/r1/tf_static")
+    assert "The bag has transforms on /r1/tf, /r1/tf_static, which are not examined." in done.out
+    assert f"turtlewire doctor {bag} {' '.join(options)}\n" in done.out
+    assert run(capsys, "doctor", bag, *options).out == "No problems found.\n"
+    wrong = run(capsys, "doctor", bag, "--topic", "/r2/tf")
+    assert (wrong.status, "none of the topics /r2/tf, /tf_static" in wrong.out) == (1, True)
+    done = run(capsys, "trajectory", bag, "odom", "wheel", *options)
+    assert (done.status, "  poses     20\n" in done.out) == (0, True)
+    source = f"{bag}:odom:wheel"
+    assert run(capsys, "compare", source, source, *options).status == 0
+    done = run(capsys, "compare", source, source)
+    assert (done.status, "in it: /r1/tf, /r1/tf_static." in done.err) == (2, True)
 
 
 def test_the_doctor_names_a_loop_in_a_bag(capsys, tmp_path):

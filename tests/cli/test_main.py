@@ -64,8 +64,12 @@ def offered(line, answers):
     [
         ("turtlewire ", ["--version", "bag", "compare", "doctor", "frames", "trajectory"]),
         ("turtlewire d", ["doctor"]),
-        ("turtlewire doctor --", ["--json", "--listen"]),
-        ("turtlewire doctor ", ["--json", "--listen", "my_bag/"]),  # and no other files
+        ("turtlewire doctor --", ["--json", "--listen", "--static-topic", "--topic"]),
+        ("turtlewire doctor --l", ["--listen"]),
+        (
+            "turtlewire doctor ",  # bags, and no other files
+            ["--json", "--listen", "--static-topic", "--topic", "my_bag/"],
+        ),
         ("turtlewire frames --p", ["--period"]),
     ],
 )

@@ -12,7 +12,13 @@ from turtlewire.cli.parser import seconds
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["add_bag_commands", "complete_bags", "reporting_errors"]
+__all__ = [
+    "add_bag_commands",
+    "add_tf_topics",
+    "complete_bags",
+    "reporting_errors",
+    "tf_topics",
+]
 
 _FORMATS = ("tum", "kitti", "euroc", "csv")
 _ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
@@ -48,17 +54,30 @@ def _add_bag(commands: Any) -> None:
     summary = "Show the tree of frames of a bag: rates, times, gaps, and what looks wrong"
     tf = verbs.add_parser("tf", help=summary, description=summary, allow_abbrev=False)
     _add_file(tf, "file", "BAG", "A folder, a .mcap or a .db3 file")
-    tf.add_argument(
-        "--topic", action="append", metavar="T", help="Where transforms are (default: /tf)"
+    add_tf_topics(tf)
+    tf.add_argument("--json", action="store_true", help="Print one JSON object")
+    tf.set_defaults(run=reporting_errors("bag tf", _bag_tf), parser=tf)
+
+
+def add_tf_topics(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where the transforms of a bag are; `tf_topics` reads them."""
+    parser.add_argument(
+        "--topic",
+        action="append",
+        metavar="T",
+        help="Where the transforms of a bag are (default: /tf)",
     )
-    tf.add_argument(
+    parser.add_argument(
         "--static-topic",
         action="append",
         metavar="T",
-        help="Where static transforms are (default: /tf_static)",
+        help="Where the static transforms of a bag are (default: /tf_static)",
     )
-    tf.add_argument("--json", action="store_true", help="Print one JSON object")
-    tf.set_defaults(run=reporting_errors("bag tf", _bag_tf), parser=tf)
+
+
+def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
+    """Where transforms and where static ones are; a text is the name that stands by default."""
+    return args.topic or "/tf", args.static_topic or "/tf_static"
 
 
 def _add_trajectory(commands: Any) -> None:
@@ -91,6 +110,7 @@ def _add_trajectory(commands: Any) -> None:
         metavar="S",
         help="Longer pauses are gaps (default: ten times the median pause, at least 0.5)",
     )
+    add_tf_topics(parser)
     plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
     plot.completer = _complete_any
     parser.add_argument(
@@ -123,6 +143,7 @@ def _add_compare(commands: Any) -> None:
         help="What is measured (default: %(default)s)",
     )
     _add_pairing(parser)
+    add_tf_topics(parser)
     plot = parser.add_argument("--plot", metavar="FILE.svg", help="Draw it")
     plot.completer = _complete_any
     parser.add_argument(
@@ -239,8 +260,7 @@ def _text_of(error: Exception) -> str:
 def _bag_tf(args: argparse.Namespace) -> int:
     from turtlewire.cli.bag_tf import show_transforms
 
-    topics, static = args.topic or "/tf", args.static_topic or "/tf_static"
-    print(show_transforms(args.file, topics, static, as_json=args.json))
+    print(show_transforms(args.file, *tf_topics(args), as_json=args.json))
     return 0
 
 
@@ -249,6 +269,8 @@ def _trajectory(args: argparse.Namespace) -> int:
 
     if len(args.names) > 2:
         args.parser.error(f"expected a topic or two frames, got {len(args.names)} names")
+    if (args.topic or args.static_topic) and len(args.names) != 2:
+        args.parser.error("--topic and --static-topic tell where transforms are: name two frames")
     return run_trajectory(args)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from turtlewire.bag import load_transforms, open_bag
 from turtlewire.cli.finding import Finding, note, problem
-from turtlewire.cli.tf_findings import traffic_findings
+from turtlewire.cli.tf_findings import recorded_findings
 from turtlewire.cli.tf_traffic import FASTEST_M_S, JITTER_NS, LEAP_M, TfTraffic
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability
@@ -22,7 +22,9 @@ __all__ = ["examine_bag"]
 
 _REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; what is whole is read without it, too."
 _DAMAGED = "What is whole was read. Copy the file again, or record again."
-_NO_TF = "Record /tf and /tf_static, or name other topics: turtlewire bag tf --topic T {}"
+_NO_TF = "Record /tf and /tf_static."
+_OTHER_TF = "To examine them: turtlewire doctor {} {}"
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _LATCH = (
     "Its publisher is not transient_local, so listeners that came late, the recorder too, may lack "
     "transforms: use a StaticTransformBroadcaster."
@@ -36,28 +38,64 @@ _GAP = "Lookups within a gap interpolate across it; trajectories leave it out."
 _FOREIGN = "Another type is published on the topic, or the recorder was cut off."
 
 
-def examine_bag(path: str) -> list[Finding]:
+def examine_bag(
+    path: str,
+    topics: str | list[str] = "/tf",
+    static_topics: str | list[str] = "/tf_static",
+) -> list[Finding]:
     """Examine a bag and its transforms.
+
+    Args:
+        path: The bag.
+        topics: Where transforms were published.
+        static_topics: Where static transforms were published.
 
     Raises:
         BagError: It is no bag.
         OSError: It cannot be read.
     """
     found = []
+    moving, fixed = _names(topics), _names(static_topics)
     with open_bag(path) as bag:
         end_ns = bag.end_ns
-        found += _bag_findings(bag, path)
-        has_tf = {"/tf", "/tf_static"} & bag.topics.keys()
-        if not has_tf:
+        found += _bag_findings(bag, path, fixed)
+        found += _other_transforms(bag, path, {*moving, *fixed})
+        if (topics, static_topics) == ("/tf", "/tf_static") and not _has_tf(bag):
             unread = [text for path in bag.metadata.paths for text in _unreadable(bag, path)]
             found += [problem(text, _DAMAGED) for text in (*bag.problems, *unread)]
-            return [*found, note("The bag has no transforms.", _NO_TF.format(path))]
+            if not _tf_topics(bag):
+                found.append(note("The bag has no transforms.", _NO_TF))
+            return found
     try:
-        buffer, report = load_transforms(path)
+        buffer, report = load_transforms(path, topics=topics, static_topics=static_topics)
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
     found += [problem(text, _DAMAGED) for text in report.problems]
-    return [*found, *_report_findings(report), *traffic_findings(_traffic(buffer, report, end_ns))]
+    return [*found, *_report_findings(report), *recorded_findings(_traffic(buffer, report, end_ns))]
+
+
+def _names(topics: str | list[str]) -> list[str]:
+    return [topics] if isinstance(topics, str) else topics
+
+
+def _has_tf(bag: Bag) -> bool:
+    return not {"/tf", "/tf_static"}.isdisjoint(bag.topics)
+
+
+def _tf_topics(bag: Bag) -> list[str]:
+    return sorted(name for name, topic in bag.topics.items() if topic.type == _TF_TYPE)
+
+
+def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
+    """A note of the topics with transforms that are not examined, and how they are."""
+    others = [name for name in _tf_topics(bag) if name not in read]
+    if not others:
+        return []
+    options = " ".join(
+        f"{'--static-topic' if name.endswith('_static') else '--topic'} {name}" for name in others
+    )
+    text = f"The bag has transforms on {', '.join(others)}, which are not examined."
+    return [note(text, _OTHER_TF.format(path, options))]
 
 
 def _unreadable(bag: Bag, path: str) -> list[str]:
@@ -69,19 +107,17 @@ def _unreadable(bag: Bag, path: str) -> list[str]:
     return []
 
 
-def _bag_findings(bag: Bag, path: str) -> list[Finding]:
+def _bag_findings(bag: Bag, path: str, fixed: list[str]) -> list[Finding]:
     found = []
     if os.path.isdir(path) and not os.path.exists(os.path.join(path, "metadata.yaml")):
         found.append(note("The bag has no metadata.yaml.", _REINDEX.format(path)))
     if bag.part_of:
         text = f"{os.path.basename(path)} is one of several files of the bag {bag.part_of}."
         found.append(note(text, _PART.format(bag.part_of)))
-    static = bag.topics.get("/tf_static")
-    volatile = (
-        [qos for qos in static.qos if qos.durability == Durability.VOLATILE] if static else []
-    )
-    if volatile:
-        found.append(problem("/tf_static was published as volatile.", _LATCH))
+    for name in fixed:
+        offered = bag.topics[name].qos if name in bag.topics else []
+        if any(qos.durability == Durability.VOLATILE for qos in offered):
+            found.append(problem(f"{name} was published as volatile.", _LATCH))
     return found
 
 

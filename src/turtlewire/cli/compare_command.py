@@ -6,6 +6,7 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.cli.bag_commands import tf_topics
 from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
 from turtlewire.printable import printable
 from turtlewire.trajectory import (
@@ -35,7 +36,7 @@ def run_compare(args: argparse.Namespace) -> int:
         TransformException: Frames are unknown or not connected.
         ValueError: No stamps match, or the alignment is not possible.
     """
-    reader = TrajectoryReader()
+    reader = TrajectoryReader(*tf_topics(args))
     source = parse_source(args.reference)
     reference = reader.read(source)
     compared: dict[str, Comparison] = {}

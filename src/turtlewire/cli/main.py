@@ -8,7 +8,13 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
+from turtlewire.cli.bag_commands import (
+    add_bag_commands,
+    add_tf_topics,
+    complete_bags,
+    reporting_errors,
+    tf_topics,
+)
 from turtlewire.cli.parser import Parser, seconds
 from turtlewire.cli.pipes import leave_pipe
 
@@ -69,6 +75,7 @@ def _add_doctor(commands: Any) -> None:
         "bag", nargs="?", metavar="BAG", help="Examine this bag, and no network"
     )
     bag.completer = complete_bags
+    add_tf_topics(parser)
     parser.add_argument(
         "--listen",
         type=seconds,
@@ -130,13 +137,15 @@ def _doctor(args: argparse.Namespace) -> int:
     from turtlewire.cli.doctor import as_json, examine, report
 
     if args.bag is None:
+        if args.topic or args.static_topic:
+            args.parser.error("--topic and --static-topic are of a bag: name one")
         findings = examine(args.listen)
     else:
         if args.listen is not None:
             args.parser.error("a bag is not listened to: leave out --listen")
         from turtlewire.cli.bag_findings import examine_bag
 
-        findings = examine_bag(args.bag)
+        findings = examine_bag(args.bag, *tf_topics(args))
     print(as_json(findings) if args.json else report(findings))
     return 1 if any(finding.is_problem for finding in findings) else 0
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from turtlewire.cli.tf_traffic import TfTraffic
     from turtlewire.wire.base import Graph
 
-__all__ = ["tf_findings", "traffic_findings"]
+__all__ = ["recorded_findings", "tf_findings"]
 
 _STALE_NS = 2_000_000_000
 _WALL_TIME_FROM_NS = 10**9 * 10**9  # the year 2001; simulated time begins at zero
@@ -30,6 +30,10 @@ _NO_LOOP = (
     "that publishes it."
 )
 _ONE_CLOCK = "Set use_sim_time to the same value for all nodes."
+_ENDED = (
+    "Its publisher ended before the recording, or was slow, or the clocks of two hosts differed; "
+    "it has no later poses."
+)
 _SLOW = "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."
 _JUMPS = (
     "Two sources publish it, a bag starts again, or a clock was set: listeners drop such "
@@ -47,12 +51,22 @@ def tf_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
     """
     if not tf_publishers(graph):
         return [note("No node publishes transforms.", _START_BROADCASTER)]
-    return [*_publisher_findings(graph, traffic), *traffic_findings(traffic)]
+    return [
+        *_publisher_findings(graph, traffic),
+        *_tree_findings(traffic),
+        *_clock_findings(traffic),
+        *_step_findings(traffic),
+    ]
 
 
-def traffic_findings(traffic: TfTraffic) -> list[Finding]:
-    """The faults that need no graph: of the tree, of clocks, and of steps in time and space."""
-    return [*_tree_findings(traffic), *_clock_findings(traffic), *_step_findings(traffic)]
+def recorded_findings(traffic: TfTraffic) -> list[Finding]:
+    """Faults of the transforms of a bag: of the tree, of clocks, and of steps in time and space.
+
+    Args:
+        traffic: What was recorded; it ended with the bag.
+    """
+    clocks = _clock_findings(traffic, recorded=True)
+    return [*_tree_findings(traffic), *clocks, *_step_findings(traffic)]
 
 
 def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
@@ -85,7 +99,7 @@ def _tree_findings(traffic: TfTraffic) -> list[Finding]:
     return found
 
 
-def _clock_findings(traffic: TfTraffic) -> list[Finding]:
+def _clock_findings(traffic: TfTraffic, *, recorded: bool = False) -> list[Finding]:
     wall = {child for child, stamp in traffic.newest_ns.items() if stamp >= _WALL_TIME_FROM_NS}
     simulated = traffic.newest_ns.keys() - wall
     found = []
@@ -95,8 +109,11 @@ def _clock_findings(traffic: TfTraffic) -> list[Finding]:
     for child in sorted(wall):
         age_ns = traffic.ended_ns - traffic.newest_ns[child]
         if age_ns > _STALE_NS:
-            text = f"The newest transform of '{child}' is {age_ns / 1e9:.1f} s old."
-            found.append(note(text, _SLOW))
+            text = f"The newest transform of '{child}' is {age_ns / 1e9:.1f} s old"
+            if recorded:
+                found.append(note(f"{text} at the end of the bag.", _ENDED))
+            else:
+                found.append(note(f"{text}.", _SLOW))
     return found
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from turtlewire.cli.bag_commands import tf_topics
 from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
 from turtlewire.printable import printable
 from turtlewire.trajectory import write_trajectory
@@ -33,7 +34,8 @@ def run_trajectory(args: argparse.Namespace) -> int:
     """
     source = Source(args.file, tuple(args.names))
     max_gap_ns = None if args.max_gap is None else round(args.max_gap * 1e9)
-    trajectory = TrajectoryReader(max_gap_ns).read(source, rate_hz=args.rate)
+    reader = TrajectoryReader(*tf_topics(args), max_gap_ns)
+    trajectory = reader.read(source, rate_hz=args.rate)
     written = []
     if args.output:
         kind = write_trajectory(trajectory, args.output, args.format)

@@ -51,10 +51,19 @@ class TrajectoryReader:
     """Reads trajectories; a bag whose transforms are wanted twice is read once.
 
     Args:
+        topics: Where the transforms of a bag are.
+        static_topics: Where its static transforms are.
         max_gap_ns: Longer pauses are gaps; None: see `turtlewire.trajectory.sample_trajectory`.
     """
 
-    def __init__(self, max_gap_ns: int | None = None) -> None:
+    def __init__(
+        self,
+        topics: str | list[str] = "/tf",
+        static_topics: str | list[str] = "/tf_static",
+        max_gap_ns: int | None = None,
+    ) -> None:
+        self._topics = topics
+        self._static_topics = static_topics
         self._max_gap_ns = max_gap_ns
         self._buffers: dict[str, Buffer] = {}
 
@@ -97,7 +106,9 @@ class TrajectoryReader:
         from turtlewire.tf.buffer import Buffer
 
         if path not in self._buffers:
-            self._buffers[path] = Buffer.from_bag(path)
+            self._buffers[path] = Buffer.from_bag(
+                path, topics=self._topics, static_topics=self._static_topics
+            )
         return self._buffers[path]
 
 
