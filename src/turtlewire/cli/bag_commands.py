@@ -7,18 +7,12 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.parser import seconds
+from turtlewire.cli.parser import add_tf_topics, seconds, tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "add_bag_commands",
-    "add_tf_topics",
-    "complete_bags",
-    "reporting_errors",
-    "tf_topics",
-]
+__all__ = ["add_bag_commands", "complete_bags", "reporting_errors"]
 
 _FORMATS = ("tum", "kitti", "euroc", "csv")
 _ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
@@ -57,27 +51,6 @@ def _add_bag(commands: Any) -> None:
     add_tf_topics(tf)
     tf.add_argument("--json", action="store_true", help="Print one JSON object")
     tf.set_defaults(run=reporting_errors("bag tf", _bag_tf), parser=tf)
-
-
-def add_tf_topics(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where the transforms of a bag are; `tf_topics` reads them."""
-    parser.add_argument(
-        "--topic",
-        action="append",
-        metavar="T",
-        help="Where the transforms of a bag are (default: /tf)",
-    )
-    parser.add_argument(
-        "--static-topic",
-        action="append",
-        metavar="T",
-        help="Where the static transforms of a bag are (default: /tf_static)",
-    )
-
-
-def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
-    """Where transforms and where static ones are; a text is the name that stands by default."""
-    return args.topic or "/tf", args.static_topic or "/tf_static"
 
 
 def _add_trajectory(commands: Any) -> None:

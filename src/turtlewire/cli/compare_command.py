@@ -6,7 +6,7 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.bag_commands import tf_topics
+from turtlewire.cli.parser import tf_topics
 from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source
 from turtlewire.printable import printable
 from turtlewire.trajectory import (

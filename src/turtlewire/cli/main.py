@@ -8,14 +8,8 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.cli.bag_commands import (
-    add_bag_commands,
-    add_tf_topics,
-    complete_bags,
-    reporting_errors,
-    tf_topics,
-)
-from turtlewire.cli.parser import Parser, seconds
+from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
+from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
 from turtlewire.cli.pipes import leave_pipe
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Command lines that suggest the nearest name for a wrong word."""
+"""Command lines that suggest the nearest name for a wrong word; options that commands share."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import NoReturn
 
-__all__ = ["Parser", "seconds"]
+__all__ = ["Parser", "add_tf_topics", "seconds", "tf_topics"]
 
 _INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")
@@ -55,3 +55,24 @@ def seconds(text: str) -> float:
             f"{text!r} is not a number of seconds, above 0 and up to 3600"
         )
     return value
+
+
+def add_tf_topics(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where the transforms of a bag are; `tf_topics` reads them."""
+    parser.add_argument(
+        "--topic",
+        action="append",
+        metavar="T",
+        help="Where the transforms of a bag are (default: /tf)",
+    )
+    parser.add_argument(
+        "--static-topic",
+        action="append",
+        metavar="T",
+        help="Where the static transforms of a bag are (default: /tf_static)",
+    )
+
+
+def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
+    """Where transforms and where static ones are; a text is the name that stands by default."""
+    return args.topic or "/tf", args.static_topic or "/tf_static"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlewire.cli.bag_commands import tf_topics
+from turtlewire.cli.parser import tf_topics
 from turtlewire.cli.trajectory_sources import Source, TrajectoryReader
 from turtlewire.printable import printable
 from turtlewire.trajectory import write_trajectory
