@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import random
 import re
 import signal
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -15,6 +17,7 @@ import pytest
 from tests.bag.conftest import GOLDEN, START, contents, write_bag
 
 from turtlewire.bag import BagWriter, load_transforms, open_bag, reindex
+from turtlewire.bag.compression import compress, read_zstd_file
 from turtlewire.errors import BagError
 
 
@@ -282,3 +285,77 @@ def test_nothing_is_lost_of_an_unfinished_file_with_bare_messages(tmp_path):
     assert 100 < len(messages) < 223
     assert "what lies before it is read" in complaint
     assert all(m.log_time_ns > START for m in messages)
+
+
+def test_a_missing_file_of_messages_is_named_and_the_others_are_read(tmp_path):
+    folder = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
+    (second,) = folder.glob("*_1.mcap")
+    second.unlink()
+    found = []
+    with open_bag(folder) as bag:
+        with pytest.raises(BagError, match=second.name) as error:
+            found.extend(bag)
+        assert found[-1].log_time_ns == START + 991_000_001
+        assert 50 < len(found) < 111
+        assert len(bag.problems) == 1
+    assert "reindex" in error.value.hint
+    assert sum(second.name in line for line in load_transforms(folder)[1].problems) == 1
+
+
+def test_damaged_metadata_in_a_file_costs_no_message(tmp_path):
+    (path,) = write_bag(tmp_path / "made").glob("*.mcap")
+    whole = path.read_bytes()
+    for damage in (b"[", b"\xff"):
+        path.write_bytes(whole.replace(b"version: 9", b"version: " + damage))
+        with open_bag(path) as bag:
+            assert len(list(bag)) == 111
+            assert "metadata" in " ".join(bag.problems)
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b"a: [", b"a: 2001-99-99", b"a: 1"])
+def test_a_damaged_metadata_file_names_the_remedy(tmp_path, content):
+    folder = write_bag(tmp_path / "made")
+    (folder / "metadata.yaml").write_bytes(content)
+    with pytest.raises(BagError) as error:
+        open_bag(folder)
+    assert "ros2 bag reindex" in error.value.hint
+    assert reindex(folder).message_count == 111
+
+
+def test_a_whole_file_that_grows_too_much_is_refused(tmp_path):
+    folder = write_bag(tmp_path / "made", compression_mode="FILE")
+    (path,) = folder.glob("*.zstd")
+    path.write_bytes(compress("zstd", bytes(100 << 20)))
+    blocks = map(len, read_zstd_file(str(path)))
+    sizes = []
+    with pytest.raises(BagError, match="grows more than"):
+        sizes.extend(blocks)
+    assert sum(sizes) <= 64 << 20
+    messages, complaint = read_what_there_is(folder)
+    assert messages == []
+    assert path.name in complaint
+
+
+def test_a_damaged_message_is_named_and_the_others_are_read(tmp_path):
+    folder = write_bag(tmp_path / "made", storage="sqlite3", compression_mode="MESSAGE")
+    (path,) = folder.glob("*.db3")
+    with contextlib.closing(sqlite3.connect(path)) as database, database:
+        database.execute("UPDATE messages SET data = x'28b52ffd00' WHERE id = 50")
+    messages = []
+    with open_bag(folder) as bag, pytest.raises(BagError, match=rf"{path.name}.*/tf at \d+"):
+        messages.extend(bag)
+    assert len(messages) == 110
+
+
+def test_a_message_that_lacks_is_told(tmp_path):
+    """Without a checksum a damaged opcode looks like a record to be skipped."""
+    folder = write_bag(tmp_path / "made", checksums=False)
+    (path,) = folder.glob("*.mcap")
+    damaged = bytearray(path.read_bytes())
+    head = struct.pack("<HIQ", 2, 0, START + 10_000_000 + 1_000_000)[6:]
+    damaged[damaged.index(head) - 6 - 9] = 0xFA
+    path.write_bytes(damaged)
+    messages, complaint = read_what_there_is(folder)
+    assert len(messages) == 110
+    assert "1 of the messages" in complaint
+    assert "1 of the messages" in " ".join(load_transforms(folder)[1].problems)

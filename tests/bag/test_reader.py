@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 from tests.bag.conftest import SECOND, START, contents, write_bag
 
@@ -113,7 +115,7 @@ def test_decompressed_copies_are_deleted(tmp_path, monkeypatch):
     folder = write_bag(tmp_path / "made", compression_mode="FILE")
     with open_bag(folder) as bag:
         assert len(list(bag)) == 111
-        assert len(list(scratch.iterdir())) == 1
+        assert os.name != "posix" or list(scratch.iterdir()) == []  # also while they are read
     assert list(scratch.iterdir()) == []
 
 

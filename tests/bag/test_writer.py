@@ -123,11 +123,11 @@ def test_mistakes(tmp_path):
         with pytest.raises(BagError, match="has the type std_msgs/msg/String already"):
             writer.add_topic("/a", "std_msgs/msg/Bool")
         with pytest.raises(BagError, match="'/b' was not added") as error:
-            writer.write("/b", b"", 1)
+            writer.write("/b", b"\0\1\0\0", 1)
         assert error.value.hint == "Call add_topic() first."
     writer.close()
     with pytest.raises(BagError, match="is closed"):
-        writer.write("/a", b"", 1)
+        writer.write("/a", b"\0\1\0\0", 1)
     with pytest.raises(FileExistsError):
         BagWriter(tmp_path / "made")
     with pytest.raises(BagError, match="unknown storage 'mcp'"):
@@ -146,12 +146,12 @@ def test_times_are_checked_where_they_are_given(tmp_path, storage):
         writer.add_topic("/a", "std_msgs/msg/String")
         time = np.datetime64("2001-09-09T01:46:40", "s")
         writer.write("/a", msg.get_message("std_msgs/msg/String")(data="x"), time, time)
-        writer.write("/a", b"", np.int64(10**18 + 1))
+        writer.write("/a", b"\0\1\0\0", np.int64(10**18 + 1))
         with pytest.raises(ValueError, match="log_time_ns is -1: bags have no times before 1970"):
-            writer.write("/a", b"", -1)
+            writer.write("/a", b"\0\1\0\0", -1)
         with pytest.raises(TypeError, match="log_time_ns must be an int of nanoseconds"):
-            writer.write("/a", b"", 1.5)
-        with pytest.raises(TypeError, match="bytes-like"):
+            writer.write("/a", b"\0\1\0\0", 1.5)
+        with pytest.raises(TypeError, match="or its CDR bytes, not int"):
             writer.write("/a", 3, 1)
     with open_bag(tmp_path / "made") as bag:
         assert [message.log_time_ns for message in bag] == [10**18, 10**18 + 1]
@@ -168,7 +168,8 @@ def test_an_empty_bag(tmp_path):
 
 def test_a_type_that_is_not_known_can_be_written(tmp_path):
     with BagWriter(tmp_path / "made") as writer:
-        writer.add_topic("/a", "no_such/msg/Thing")
+        with pytest.warns(UserWarning, match="no definition of no_such/msg/Thing"):
+            writer.add_topic("/a", "no_such/msg/Thing")
         writer.write("/a", b"\0\1\0\0", 5)
     with open_bag(tmp_path / "made") as bag:
         assert bag.definitions() == {"no_such/msg/Thing": ("unknown", "")}
@@ -235,3 +236,43 @@ def test_a_wrong_compression_leaves_no_folder(tmp_path, options):
 def test_an_unknown_version_of_the_metadata(tmp_path):
     with pytest.raises(BagError, match="unknown version 10 of the metadata"):
         BagWriter(tmp_path / "made", metadata_version=10)
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_messages_that_a_topic_does_not_hold(tmp_path, storage):
+    with BagWriter(tmp_path / "made", storage=storage) as writer:
+        writer.add_topic("/s", "std_msgs/msg/String")
+        with pytest.raises(TypeError, match=r"/s holds std_msgs/msg/String, not tf2_msgs/msg/TF"):
+            writer.write("/s", transform(0), 1)
+        with pytest.raises(TypeError, match=r"/s takes a std_msgs/msg/String.*not str"):
+            writer.write("/s", "hello", 1)
+        for empty in (b"", bytearray()):
+            with pytest.raises(BagError, match=r"/s takes a std_msgs/msg/String.*not 0 bytes"):
+                writer.write("/s", empty, 1)
+        writer.write("/s", bytearray(b"\0\1\0\0"), 1)
+    with open_bag(tmp_path / "made") as bag:
+        assert len(list(bag)) == 1
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"storage": "sqlite3", "compression": "zstd"},
+        {"storage": "sqlite3", "compression": "lz4"},
+        {"max_file_bytes": -4},
+        {"max_file_ns": -1},
+        {"chunk_bytes": 0},
+    ],
+)
+def test_options_without_effect_are_refused(tmp_path, options):
+    with pytest.raises(BagError):
+        BagWriter(tmp_path / "made", **options)
+    assert not (tmp_path / "made").exists()
+
+
+def test_a_name_that_is_none_of_a_type(tmp_path):
+    with (
+        BagWriter(tmp_path / "made") as writer,
+        pytest.raises(BagError, match="'foo' is no name of a message type"),
+    ):
+        writer.add_topic("/q", "foo")

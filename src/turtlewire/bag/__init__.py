@@ -21,6 +21,7 @@ module              what it holds
 `files`             the files of a bag: names, order, and what they hold together
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback and what is due
 `writer`            `BagWriter`
+`writer_checks`     what it refuses, with a reason
 `recording`         `Recording`: messages of several threads, written on a thread of its own
 `storage`           one file of a bag, MCAP or sqlite3, behind one interface
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
@@ -31,6 +32,7 @@ module              what it holds
 `sqlite_writer`     writes sqlite3 files
 `metadata`          ``metadata.yaml``, versions 1 to 9
 `qos_yaml`          the QoS of recorded topics as YAML
+`unpacking`         files and messages that were compressed as a whole
 `definitions`       message definitions as bags carry them
 `compression`       zstd and lz4, with limits
 ==================  ========================================================================

@@ -6,6 +6,7 @@ optional extra, because rosbag2 writes it only on request.
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -93,9 +94,11 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
     """Yield the decompressed blocks of a ``.zstd`` file, at most a few megabytes at a time.
 
     Raises:
-        BagError: The file is damaged or ends too early.
+        BagError: The file is damaged, ends too early, or grows more than a thousandfold beyond
+            64 MiB.
     """
     decompressor = zstd.ZstdDecompressor()
+    limit = max(_ALWAYS_BYTES, _MOST_RATIO * os.path.getsize(path))
     with open(path, "rb") as file:
         while True:
             block = b""
@@ -107,6 +110,11 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
                 out = decompressor.decompress(block, _FILE_BLOCK)
             except zstd.ZstdError as error:
                 raise BagError(f"{path}: damaged before byte {file.tell()}: {error}") from None
+            limit -= len(out)
+            if limit < 0:
+                raise BagError(
+                    f"{path}: grows more than {_MOST_RATIO:,}-fold; what lies before is read"
+                )
             yield out
             if decompressor.eof:
                 break

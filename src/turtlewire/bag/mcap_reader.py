@@ -220,8 +220,11 @@ class McapFile:
 
     def _read_metadata(self, content: memoryview) -> None:
         reader = RecordReader(content)
-        name = reader.string()
-        self.metadata[name] = reader.text_map()
+        try:
+            name = reader.string()
+            self.metadata[name] = reader.text_map()
+        except BagError as error:  # no message needs it
+            self.problems.append(f"{self.path}: its metadata cannot be read: {error}")
 
     def _top_records(self, position: int, end: int) -> Iterator[tuple[int, memoryview, int]]:
         """Opcode, content and position of the records between two positions of the file."""

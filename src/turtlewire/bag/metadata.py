@@ -134,11 +134,17 @@ def read_metadata(folder: str) -> BagMetadata | None:
     path = os.path.join(folder, METADATA_FILE)
     try:
         with open(path, encoding="utf-8") as file:
-            text = file.read()
+            return _parse_file(file.read(), path)
     except FileNotFoundError:
         return None
     except UnicodeDecodeError as error:
-        raise BagError(f"{path}: not UTF-8 at byte {error.start}") from None
+        damage = BagError(f"{path}: not UTF-8 at byte {error.start}")
+    except BagError as error:
+        damage = error
+    raise damage.with_hint(f"`ros2 bag reindex {folder}` writes it anew from the bag's files.")
+
+
+def _parse_file(text: str, path: str) -> BagMetadata:
     content = load_yaml(text, path)
     if not isinstance(content, dict) or not isinstance(content.get(_KEY), dict):
         raise BagError(f"{path}: the key '{_KEY}' is missing")

@@ -39,7 +39,7 @@ def load_yaml(text: str, where: str) -> Any:
     try:
         _check_depth(text, loader, where)
         return yaml.load(text, loader)  # noqa: S506 - both loaders are safe ones
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError) as error:  # the latter of a date in no calendar
         reason = str(error).replace("\n", " ")
         raise BagError(f"{where}: not readable as YAML: {reason}") from None
 

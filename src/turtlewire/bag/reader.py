@@ -9,11 +9,11 @@ import tempfile
 import weakref
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.compression import decompress, read_zstd_file
 from turtlewire.bag.definitions import has_interface, learn_types
 from turtlewire.bag.files import joined, overlapping, storage_files
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, read_metadata, write_metadata
 from turtlewire.bag.storage import StorageFile, open_storage
+from turtlewire.bag.unpacking import unpack_file, unpacked
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.tf.datetimes import as_nanoseconds
 
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 __all__ = ["Bag", "open_bag", "reindex", "window"]
 
 _FOREVER = (1 << 64) - 1
-#: What a decompressed copy leaves free on its disk.
-_LEAST_FREE_BYTES = 256 << 20
 
 
 class Bag:
@@ -184,33 +182,48 @@ class Bag:
 
         Raises:
             BagError: A topic does not exist; or, after all messages that can be read, a part of the
-                bag is damaged.
+                bag is damaged or missing.
             ValueError: ``end_ns`` lies before ``start_ns``.
         """
         start_ns, end_ns = window(start_ns, end_ns)
         wanted = self._wanted(_names(topics), _names(types))
         damage: list[BagError] = []
         for group in overlapping(self.metadata):
-            streams = [self._messages_of(path, wanted, start_ns, end_ns, damage) for path in group]
-            yield from heapq.merge(*streams, key=_log_time) if len(streams) > 1 else streams[0]
+            files = self._present(group, damage)
+            streams = [self._messages_of(file, wanted, start_ns, end_ns, damage) for file in files]
+            yield from heapq.merge(*streams, key=_log_time) if len(streams) != 1 else streams[0]
         if damage:
             raise damage[0]
 
+    def _present(self, paths: list[str], damage: list[BagError]) -> list[StorageFile]:
+        """The files that can be opened; the others go to the problems and the damage."""
+        files = []
+        for path in paths:
+            try:
+                files.append(self.file(path))
+            except (BagError, OSError) as error:  # noqa: PERF203 - a bag has few files
+                self.complain(str(error))
+                damage.append(_without(error, self.path))
+        return files
+
+    def complain(self, problem: str) -> None:
+        """Add to `problems` what is not among them yet."""
+        if problem not in self.problems:
+            self.problems.append(problem)
+
     def _messages_of(
         self,
-        path: str,
+        file: StorageFile,
         wanted: Callable[[TopicInfo], bool],
         start_ns: int,
         end_ns: int,
         damage: list[BagError],
     ) -> Iterator[BagMessage]:
-        file = self.file(path)
         self._learn_unknown_types(file, wanted)
         messages = file.messages(wanted, start_ns, end_ns, damage.append)
         if self.metadata.compression_mode != "MESSAGE":
             return messages
-        unpack = self.metadata.compression_format
-        return (message._replace(data=decompress(unpack, message.data)) for message in messages)
+        return unpacked(messages, self.metadata.compression_format, file.path, damage)
 
     def _learn_unknown_types(self, file: StorageFile, wanted: Callable[[TopicInfo], bool]) -> None:
         """Make the wanted types known that only the bag defines, so that messages decode."""
@@ -254,12 +267,17 @@ class Bag:
     def _open(self, path: str) -> StorageFile:
         plain = self._plain_file(path)
         try:
-            return open_storage(plain)
+            file = open_storage(plain)
         except BagError as error:
             if not path.endswith(".zstd"):
                 raise
             full = os.path.join(self._folder, path)
             raise BagError(f"{full}: what was decompressed of it cannot be read: {error}") from None
+        if self._scratch is not None and os.name == "posix":
+            # The open file keeps its bytes, and nothing stays when the process is killed.
+            shutil.rmtree(self._scratch)
+            self._scratch = None
+        return file
 
     def _plain_file(self, path: str) -> str:
         """The file itself, or a decompressed copy that lives as long as the bag is open."""
@@ -269,15 +287,7 @@ class Bag:
         if self._scratch is None:
             self._scratch = tempfile.mkdtemp(prefix="turtlewire-bag-")
             weakref.finalize(self, shutil.rmtree, self._scratch, ignore_errors=True)
-        plain = os.path.join(self._scratch, os.path.basename(path).removesuffix(".zstd"))
-        with open(plain, "wb") as out:
-            try:
-                for block in read_zstd_file(full):
-                    _check_room(self._scratch, full)
-                    out.write(block)
-            except BagError as error:
-                self.problems.append(str(error))
-        return plain
+        return unpack_file(full, self._scratch, self.problems.append)
 
     def _metadata_of(self, paths: list[str]) -> BagMetadata:
         """Metadata from the files themselves."""
@@ -286,7 +296,10 @@ class Bag:
         parts: dict[str, BagMetadata] = {}
         for path in paths:
             try:
-                parts[path] = self.file(path).summary()
+                file = self.file(path)
+                known = len(file.problems)
+                parts[path] = file.summary()
+                self.problems += file.problems[known:]
             except BagError as error:  # noqa: PERF203 - a bag has few files
                 if len(paths) == 1:
                     raise
@@ -344,11 +357,13 @@ def reindex(
         return bag.metadata
 
 
-def _check_room(folder: str, path: str) -> None:
-    if shutil.disk_usage(folder).free < _LEAST_FREE_BYTES:
-        raise BagError(
-            f"{path}: its decompressed copy in {folder} would fill the disk; what fitted is read"
-        ).with_hint("TMPDIR names a folder with more room.")
+def _without(error: BagError | OSError, bag: str) -> BagError:
+    """The error of a file that is left out."""
+    if isinstance(error, BagError):
+        return error
+    left_out = BagError(f"{error}; the other files were read")
+    left_out.with_hint(f"Put the file back, or let `ros2 bag reindex {bag}` forget it.")
+    return left_out
 
 
 def _names(names: str | Iterable[str] | None) -> set[str] | None:

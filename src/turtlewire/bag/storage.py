@@ -145,7 +145,11 @@ class McapStorage:
 
     def _embedded(self) -> BagMetadata | None:
         text = self.file.metadata.get("rosbag2", {}).get("serialized_metadata")
-        return parse_metadata(load_yaml(text, self.path), self.path) if text else None
+        try:
+            return parse_metadata(load_yaml(text, self.path), self.path) if text else None
+        except BagError as error:
+            self.problems.append(f"the metadata in the file cannot be read: {error}")
+            return None
 
     def _old_distro(self) -> str:
         return self.file.metadata.get("rosbag2", {}).get("ROS_DISTRO", "")
@@ -186,6 +190,7 @@ class McapStorage:
         """See `StorageFile.messages`; only chunks whose times overlap are held together."""
         channels = self._wanted_channels(wanted)
         waiting: list[_Raw] = []
+        lacking = self.told(channels, start_ns, end_ns)
         for chunk in self.chunks(wanted, start_ns, end_ns):
             if waiting and waiting[-1][0] < chunk.start_ns:
                 yield from self._finished(waiting)
@@ -194,9 +199,24 @@ class McapStorage:
                 count = bisect_left(waiting, chunk.start_ns, key=_log_time)
                 yield from self._finished(waiting[:count])
                 del waiting[:count]
-            waiting += self._messages_of(chunk, channels, start_ns, end_ns, damaged)
+            found = self._messages_of(chunk, channels, start_ns, end_ns, damaged)
+            lacking -= len(found)
+            waiting += found
             waiting.sort(key=_log_time)
         yield from self._finished(waiting)
+        if lacking > 0:
+            damaged(self.lack(lacking))
+
+    def told(self, channels: Container[int], start_ns: int, end_ns: int) -> int:
+        """How many messages of the channels the file says it has; 0 for a part of its time."""
+        statistics = self.file.statistics
+        if start_ns > statistics.start_ns or end_ns < statistics.end_ns:
+            return 0
+        return sum(n for number, n in statistics.channel_counts.items() if number in channels)
+
+    def lack(self, count: int) -> BagError:
+        """The error of a file that holds fewer messages than its statistics say."""
+        return BagError(f"{self.path}: damaged: {count:,} of the messages that it tells of lack")
 
     def _messages_of(
         self,

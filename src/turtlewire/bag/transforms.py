@@ -174,7 +174,7 @@ class _Reader:
             try:
                 file = self._bag.file(path)
             except (BagError, OSError) as error:
-                self._bag.problems.append(str(error))
+                self._bag.complain(str(error))
                 continue
             if isinstance(file, McapStorage) and self._bag.metadata.compression_mode != "MESSAGE":
                 self._read_chunks(file, names, start_ns, end_ns, static, (i, len(paths)))
@@ -203,16 +203,21 @@ class _Reader:
         }
         chunks = file.chunks(wanted, start_ns, end_ns)
         total, done = sum(chunk.length for chunk in chunks) or 1, 0
+        expected = self._walk.messages + file.told(channels, start_ns, end_ns)
+        known_problems = len(self._bag.problems)
         for chunk, records in self._decompressed(file, chunks):
             if isinstance(records, BagError):
-                self._bag.problems.append(str(records))
+                self._bag.complain(str(records))
             else:
                 damaged_at = self._walk.walk(self._buffer, records, channels)
                 if damaged_at >= 0:
-                    self._bag.problems.append(str(file.file.cut(chunk, damaged_at)))
+                    self._bag.complain(str(file.file.cut(chunk, damaged_at)))
             file.file.forget(chunk)
             done += chunk.length
             self._tell((place[0] + done / total) / place[1])
+        lacking = expected - self._walk.messages
+        if lacking > 0 and len(self._bag.problems) == known_problems:
+            self._bag.complain(str(file.lack(lacking)))
 
     @staticmethod
     def _decompressed(
@@ -264,4 +269,4 @@ class _Reader:
                     + message.data
                 )
         except BagError as error:
-            self._bag.problems.append(str(error))
+            self._bag.complain(str(error))

@@ -6,7 +6,6 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.compression import compress, write_zstd_file
-from turtlewire.bag.definitions import ENCODING, definition_text
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
 from turtlewire.bag.metadata import (
     NEWEST_VERSION,
@@ -18,8 +17,15 @@ from turtlewire.bag.metadata import (
 )
 from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.bag.sqlite_writer import SqliteWriter
+from turtlewire.bag.writer_checks import (
+    ENDINGS,
+    as_cdr,
+    check_options,
+    check_sizes,
+    known_definition,
+)
 from turtlewire.errors import BagError, InterfaceError
-from turtlewire.msg import Message, serialize, type_hash
+from turtlewire.msg import type_hash
 from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
@@ -28,12 +34,10 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from turtlewire.msg import Message
     from turtlewire.wire.qos import QoS
 
 __all__ = ["BagWriter"]
-
-_MODES = ("", "FILE", "MESSAGE")
-_ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
 
 
 class BagWriter:
@@ -90,21 +94,8 @@ class BagWriter:
         ros_distro: str = "",
         metadata_version: int = NEWEST_VERSION,
     ) -> None:
-        if storage not in _ENDINGS:
-            raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
-        if compression_mode not in _MODES:
-            raise BagError(f"unknown compression mode '{compression_mode}'").with_hint(
-                "Known are FILE, MESSAGE and an empty text."
-            )
-        compress(compression, b"", level)  # refuse one that is not known or not installed
-        if compression_mode == "MESSAGE" and storage == "mcap":
-            raise BagError("MCAP files compress chunks, not messages").with_hint(
-                "Give compression='zstd' instead."
-            )
-        if metadata_version not in range(1, NEWEST_VERSION + 1):
-            raise BagError(f"unknown version {metadata_version} of the metadata").with_hint(
-                f"Known are 1 to {NEWEST_VERSION}."
-            )
+        check_options(storage, compression, level, compression_mode, metadata_version)
+        check_sizes(chunk_bytes, max_file_bytes, max_file_ns)
         self.path = os.path.abspath(os.fspath(path))
         self._chunks: dict[str, Any] = {
             "compression": compression,
@@ -177,7 +168,10 @@ class BagWriter:
             definition: Encoding and text of the type's definition; None takes the known type's.
 
         Raises:
-            BagError: The topic has another type already.
+            BagError: The topic has another type already, or the type is no name of one.
+
+        Warns:
+            UserWarning: The type is not known; the bag gets no definition of it.
         """
         known = self._topics.get(name)
         if known is not None:
@@ -185,7 +179,7 @@ class BagWriter:
                 raise BagError(f"{name} has the type {known.type} already, not {type_name}")
             return
         if definition is None:
-            definition = _known_definition(type_name)
+            definition = known_definition(type_name)
         if hash_of_type is None:
             hash_of_type = _known_hash(type_name)
         self._definitions[type_name] = definition
@@ -219,8 +213,8 @@ class BagWriter:
             publish_time_ns: When it was sent; None if it is not known.
 
         Raises:
-            BagError: The topic was not added, or the bag is closed.
-            TypeError: The data are no bytes, or a time is none.
+            BagError: The topic was not added, the bag is closed, or the bytes are none.
+            TypeError: The data are no bytes, a message of another type, or a time is none.
             ValueError: A time lies before 1970.
             OSError: The disk is full, for example. What was written before stays readable.
         """
@@ -230,8 +224,8 @@ class BagWriter:
             raise BagError(f"the topic '{topic}' was not added").with_hint(
                 "Call add_topic() first."
             )
-        if not isinstance(data, bytes):
-            data = serialize(data) if isinstance(data, Message) else bytes(memoryview(data))
+        if not (data and isinstance(data, bytes)):
+            data = as_cdr(topic, self._topics[topic].type, data)
         if type(log_time_ns) is not int or log_time_ns < 0:
             log_time_ns = _stamp(log_time_ns, "log_time_ns")
         if publish_time_ns and (type(publish_time_ns) is not int or publish_time_ns < 0):
@@ -283,7 +277,7 @@ class BagWriter:
     def _open_file(self) -> McapWriter | SqliteWriter:
         storage = self.metadata.storage
         number = len(self.metadata.paths)
-        name = f"{os.path.basename(self.path)}_{number}.{_ENDINGS[storage]}"
+        name = f"{os.path.basename(self.path)}_{number}.{ENDINGS[storage]}"
         path = os.path.join(self.path, name)
         file = (
             McapWriter(path, **self._chunks)
@@ -374,13 +368,6 @@ def _stamp(time: Any, argument: str) -> int:
     if stamp < 0:
         raise ValueError(f"{argument} is {stamp}: bags have no times before 1970")
     return stamp
-
-
-def _known_definition(type_name: str) -> tuple[str, str]:
-    try:
-        return ENCODING, definition_text(type_name)
-    except InterfaceError:
-        return "unknown", ""  # what rosbag2 writes for a definition that it does not find
 
 
 def _known_hash(type_name: str) -> str:

@@ -1,0 +1,109 @@
+"""What a bag can be written with: options, types and messages, refused with a reason."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from typing import Any
+
+from turtlewire.bag.compression import compress
+from turtlewire.bag.definitions import ENCODING, definition_text
+from turtlewire.bag.metadata import NEWEST_VERSION
+from turtlewire.errors import BagError, InterfaceError
+from turtlewire.msg import Message, serialize
+
+__all__ = ["ENDINGS", "as_cdr", "check_options", "check_sizes", "known_definition"]
+
+#: What the names of files end with, by storage.
+ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
+
+_MODES = ("", "FILE", "MESSAGE")
+_TYPE_NAME = re.compile(r"\w+/\w+/\w+")
+
+
+def check_options(
+    storage: str, compression: str, level: int, compression_mode: str, metadata_version: int
+) -> None:
+    """Refuse a combination that no bag has; see `BagWriter` for the arguments.
+
+    Raises:
+        BagError: With what there is instead.
+    """
+    if storage not in ENDINGS:
+        raise BagError(f"unknown storage '{storage}'").with_hint("Known are mcap and sqlite3.")
+    if compression_mode not in _MODES:
+        raise BagError(f"unknown compression mode '{compression_mode}'").with_hint(
+            "Known are FILE, MESSAGE and an empty text."
+        )
+    compress(compression, b"", level)  # refuse one that is not known or not installed
+    if compression_mode == "MESSAGE" and storage == "mcap":
+        raise BagError("MCAP files compress chunks, not messages").with_hint(
+            "Give compression='zstd' instead."
+        )
+    if compression and storage == "sqlite3":
+        raise BagError(f"sqlite3 files have no chunks to compress with {compression}").with_hint(
+            "Give compression_mode='MESSAGE' or 'FILE' instead."
+        )
+    if metadata_version not in range(1, NEWEST_VERSION + 1):
+        raise BagError(f"unknown version {metadata_version} of the metadata").with_hint(
+            f"Known are 1 to {NEWEST_VERSION}."
+        )
+
+
+def check_sizes(chunk_bytes: int, max_file_bytes: int, max_file_ns: int) -> None:
+    """Refuse sizes and times that none can have.
+
+    Raises:
+        BagError: With the least that can be given.
+    """
+    for name, value, least in (
+        ("chunk_bytes", chunk_bytes, 1),
+        ("max_file_bytes", max_file_bytes, 0),
+        ("max_file_ns", max_file_ns, 0),
+    ):
+        if value < least:
+            raise BagError(f"{name} is {value}, and must be at least {least}")
+
+
+def known_definition(type_name: str) -> tuple[str, str]:
+    """Encoding and text of a type's definition; of an unknown one none, with a warning.
+
+    Raises:
+        BagError: It is no name of a type.
+    """
+    if not _TYPE_NAME.fullmatch(type_name):
+        raise BagError(f"'{type_name}' is no name of a message type").with_hint(
+            "Names of types look like std_msgs/msg/String."
+        )
+    try:
+        return ENCODING, definition_text(type_name)
+    except InterfaceError as error:
+        warnings.warn(
+            f"the bag gets no definition of {type_name}, readers must know it: {error}",
+            stacklevel=3,
+        )
+        return "unknown", ""  # what rosbag2 writes for a definition that it does not find
+
+
+def as_cdr(topic: str, type_name: str, data: Any) -> bytes:
+    """The bytes of a message for a topic.
+
+    Raises:
+        TypeError: It is a message of another type, or neither a message nor bytes.
+        BagError: There are no bytes.
+    """
+    if isinstance(data, Message):
+        if type_name != data._TYPE_NAME:
+            raise TypeError(f"{topic} holds {type_name}, not {data._TYPE_NAME}")
+        return serialize(data)
+    try:
+        packed = bytes(memoryview(data))
+    except TypeError:
+        raise TypeError(
+            f"{topic} takes a {type_name} or its CDR bytes, not {type(data).__name__}"
+        ) from None
+    if not packed:
+        raise BagError(f"{topic} takes a {type_name} or its CDR bytes, not 0 bytes").with_hint(
+            "turtlewire.msg.serialize() makes the bytes of a message."
+        )
+    return packed
