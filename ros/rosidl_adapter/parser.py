@@ -1,7 +1,7 @@
 """Reads ``.msg``, ``.srv`` and ``.action`` files, with their comments.
 
 The engine's parser (:mod:`turtlewire.msg.parser`) leaves comments out; IDL files have them. It
-parses the values here, too.
+parses the values here, and tells where comments begin.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ from rosidl_adapter.specification import (
     is_valid_package_name,
     parse_value_string,
 )
+from turtlewire.msg.parser import without_comment
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -193,7 +194,8 @@ def parse_message_string(pkg_name: str, msg_name: str, message_string: str) -> M
     named: list[Field | Constant] = []
     waiting: list[str] = []
     for line in map(str.rstrip, lines):
-        content, mark, comment = line.partition(COMMENT_DELIMITER)
+        content = without_comment(line)
+        mark, comment = line[len(content) :][:1], line[len(content) + 1 :]
         if mark and content and not content.strip():
             if named:
                 named[-1].annotations["comment"].append(comment.lstrip(COMMENT_DELIMITER))

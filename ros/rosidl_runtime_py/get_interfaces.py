@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from turtlewire import msg
@@ -60,14 +61,15 @@ def get_interface_path(interface_name: str) -> str:
     """Path of the file that defines an interface.
 
     Args:
-        interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file.
+        interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file. That
+            of the definition always has a file; ``.idl`` has one in packages that come with it.
 
     Returns:
         The path.
 
     Raises:
         ValueError: It is not the name of an interface.
-        LookupError: There is no such package or interface.
+        LookupError: There is no such package or interface, or no file with that ending.
     """
     parts = interface_name.split("/")
     if len(parts) < 2:
@@ -80,7 +82,12 @@ def get_interface_path(interface_name: str) -> str:
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain '..'")
     if parts[0] not in msg.interface_names():
         raise LookupError(f"Unknown package '{parts[0]}'")
-    return msg.interface_path(interface_name.partition(".")[0])
+    stem, dot, ending = interface_name.partition(".")
+    path = msg.interface_path(stem)
+    asked = f"{os.path.splitext(path)[0]}.{ending}" if dot else path
+    if asked != path and (ending != "idl" or not os.path.isfile(asked)):
+        raise LookupError(f"Could not find the interface '{asked}'")
+    return asked
 
 
 def _interfaces(package_names: Collection[str], kinds: tuple[str, ...]) -> dict[str, list[str]]:

@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from ros2doctor.api import Report, Result, generate_reports, run_checks
+from ros2cli.main import main
+from ros2doctor.api import Report, Result, generate_reports, run_checks, run_checks_of_others
 from ros2doctor.api.format import compute_padding, doctor_warn, format_print
 
 CHECKS = """
@@ -46,6 +47,16 @@ def tires(tmp_path, monkeypatch):
         "[ros2doctor.report]\ntires = tires:TiresReport\n"
     )
     monkeypatch.syspath_prepend(str(tmp_path))
+    yield metadata / "entry_points.txt"
+    sys.modules.pop("tires", None)
+
+
+@pytest.fixture
+def broken(tires):
+    text = tires.read_text().replace("\ntires =", "\nbroken = tires:Broken\ntires =")
+    tires.write_text(text)
+    module = tires.parent.parent / "tires.py"
+    module.write_text(f"{CHECKS}\n\nclass Broken:\n    pass\n")
 
 
 @pytest.mark.filterwarnings("ignore")  # the findings of this machine
@@ -66,6 +77,36 @@ def test_reports_have_titles_and_lines(tires, capsys):
     report.add_to_report("longest name", 0)
     format_print(report)
     assert capsys.readouterr().out == "\n   TIRES\nfront        : 2.1\nlongest name : 0\n"
+
+
+@pytest.mark.filterwarnings("ignore")  # the findings of this machine
+def test_a_broken_check_does_not_stop_the_others(broken, capsys):
+    failed, _, total = run_checks(include_warnings=True)
+    assert total == 2
+    assert "tires" in failed
+    told = "Failed to call 'ros2doctor.checks' extension 'broken': AttributeError: 'Broken' object"
+    assert capsys.readouterr().err.count(told) == 1
+    assert [report.name for report in generate_reports(categories=["tires"])] == ["TIRES"]
+    told = "Failed to call 'ros2doctor.report' extension 'broken': AttributeError: 'Broken' object"
+    assert told in capsys.readouterr().err
+
+
+def test_a_check_without_a_result_is_told(tires, capsys):
+    module = tires.parent.parent / "tires.py"
+    module.write_text(CHECKS.replace("return result", "return None"))
+    assert run_checks_of_others() == (set(), 0, 0)
+    told = "extension 'tires': TypeError: check() returned None, expected a Result"
+    assert told in capsys.readouterr().err
+
+
+def test_the_command_runs_the_checks_of_others(tires, capsys):
+    main(["doctor"])
+    assert capsys.readouterr().out.endswith("\nAll 1 checks of other packages passed\n")
+    assert main(["doctor", "--include-warnings"]) == 1
+    shown = capsys.readouterr().out
+    assert shown.endswith("\n1/1 check(s) of other packages failed\n\nFailed modules: tires\n")
+    assert main(["doctor", "--report"]) == 0
+    assert capsys.readouterr().out.endswith("\n   TIRES\nfront : 2.1\n")
 
 
 def test_parts():

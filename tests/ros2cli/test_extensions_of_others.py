@@ -14,6 +14,11 @@ ENTRY_POINTS = """
 greet = greeting.command:GreetCommand
 broken = greeting.missing:BrokenCommand
 
+[ros2cli.extension_point]
+ros2greet.verb = greeting.verbs:GreetingExtension
+ros2lost.verb = greeting.missing:LostExtension
+ros2topic.verb = greeting.missing:TopicExtension
+
 [ros2greet.verb]
 world = greeting.verbs:WorldVerb
 
@@ -48,6 +53,10 @@ from ros2cli.node.strategy import NodeStrategy, add_arguments
 from ros2cli.verb import VerbExtension
 from ros2topic.api import get_topic_names_and_types
 from ros2topic.verb import VerbExtension as TopicVerbExtension
+
+
+class GreetingExtension:
+    """The extension point for 'greet' verb extensions."""
 
 
 class WorldVerb(VerbExtension):
@@ -153,6 +162,19 @@ def test_extensions_are_listed(ros2):
     assert "  greet: Greet others\n    module: greeting.command\n" in shown
     assert "  shout: Shout the names of the topics\n    module: greeting.verbs\n" in shown
     assert "  list: List the topics\n    module: ros2cli.commands.topic.list\n" in shown
+
+
+def test_extension_points_are_listed(ros2):
+    point = "ros2greet.verb: The extension point for 'greet' verb extensions\n"
+    for option in ((), ("--all",)):
+        status, shown = ros2("extension_points", *option)
+        assert status == 0
+        assert point in shown
+        assert "Failed to load entry point 'ros2lost.verb': ModuleNotFoundError" in shown
+        assert shown.count("ros2topic.verb") == 1
+        shown = ros2("extensions", *option)[1]
+        assert "ros2greet.verb\n  world: Greet the world\n" in shown
+    assert f"{point}  module: greeting.verbs\n" in ros2("extension_points", "-v")[1]
 
 
 def test_an_option_of_launch(ros2, tmp_path):

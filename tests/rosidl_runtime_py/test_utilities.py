@@ -82,6 +82,20 @@ def test_paths_lead_to_definitions():
     assert rosidl_runtime_py.get_interface_path("turtlesim/msg/Color.msg") == str(path)
 
 
+def test_a_path_has_the_ending_that_was_asked_for(tmp_path, monkeypatch):
+    folder = tmp_path / "share" / "p_idl" / "msg"
+    folder.mkdir(parents=True)
+    for ending in ("msg", "idl", "foo"):
+        (folder / f"B.{ending}").write_text("bool b\n")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    path = rosidl_runtime_py.get_interface_path
+    assert path("p_idl/msg/B") == str(folder / "B.msg")
+    assert path("p_idl/msg/B.msg") == str(folder / "B.msg")
+    assert path("p_idl/msg/B.idl") == str(folder / "B.idl")
+    with pytest.raises(LookupError, match=r"Could not find the interface '.*B\.foo'"):
+        path("p_idl/msg/B.foo")
+
+
 @pytest.mark.parametrize(
     ("name", "error", "text"),
     [
@@ -90,6 +104,11 @@ def test_paths_lead_to_definitions():
         ("a/../b", ValueError, "Invalid name 'a/../b'. Must not contain '..'"),
         ("nope/msg/X", LookupError, "Unknown package 'nope'"),
         ("turtlesim/msg/X", LookupError, "unknown interface 'turtlesim/msg/X'"),
+        ("turtlesim/msg/X.idl", LookupError, "unknown interface 'turtlesim/msg/X'"),
+        ("turtlesim/msg/Color.idl", LookupError, "Could not find the interface '/"),
+        ("turtlesim/msg/Color.foo", LookupError, "Could not find the interface '/"),
+        ("turtlesim/msg/Color.msg.bak", LookupError, "Could not find the interface '/"),
+        ("turtlesim/msg/Color.", LookupError, "Could not find the interface '/"),
     ],
 )
 def test_paths_of_nothing_are_errors(name, error, text):

@@ -1,16 +1,18 @@
-"""The kinds of commands and verbs, under the names that ROS 2 gives them."""
+"""The kinds of commands and verbs, under the names that ROS 2 gives them, and those of others."""
 
 from __future__ import annotations
 
 from importlib import import_module
+from typing import NamedTuple
 
 from ros2cli.commands import COMMANDS
+from ros2cli.entry_points import EXTENSION_POINT_GROUP_NAME
 from ros2cli.installed import declared, first_line, load
 
-__all__ = ["EXTENSION_POINTS", "extensions"]
+__all__ = ["ExtensionPoint", "extension_points", "extensions"]
 
 #: Name of the extension point, the command that it belongs to, and ROS 2's description.
-EXTENSION_POINTS = (
+_OWN = (
     ("ros2action.verb", "action", "The extension point for 'action' verb extensions"),
     ("ros2bag.verb", "bag", "The extension point for 'bag' verb extensions"),
     ("ros2cli.command", "", "The extension point for 'command' extensions"),
@@ -28,19 +30,45 @@ EXTENSION_POINTS = (
 )
 
 
-def extensions(point: str, command: str) -> dict[str, tuple[str, str]]:
-    """Summary and module of each verb of a command, or of each command if it is empty.
+class ExtensionPoint(NamedTuple):
+    """A kind of commands or verbs."""
+
+    name: str
+    description: str
+    #: Where the extensions of this distribution are, or the class of another package's point.
+    module: str
+    #: Summaries by name of the extensions of this distribution.
+    own: dict[str, str]
+
+
+def extension_points() -> list[ExtensionPoint]:
+    """Those of this distribution, and those that other packages declare.
+
+    The latter are loaded; one that cannot be loaded is one line on stderr.
+    """
+    found = []
+    for name, command, description in _OWN:
+        if not command:
+            found.append(ExtensionPoint(name, description, "ros2cli.commands", COMMANDS))
+        elif command in COMMANDS:
+            module = f"ros2cli.commands.{command}"
+            found.append(ExtensionPoint(name, description, module, import_module(module).VERBS))
+    names = {point.name for point in found}
+    for name, entry in sorted(declared(EXTENSION_POINT_GROUP_NAME).items()):
+        cls = load(entry) if name not in names else None
+        if cls is not None:
+            found.append(ExtensionPoint(name, first_line(cls), entry.module, {}))
+    return found
+
+
+def extensions(point: ExtensionPoint) -> dict[str, tuple[str, str]]:
+    """Summary and module of each extension of a point, by name.
 
     Those of other packages are loaded; one that cannot be loaded is one line on stderr.
     """
-    if command and command not in COMMANDS:
-        return {}
-    own: dict[str, str] = (
-        import_module(f"ros2cli.commands.{command}").VERBS if command else COMMANDS
-    )
-    package = f"ros2cli.commands.{command}" if command else "ros2cli.commands"
-    found = {name: (summary, f"{package}.{name}") for name, summary in own.items()}
-    for name, entry in declared(point).items():
+    own = point.own
+    found = {name: (summary, f"{point.module}.{name}") for name, summary in own.items()}
+    for name, entry in declared(point.name).items():
         cls = load(entry) if name not in own else None
         if cls is not None:
             found[name] = (first_line(cls), entry.module)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.commands._extension_points import EXTENSION_POINTS, extensions
+from ros2cli.commands._extension_points import extension_points
 
 if TYPE_CHECKING:
     import argparse
@@ -26,8 +26,7 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print name and description of each extension point."""
-    for name, command, description in EXTENSION_POINTS:
-        if extensions(name, command):
-            print(f"{name}: {description}")
-            if args.verbose:
-                print(f"  module: ros2cli.commands{f'.{command}' if command else ''}")
+    for point in extension_points():
+        print(f"{point.name}: {point.description}")
+        if args.verbose:
+            print(f"  module: {point.module}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.commands._extension_points import EXTENSION_POINTS, extensions
+from ros2cli.commands._extension_points import extension_points, extensions
 
 if TYPE_CHECKING:
     import argparse
@@ -26,10 +26,10 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print the commands and verbs below their extension points."""
-    for point, command, _ in EXTENSION_POINTS:
-        found = extensions(point, command)
+    for point in extension_points():
+        found = extensions(point)
         if found:
-            print(point)
+            print(point.name)
         for name, (summary, module) in found.items():
             print(f"  {name}: {summary}")
             if args.verbose:

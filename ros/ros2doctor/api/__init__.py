@@ -1,8 +1,8 @@
 """Checks and reports of ``ros2 doctor``, and those of other packages.
 
 A package adds a check by an entry point in the group ``ros2doctor.checks``, and a report by one in
-``ros2doctor.report``: `run_checks` and `generate_reports` include them. The command ``ros2 doctor``
-prints its own findings only.
+``ros2doctor.report``: `run_checks`, `generate_reports` and ``ros2 doctor`` include them. One that
+fails is one line on stderr.
 
 ========  ====================================
 module    what it holds
@@ -13,12 +13,12 @@ module    what it holds
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ros2doctor.api.format import doctor_error, doctor_warn
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Callable, Collection, Iterator
 
 __all__ = [
     "DoctorCheck",
@@ -28,8 +28,13 @@ __all__ = [
     "doctor_warn",
     "generate_reports",
     "get_topic_names",
+    "reports_of_others",
     "run_checks",
+    "run_checks_of_others",
 ]
+
+
+_T = TypeVar("_T")
 
 
 class DoctorCheck:
@@ -106,18 +111,16 @@ def run_checks(
         exclude_packages: Accepted as in ROS 2.
 
     Returns:
-        The categories that failed, how many checks failed, and how many there are.
+        The categories that failed, how many checks failed, and how many were run to the end.
     """
-    from ros2cli.plugin_system import instantiate_extensions
+    own = _OwnCheck()
+    outcomes = [(own.category(), own.check()), *_outcomes_of_others()]
+    return _failed(outcomes, include_warnings=include_warnings)
 
-    checks: list[DoctorCheck] = [_OwnCheck()]
-    checks += instantiate_extensions("ros2doctor.checks", unique_instance=True).values()
-    failed = []
-    for check in checks:
-        result = check.check()
-        if result.error or (include_warnings and result.warning):
-            failed.append(check.category())
-    return set(failed), len(failed), len(checks)
+
+def run_checks_of_others(*, include_warnings: bool = False) -> tuple[set[str], int, int]:
+    """As `run_checks`, with the checks of other packages alone."""
+    return _failed(_outcomes_of_others(), include_warnings=include_warnings)
 
 
 def generate_reports(
@@ -131,7 +134,6 @@ def generate_reports(
         categories: Only these: the titles of the own ones, and what the others say; None for all.
         exclude_packages: Accepted as in ROS 2.
     """
-    from ros2cli.plugin_system import instantiate_extensions
     from ros2cli.system_report import sections
 
     found = []
@@ -140,11 +142,19 @@ def generate_reports(
             report = Report(title)
             report.items += facts
             found.append(report)
-    for extension in instantiate_extensions("ros2doctor.report", unique_instance=True).values():
-        if categories is None or extension.category() in categories:
-            made = extension.report()
-            found += made if isinstance(made, list) else [made]
-    return found
+    return found + reports_of_others(categories)
+
+
+def reports_of_others(categories: Collection[str] | None = None) -> list[Report]:
+    """The reports of other packages; of these categories, or all."""
+
+    def reports(extension: DoctorReport) -> list[Report]:
+        if categories is not None and extension.category() not in categories:
+            return []
+        made = extension.report()
+        return made if isinstance(made, list) else [made]
+
+    return [report for made in _called("ros2doctor.report", reports) for report in made]
 
 
 def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
@@ -154,6 +164,44 @@ def get_topic_names(skip_topics: Collection[str] = ()) -> list[str]:
 
     with GraphNode() as graph:
         return [name for name, _ in topics(graph) if name not in skip_topics]
+
+
+def _outcomes_of_others() -> list[tuple[str, Result]]:
+    """Category and result of each check of other packages."""
+
+    def outcome(check: DoctorCheck) -> tuple[str, Result]:
+        result = check.check()
+        if not isinstance(result, Result):
+            raise TypeError(f"check() returned {result!r}, expected a Result")
+        return check.category(), result
+
+    return list(_called("ros2doctor.checks", outcome))
+
+
+def _failed(
+    outcomes: list[tuple[str, Result]], *, include_warnings: bool
+) -> tuple[set[str], int, int]:
+    failed = [
+        category
+        for category, result in outcomes
+        if result.error or (include_warnings and result.warning)
+    ]
+    return set(failed), len(failed), len(outcomes)
+
+
+def _called(group: str, function: Callable[[Any], _T]) -> Iterator[_T]:
+    """What a function returns for each extension of a group; a failure is one line on stderr."""
+    from ros2cli.output import tell
+    from ros2cli.plugin_system import instantiate_extensions
+
+    for name, extension in instantiate_extensions(group, unique_instance=True).items():
+        try:
+            returned = function(extension)
+        # Another's code may fail in any way; the other extensions still work.
+        except Exception as error:  # noqa: BLE001, PERF203
+            tell(f"Failed to call '{group}' extension '{name}': {type(error).__name__}: {error}")
+        else:
+            yield returned
 
 
 class _OwnCheck(DoctorCheck):

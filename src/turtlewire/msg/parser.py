@@ -49,6 +49,9 @@ __all__ = [
 
 _SEPARATOR = "---"
 
+#: What a quoted value follows.
+_BEFORE_VALUE = " \t=[,"
+
 _BASIC_TYPES = {
     "bool": BasicType("boolean"),
     "byte": BasicType("octet"),
@@ -133,7 +136,10 @@ def _parts(full_name: str, text: str, count: int) -> list[str]:
 
 
 def without_comment(line: str) -> str:
-    """A line up to the ``#`` that is not within quotes."""
+    """A line up to the ``#`` that is not within quotes.
+
+    Quotes begin a value; the apostrophe in ``don't`` does not, nor does a quote without an end.
+    """
     before, mark, _ = line.partition("#")
     if not mark or ("'" not in before and '"' not in before):
         return before
@@ -144,9 +150,9 @@ def without_comment(line: str) -> str:
                 quote = ""
         elif character == "#":
             return line[:index]
-        elif character in "\"'":
+        elif character in "\"'" and line[index - 1] in _BEFORE_VALUE:
             quote = character
-    return line
+    return before if quote else line
 
 
 def _parse_statement(

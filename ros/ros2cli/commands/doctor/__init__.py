@@ -52,15 +52,26 @@ ARGUMENTS = (
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the findings; status 1 when there is a problem."""
+    """Print the findings and what other packages find; status 1 when there is a problem."""
+    from ros2doctor.api import reports_of_others, run_checks_of_others
+    from ros2doctor.api.format import format_print
+
     if args.report:
         from ros2cli.system_report import system_report
 
         print(system_report())
+        for other in reports_of_others():
+            format_print(other)
         return 0
     from turtlewire.cli.doctor import examine, report
 
     findings = examine(args.listen)
     failed = [finding for finding in findings if finding.is_problem or args.include_warnings]
-    print(report(findings))
-    return 1 if failed else 0
+    print(report(findings), flush=True)
+    categories, count, total = run_checks_of_others(include_warnings=args.include_warnings)
+    if count:
+        print(f"\n{count}/{total} check(s) of other packages failed\n")
+        print("Failed modules:", *sorted(categories))
+    elif total:
+        print(f"\nAll {total} checks of other packages passed")
+    return 1 if failed or count else 0

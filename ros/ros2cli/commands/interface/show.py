@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import interfaces
+from turtlewire.msg.parser import without_comment
 
 if TYPE_CHECKING:
     import argparse
@@ -54,7 +55,7 @@ def _lines(name: str, *, comments: bool, nested_comments: bool, depth: int) -> I
     with open(get_interface_path(name), encoding="utf-8") as file:
         text = file.read()
     for line in text.splitlines():
-        shown = line.rstrip() if comments else line.partition("#")[0].rstrip()
+        shown = line.rstrip() if comments else without_comment(line).rstrip()
         if comments or shown:
             yield "\t" * depth + shown if shown else ""
         nested = _nested(line, name.partition("/")[0])
@@ -69,7 +70,7 @@ def _lines(name: str, *, comments: bool, nested_comments: bool, depth: int) -> I
 
 def _nested(line: str, package: str) -> str | None:
     """Name of the message that a line has a field of, if any."""
-    words = line.partition("#")[0].split()
+    words = without_comment(line).split()
     if len(words) < 2 or "=" in words[1][:1] or words[0].startswith("---"):
         return None
     kind = words[0].partition("[")[0].partition("<")[0]
