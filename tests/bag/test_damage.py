@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import random
 import re
+import shutil
 import signal
 import sqlite3
 import struct
@@ -345,6 +346,21 @@ def test_a_damaged_message_is_named_and_the_others_are_read(tmp_path):
     with open_bag(folder) as bag, pytest.raises(BagError, match=rf"{path.name}.*/tf at \d+"):
         messages.extend(bag)
     assert len(messages) == 110
+
+
+def test_a_message_that_only_the_metadata_tells_of(tmp_path):
+    """Such a file has neither a summary nor checksums: metadata.yaml alone knows the number."""
+    folder = shutil.copytree(GOLDEN / "real" / "g_mcap_fastwrite", tmp_path / "copy")
+    with open_bag(folder) as bag:
+        assert (len(list(bag)), bag.problems) == (223, [])
+    (path,) = folder.glob("*.mcap")
+    damaged = bytearray(path.read_bytes())
+    assert damaged[40188] == 0x05  # a message
+    damaged[40188] = 0xFA
+    path.write_bytes(damaged)
+    with open_bag(folder) as bag:
+        assert len(list(bag)) == 222
+        assert "222 of 223 messages" in " ".join(bag.problems)
 
 
 def test_a_message_that_lacks_is_told(tmp_path):
