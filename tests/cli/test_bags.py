@@ -206,6 +206,8 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
         ("bag tf nothing", "there is no bag at nothing"),
         ("doctor nothing", "there is no bag at nothing"),
         ("doctor BAG --listen 2", "a bag is not listened to"),
+        ("trajectory BAG base_link camera --rate 10", "bag tf BAG` shows which frames have a rate"),
+        ("compare BAG:odom:camera BAG:odom:camera --plane ab", "ab"),
         ("doctor --topic /r1/tf", "are of a bag: name one"),
         ("trajectory BAG /odom --topic /r1/tf", "tell where transforms are: name two frames"),
     ],
@@ -213,9 +215,24 @@ def test_a_file_without_data_is_no_trajectory(capsys, tmp_path, text, what):
 def test_mistakes(capsys, bag, words, text):
     done = run(capsys, *(word.replace("BAG", str(bag)) for word in words.split()))
     assert done.status == 2
-    assert text in done.err
+    assert text.replace("BAG", str(bag)) in done.err
     assert "Traceback" not in done.err
     assert not done.out
+
+
+def test_poses_without_a_partner_are_counted(capsys, bag, tmp_path):
+    whole, part, one = tmp_path / "whole.tum", tmp_path / "part.tum", tmp_path / "one.tum"
+    run(capsys, "trajectory", bag, "odom", "base_link", "-o", whole)
+    lines = whole.read_text().splitlines(keepends=True)
+    part.write_text("".join(lines[:60]))
+    one.write_text(lines[5])
+    found = run(capsys, "compare", whole, part).out
+    assert "\n60 pairs of poses, aligned: none\nof 100 poses of the reference and 60 of " in found
+    assert "\n1 pair of poses, aligned: none\n\n" in run(capsys, "compare", one, one).out
+    assert "\n1 pair of poses, aligned: none\nof 100 " in run(capsys, "compare", whole, one).out
+    (figures,) = json.loads(run(capsys, "compare", part, whole, "--json").out)
+    counts = figures["pairs"], figures["reference_poses"], figures["estimate_poses"]
+    assert counts == (60, 60, 100)
 
 
 def test_two_estimates_have_no_single_error_path(capsys, bag, tmp_path):

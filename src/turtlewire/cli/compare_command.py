@@ -18,6 +18,7 @@ from turtlewire.trajectory import (
     plot_path,
 )
 from turtlewire.trajectory.metrics import UNITS
+from turtlewire.trajectory.plots import columns_of
 
 if TYPE_CHECKING:
     import argparse
@@ -36,13 +37,16 @@ def run_compare(args: argparse.Namespace) -> int:
         TransformException: Frames are unknown or not connected.
         ValueError: No stamps match, or the alignment is not possible.
     """
+    columns_of(args.plane)  # a wrong one is told whether it is drawn or not
     reader = TrajectoryReader(*tf_topics(args))
     source = parse_source(args.reference)
     reference = reader.read(source)
     compared: dict[str, Comparison] = {}
+    poses: dict[str, int] = {}
     for text in args.estimates:
         estimate_source = parse_source(text)
         estimate = reader.read(estimate_source, like=reference)
+        poses[str(estimate_source)] = len(estimate)
         compared[str(estimate_source)] = compare(
             reference,
             estimate,
@@ -54,9 +58,19 @@ def run_compare(args: argparse.Namespace) -> int:
     if args.plot:
         _draw(args, compared).save(args.plot)
     if args.json:
-        print(json.dumps([_figures(args, name, each) for name, each in compared.items()]))
+        print(
+            json.dumps(
+                [
+                    _figures(args, name, each, (len(reference), poses[name]))
+                    for name, each in compared.items()
+                ]
+            )
+        )
     else:
-        blocks = [_text(args, name, each) for name, each in compared.items()]
+        blocks = [
+            _text(args, name, each, (len(reference), poses[name]))
+            for name, each in compared.items()
+        ]
         print("\n".join(blocks), end="")
     return 0
 
@@ -78,12 +92,16 @@ def _rpe(args: argparse.Namespace, comparison: Comparison) -> tuple[Errors | Non
     return found, ""
 
 
-def _figures(args: argparse.Namespace, name: str, comparison: Comparison) -> dict[str, Any]:
+def _figures(
+    args: argparse.Namespace, name: str, comparison: Comparison, poses: tuple[int, int]
+) -> dict[str, Any]:
     rpe, reason = _rpe(args, comparison)
     return {
         "reference": args.reference,
         "estimate": name,
         "pairs": len(comparison.reference),
+        "reference_poses": poses[0],
+        "estimate_poses": poses[1],
         "relation": args.relation,
         "align": comparison.align,
         "scale": comparison.alignment.scale,
@@ -95,11 +113,26 @@ def _figures(args: argparse.Namespace, name: str, comparison: Comparison) -> dic
     }
 
 
-def _text(args: argparse.Namespace, name: str, comparison: Comparison) -> str:
+def _left_out(pairs: int, poses: tuple[int, int]) -> str:
+    """A line about the poses that have no partner; nothing if all have one."""
+    if poses == (pairs, pairs):
+        return ""
+    return (
+        f"of {poses[0]:,} poses of the reference and {poses[1]:,} of the estimate; the others have "
+        "no partner (gaps, ends, rates)\n"
+    )
+
+
+def _text(
+    args: argparse.Namespace, name: str, comparison: Comparison, poses: tuple[int, int]
+) -> str:
     scale = f", scale {comparison.alignment.scale:.6f}" if comparison.align == "sim3" else ""
+    pairs = len(comparison.reference)
+    counted = "1 pair of poses" if pairs == 1 else f"{pairs:,} pairs of poses"
     head = (
         f"{printable(name)} against {printable(args.reference)}\n"
-        f"{len(comparison.reference):,} pairs of poses, aligned: {comparison.align}{scale}\n"
+        f"{counted}, aligned: {comparison.align}{scale}\n"
+        f"{_left_out(pairs, poses)}"
     )
     ape, (rpe, reason) = _ape(args, comparison), _rpe(args, comparison)
     text = f"{head}\n{_title(ape)}\n{ape.table()}\n"

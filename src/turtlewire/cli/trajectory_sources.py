@@ -85,6 +85,7 @@ class TrajectoryReader:
         """
         from turtlewire.bag import load_trajectory
         from turtlewire.trajectory import find_gaps, read_trajectory
+        from turtlewire.trajectory.sampling import moving_links
 
         if not source.names:
             if _is_bag(source.path):
@@ -95,7 +96,10 @@ class TrajectoryReader:
             return replace(found, gaps=tuple(find_gaps(found.stamps_ns, self._max_gap_ns)))
         if not source.is_transform:
             return load_trajectory(source.path, source.names[0], max_gap_ns=self._max_gap_ns)
-        return self._buffer(source.path).trajectory(
+        buffer = self._buffer(source.path)
+        if like is None and not moving_links(buffer, *source.names):
+            raise ValueError(_nothing_moves(source))
+        return buffer.trajectory(
             *source.names,
             stamps=None if like is None else like.stamps_ns,
             rate_hz=rate_hz,
@@ -114,6 +118,15 @@ class TrajectoryReader:
 
 def _is_bag(path: str) -> bool:
     return os.path.isdir(path) or path.removesuffix(".zstd").endswith((".mcap", ".db3"))
+
+
+def _nothing_moves(source: Source) -> str:
+    target, moved = source.names
+    return (
+        f"nothing moves between '{target}' and '{moved}', so there is no path to follow: "
+        f"`turtlewire bag tf {source.path}` shows which frames have a rate. To look the pose up at "
+        f"the times of another trajectory, type `turtlewire compare OTHER {source}`"
+    )
 
 
 def _names_are_missing(path: str) -> str:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from turtlewire.tf.buffer import Buffer
 
-__all__ = ["find_gaps", "sample_trajectory"]
+__all__ = ["find_gaps", "moving_links", "sample_trajectory"]
 
 #: A pause this many times as long as the median between two samples counts as a gap.
 _GAP_FACTOR = 10
@@ -55,7 +55,7 @@ def sample_trajectory(
         ValueError: Nothing moves on the way and no stamps were given, or the rate is no positive
             number or makes more poses than memory should hold.
     """
-    moving = _moving_links(buffer, target_frame, source_frame)
+    moving = moving_links(buffer, target_frame, source_frame)
     histories = [_stamps_of(buffer, child) for child in moving]
     gaps = sorted({gap for stamps_ns in histories for gap in find_gaps(stamps_ns, max_gap_ns)})
     if stamps is not None:
@@ -64,7 +64,7 @@ def sample_trajectory(
         if not histories:
             raise ValueError(
                 f"nothing moves between '{target_frame}' and '{source_frame}', so no link on the "
-                "way has times: give stamps"
+                "way has times to take: `stamps` would say at which ones"
             )
         wanted = _times(histories, rate_hz)
     wanted = wanted[wanted != 0]  # tf2 takes the time 0 for "the latest"
@@ -93,8 +93,12 @@ def find_gaps(stamps_ns: NDArray[np.int64], max_gap_ns: int | None = None) -> li
     ]
 
 
-def _moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
-    """The children of the moving links between two frames."""
+def moving_links(buffer: Buffer, target: str, source: str) -> list[str]:
+    """The children of the moving links between two frames.
+
+    Raises:
+        TransformException: The frames are unknown or not connected.
+    """
     buffer.lookup_transform(target, source)  # raises what is wrong with the names
     by_child = {link.child_frame: link for link in links(buffer)}
 
@@ -131,7 +135,7 @@ def _times(histories: list[NDArray[np.int64]], rate_hz: float | None) -> NDArray
     if length_s * rate_hz >= _MOST_POSES:
         raise ValueError(
             f"a rate of {rate_hz:g} Hz makes more than {_MOST_POSES:,} poses of {length_s:.3f} s; "
-            f"take at most {_MOST_POSES / length_s:.4g} Hz"
+            f"take at most {0.999 * _MOST_POSES / length_s:.4g} Hz"
         )
     count = int((end - start) * rate_hz / 1e9) + 1 if end >= start else 0
     return start + np.round(np.arange(count) * (1e9 / rate_hz)).astype(np.int64)
