@@ -70,7 +70,7 @@ class _Watcher:
 
     def __init__(self, signals: list[signal.Signals]) -> None:
         self._previous: dict[int, Any] = {}
-        self._interrupted_at = -REPEATED_INTERRUPT_S
+        self._interrupted_at = self._terminated_at = -REPEATED_INTERRUPT_S
         self._read_fd, self._write_fd = os.pipe()
         if os.name == "posix":
             os.set_blocking(self._write_fd, False)
@@ -83,7 +83,7 @@ class _Watcher:
     def close(self) -> None:
         """Put the former handlers back, end the thread and join it."""
         for signum, previous in self._previous.items():
-            if signal.getsignal(signum) == self._handle and not self._interrupt_is_fresh():
+            if signal.getsignal(signum) == self._handle and not self._is_needed_for(signum):
                 signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
         signal.set_wakeup_fd(self._previous_wakeup_fd)
         write_fd, self._write_fd = self._write_fd, -1
@@ -109,8 +109,14 @@ class _Watcher:
         if self._previous_wakeup_fd >= 0:
             os.write(self._previous_wakeup_fd, bytes([signum]))
 
-    def _interrupt_is_fresh(self) -> bool:
-        return time.monotonic() - self._interrupted_at < REPEATED_INTERRUPT_S
+    def _is_needed_for(self, signum: int) -> bool:
+        """Whether a signal that comes after the shutdown belongs to the request that led to it.
+
+        After SIGTERM, SIGINT may follow at once: from `ros2 launch` below `timeout`, for example.
+        """
+        if _is_fresh(self._interrupted_at):
+            return True
+        return signum == signal.SIGINT and _is_fresh(self._terminated_at)
 
     def _handle(self, signum: int, frame: FrameType | None) -> None:
         """Runs in the main thread, after the C handler has written to the pipe."""
@@ -118,10 +124,13 @@ class _Watcher:
         if self._write_fd >= 0:  # again: someone may have taken the wake-up descriptor from us
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
-            if self._interrupt_is_fresh():
+            is_shut_down = self._write_fd < 0
+            if _is_fresh(self._interrupted_at) or (is_shut_down and _is_fresh(self._terminated_at)):
                 return
-            _note_interrupt()
             self._interrupted_at = time.monotonic()
+        else:
+            self._terminated_at = time.monotonic()
+        _note_stop()
         previous = self._previous[signum]
         if callable(previous):
             previous(signum, frame)
@@ -134,15 +143,19 @@ class _Watcher:
             signal.signal(signum, previous if previous is not None else signal.SIG_DFL)
 
 
+def _is_fresh(moment: float) -> bool:
+    return time.monotonic() - moment < REPEATED_INTERRUPT_S
+
+
 _lock = threading.Lock()
 _watcher: _Watcher | None = None
 _options = SignalHandlerOptions.NO
-_interrupted = False
+_stopped = False
 
 
-def _note_interrupt() -> None:
-    global _interrupted  # noqa: PLW0603 - as of the handlers, there is one in the process
-    _interrupted = True
+def _note_stop() -> None:
+    global _stopped  # noqa: PLW0603 - as of the handlers, there is one in the process
+    _stopped = True
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
@@ -211,10 +224,10 @@ def _after_fork_in_child() -> None:
 def _end() -> None:
     """Python's own end puts the default of SIGINT back.
 
-    The second signal of the same Ctrl-C would kill a process that ends well.
+    The second signal of the same Ctrl-C, or one after SIGTERM, would kill a process that ends well.
     """
     uninstall_signal_handlers()
-    if _interrupted:
+    if _stopped:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 
 import rclpy
@@ -30,17 +31,13 @@ def main(args: list[str] | None = None) -> int:
     if {"-h", "--help"} & {*words}:
         print(_USAGE)  # noqa: T201
         return 0
-    rclpy.init(args=argv)
-    try:
-        node = RobotStatePublisher(urdf_file=words[0] if words else None)
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=argv):
+        try:
+            node = RobotStatePublisher(urdf_file=words[0] if words else None)
+        except StartError as error:
+            print(error, file=sys.stderr)  # noqa: T201
+            if error.hint:
+                print(f"    {error.hint}", file=sys.stderr)  # noqa: T201
+            return 1
         rclpy.spin(node)
-    except StartError as error:
-        print(error, file=sys.stderr)  # noqa: T201
-        if error.hint:
-            print(f"    {error.hint}", file=sys.stderr)  # noqa: T201
-        return 1
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        rclpy.try_shutdown()
     return 0

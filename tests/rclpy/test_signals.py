@@ -339,7 +339,7 @@ def test_a_program_that_never_shuts_down_ends(start):
 
 
 LATE = """
-import os, signal, rclpy
+import os, signal, sys, rclpy
 
 class Last:
     def __del__(self, kill=os.kill, pid=os.getpid(), print=print):
@@ -348,15 +348,20 @@ class Last:
 
 last = Last()  # goes with the module, after Python has put the default handlers back
 rclpy.init()
+node = rclpy.create_node("n")
 try:
-    os.kill(os.getpid(), signal.SIGINT)
-    rclpy.spin(rclpy.create_node("n"))
-except KeyboardInterrupt:
-    rclpy.try_shutdown()
+    os.kill(os.getpid(), signal.Signals[sys.argv[1]])
+    rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
+    rclpy.shutdown()
+os.kill(os.getpid(), signal.SIGINT)
 """
 
 
-def test_the_second_signal_of_one_ctrl_c_does_not_kill_a_process_that_is_ending():
-    """`ros2 launch` passes Ctrl-C on to processes that the terminal has told already."""
-    done = subprocess.run([sys.executable, "-c", LATE], capture_output=True, text=True, check=False)
+@pytest.mark.parametrize("first", ["SIGINT", "SIGTERM"])
+def test_a_sigint_right_after_a_signal_does_not_kill_a_process_that_is_ending(first):
+    """`ros2 launch` passes signals on to processes that the terminal or `timeout` told already."""
+    done = subprocess.run(
+        [sys.executable, "-c", LATE, first], capture_output=True, text=True, check=False
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "a second time\n", "")
