@@ -20,15 +20,17 @@ if TYPE_CHECKING:
     from benchmarks.figures import Row
 
 
-def modules(wanted: list[str]) -> list[ModuleType]:
+def name_of(module: ModuleType) -> str:
+    return module.__name__.removeprefix("benchmarks.")
+
+
+def modules() -> list[ModuleType]:
     found = []
     for info in pkgutil.iter_modules(benchmarks.__path__, "benchmarks."):
         if info.ispkg or info.name.endswith("__main__"):
             continue
         module = importlib.import_module(info.name)
-        if hasattr(module, "rows") and (
-            not wanted or info.name.removeprefix("benchmarks.") in wanted
-        ):
+        if hasattr(module, "rows"):
             found.append(module)
     return found
 
@@ -66,13 +68,16 @@ def table(rows: list[Row]) -> str:
 
 def main() -> int:
     wanted = sys.argv[1:]
-    found = modules(wanted)
-    missing = set(wanted) - {module.__name__.removeprefix("benchmarks.") for module in found}
-    if missing:
+    found = modules()
+    names = [name_of(module) for module in found]
+    if missing := set(wanted) - set(names):
         print(f"no such benchmark: {', '.join(sorted(missing))}", file=sys.stderr)
+        print(f"there are: {', '.join(names)}", file=sys.stderr)
         return 2
     print(f"Python {platform.python_version()}, {platform.machine()}, {platform.system()}")
     for module in found:
+        if wanted and name_of(module) not in wanted:
+            continue
         print(f"\n{module.TITLE}\n", flush=True)
         print(table(list(module.rows())), flush=True)
     return 0
