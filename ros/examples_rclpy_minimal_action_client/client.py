@@ -28,7 +28,8 @@ class MinimalActionClient(Node):
     def send_goal(self) -> None:
         """Wait for the server and send it the goal."""
         self.get_logger().info("Waiting for action server...")
-        self._client.wait_for_server()
+        if not self._client.wait_for_server():
+            raise ExternalShutdownException
         self.get_logger().info("Sending goal request...")
         future = self._client.send_goal_async(
             Fibonacci.Goal(order=10), feedback_callback=self.feedback_callback

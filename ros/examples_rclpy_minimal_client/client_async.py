@@ -18,6 +18,8 @@ def main(args: list[str] | None = None) -> None:
         client = node.create_client(AddTwoInts, "add_two_ints")
         request = AddTwoInts.Request(a=41, b=1)
         while not client.wait_for_service(timeout_sec=1.0):
+            if not rclpy.ok():
+                raise ExternalShutdownException
             node.get_logger().info("service not available, waiting again...")
         future = client.call_async(request)
         while rclpy.ok() and not future.done():

@@ -21,6 +21,8 @@ class MinimalClientAsync(Node):
         super().__init__("minimal_client_async")
         self.cli = self.create_client(AddTwoInts, "add_two_ints")
         while not self.cli.wait_for_service(timeout_sec=1.0):
+            if not rclpy.ok():
+                raise ExternalShutdownException
             self.get_logger().info("service not available, waiting again...")
 
     def send_request(self, a: int, b: int) -> AddTwoInts.Response | None:

@@ -85,14 +85,33 @@ def test_minimal_subscribers(start, style):
 @pytest.mark.parametrize("service", ["service", "service_member_function"])
 def test_minimal_service_and_clients(start, service):
     server = start("examples_rclpy_minimal_service", service)
-    for client in ("client", "client_async", "client_async_member_function"):
+    for client in (
+        "client",
+        "client_async",
+        "client_async_callback",
+        "client_async_member_function",
+    ):
         asked = start("examples_rclpy_minimal_client", client)
         asked.wait_for("Result of add_two_ints: for 41 \\+ 1 = 42$")
         assert asked.wait() == 0
     own = start("examples_rclpy_minimal_client", "client_async_member_function", "2", "3")
     own.wait_for("Result of add_two_ints: for 2 \\+ 3 = 5$")
-    server.wait_for(r"\[minimal_service\]: Incoming request$", count=4)
+    server.wait_for(r"\[minimal_service\]: Incoming request$", count=5)
     end(server)
+
+
+@pytest.mark.parametrize(
+    "client",
+    [
+        ("demo_nodes_py", "add_two_ints_client"),
+        ("examples_rclpy_minimal_client", "client"),
+        ("examples_rclpy_minimal_client", "client_async_callback"),
+    ],
+)
+def test_ctrl_c_ends_the_wait_for_a_service(start, client):
+    waiting = start(*client)
+    waiting.wait_for("service not available, waiting again...$")
+    end(waiting)
 
 
 def test_minimal_action(start):

@@ -24,6 +24,15 @@ EXECUTABLES = {
         "callback_group composed custom_callback_group custom_executor listener talker"
     ),
     "examples_rclpy_guard_conditions": "trigger_guard_condition",
+    "examples_rclpy_minimal_action_client": (
+        "client client_asyncio client_cancel client_not_composable"
+    ),
+    "examples_rclpy_minimal_action_server": (
+        "server server_defer server_not_composable server_queue_goals server_single_goal"
+    ),
+    "examples_rclpy_minimal_client": (
+        "client client_async client_async_callback client_async_member_function"
+    ),
     "examples_rclpy_pointcloud_publisher": "pointcloud_publisher",
 }
 BLACKBOARD = """

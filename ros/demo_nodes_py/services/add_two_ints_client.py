@@ -17,6 +17,8 @@ def main(args: list[str] | None = None) -> None:
         node = rclpy.create_node("add_two_ints_client")
         client = node.create_client(AddTwoInts, "add_two_ints")
         while not client.wait_for_service(timeout_sec=1.0):
+            if not rclpy.ok():
+                raise ExternalShutdownException
             print("service not available, waiting again...", flush=True)  # noqa: T201 - as in ROS 2
         future = client.call_async(AddTwoInts.Request(a=2, b=3))
         rclpy.spin_until_future_complete(node, future)
