@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
-__all__ = ["main"]
+__all__ = ["main", "wait_for"]
 
 
 def wait_for(node: Node, future: Future[Any]) -> Any:
