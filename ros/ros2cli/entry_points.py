@@ -12,7 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.commands import COMMANDS
-from ros2cli.installed import declared, first_line, load
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, declared, first_line, load
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -26,8 +26,6 @@ __all__ = [
     "load_entry_points",
     "others",
 ]
-
-EXTENSION_POINT_GROUP_NAME = "ros2cli.extension_point"
 
 #: The command of each group; ``ros2 daemon`` is the only one whose package has others beside it.
 _DAEMON = "ros2cli.daemon.verb"

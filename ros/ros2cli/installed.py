@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["declared", "first_line", "load"]
+__all__ = ["EXTENSION_POINT_GROUP_NAME", "declared", "first_line", "load"]
+
+#: The group by which a package declares groups for the extensions of others.
+EXTENSION_POINT_GROUP_NAME = "ros2cli.extension_point"
 
 
 def declared(group: str) -> dict[str, EntryPoint]:

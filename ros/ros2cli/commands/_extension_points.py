@@ -6,8 +6,7 @@ from importlib import import_module
 from typing import NamedTuple
 
 from ros2cli.commands import COMMANDS
-from ros2cli.entry_points import EXTENSION_POINT_GROUP_NAME
-from ros2cli.installed import declared, first_line, load
+from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, declared, first_line, load
 
 __all__ = ["ExtensionPoint", "extension_points", "extensions"]
 
