@@ -18,8 +18,9 @@ from xml.sax.saxutils import quoteattr
 _MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
 #: A launch test needs this module, which comes with ROS 2's launch_testing.
 _LAUNCH_MODULE = "launch_testing"
-#: pytest's exit status when it has selected no test, which is no failure for colcon either.
+#: pytest's exit status when it has run no test. That is no failure where an option deselects some.
 _NO_TESTS = 5
+_SELECTING = ("-k", "-m", "--deselect", "--lf", "--last-failed")
 _RESULT = """<?xml version="1.0" encoding="UTF-8"?>
 <testsuite name={name} tests="1" failures="{failures}" errors="0" skipped="{skipped}">
   <testcase classname={name} name={name}>{inner}</testcase>
@@ -49,11 +50,30 @@ def main(argv: list[str] | None = None) -> int:
     if status is None:
         _write_result(result, options.name, f"no end after {options.timeout:g} s")
         return 1
-    if options.kind == "pytest" and status == _NO_TESTS:
-        return 0
+    if options.kind == "pytest":
+        return _pytest_status(status, options.words, result, options.name)
     if options.kind == "command":
         _write_result(result, options.name, f"exit status {status}" if status else "")
     return status
+
+
+def _pytest_status(status: int, words: list[str], result: Path, name: str) -> int:
+    """The test's exit status; a failure is in the result file, also if pytest wrote an empty one.
+
+    It does so when it finds no test, and when a file is missing.
+    """
+    if status == 0 or _has_cases(result):
+        return 0 if status == _NO_TESTS else status
+    if status == _NO_TESTS and any(word.startswith(_SELECTING) for word in words[1:]):
+        return 0
+    what = "there is no test in it" if status == _NO_TESTS else f"pytest ended with {status}"
+    _write_result(result, name, f"{what}: {words[0]}")
+    return status
+
+
+def _has_cases(result: Path) -> bool:
+    """Whether the result file tells of a test, or of a file that was skipped as a whole."""
+    return b"<testcase " in result.read_bytes()
 
 
 def _command(kind: str, words: list[str], result: Path, name: str) -> list[str]:

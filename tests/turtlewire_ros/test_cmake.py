@@ -349,7 +349,8 @@ def test_tests(evaluate, tmp_path):
         "  add_launch_test(test/two.py ARGS a:=b)\n"
         "  ament_add_test(three COMMAND echo hello WORKING_DIRECTORY test)\n"
         "  add_test(NAME four COMMAND compiled)\n"
-        "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\nendif()"
+        "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\nendif()",
+        **{"test/test_one.py": "", "test/two.py": ""},
     )
     folder = tmp_path / "robot"
     assert [(test.name, test.kind, test.words) for test in plan.tests] == [
@@ -360,6 +361,14 @@ def test_tests(evaluate, tmp_path):
     assert plan.tests[0].environment == {"A": "1", "B": "2"}
     assert [test.timeout for test in plan.tests] == [90, 60, 60]
     assert plan.tests[2].folder == os.path.join(folder, "test")
+
+
+@pytest.mark.parametrize(
+    "command", ["ament_add_pytest_test(one test/nope.py)", "add_launch_test(test/nope.py)"]
+)
+def test_a_test_whose_file_is_missing_is_an_error(evaluate, tmp_path, command):
+    with pytest.raises(CMakeError, match=r"CMakeLists.txt:4: .*there is no file .*/test/nope.py"):
+        evaluate(command)
 
 
 def test_a_subfolder_has_its_own_variables(evaluate, tmp_path):

@@ -19,6 +19,7 @@ def result_of(tmp_path, kind, words, timeout="60"):
     )  # fmt: skip
     case = ET.parse(path).find(".//testcase")
     failure, skipped = case.find("failure"), case.find("skipped")
+    failure = case.find("error") if failure is None else failure
     if skipped is not None:
         return status, f"skipped: {skipped.get('message')}"
     return status, "passed" if failure is None else failure.get("message").splitlines()[0]
@@ -63,6 +64,24 @@ def main_status(tmp_path, words):
     result = str(tmp_path / "a.xunit.xml")
     options = ["--kind", "pytest", "--name", "a", "--result", result, "--timeout", "60"]
     return main([*options, "--folder", str(tmp_path), "--", *words])
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("def helper(): pass\n", (5, "there is no test in it: ")),
+        (None, (4, "pytest ended with 4: ")),
+        ("import nothing_of_this_name\n", (2, "collection failure")),
+        ("import pytest\npytest.skip('not here', allow_module_level=True)\n", (0, "skipped: ")),
+    ],
+)
+def test_a_file_without_tests_is_a_failure_of_its_own(tmp_path, text, expected):
+    path = tmp_path / "test_it.py"
+    if text is not None:
+        path.write_text(text)
+    status, message = result_of(tmp_path, "pytest", [str(path)])
+    assert status == expected[0]
+    assert message.startswith(expected[1])
 
 
 def test_a_test_that_cannot_begin_has_a_result_too(tmp_path):

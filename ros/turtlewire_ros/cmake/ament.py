@@ -187,16 +187,23 @@ def _definition(run: Interpreter, word: str, call: Call) -> tuple[str, Path]:
 
 
 def _add_pytest_test(run: Interpreter, call: Call) -> None:
-    name, path, *_ = call.words
-    _add_test(run, call, "pytest", name, (run.source_path(path),))
+    name, word, *_ = call.words
+    _add_test(run, call, "pytest", name, (_test_path(run, call, word),))
 
 
 def _add_launch_test(run: Interpreter, call: Call) -> None:
-    path = run.source_path(call.words[0])
+    path = _test_path(run, call, call.words[0])
     parsed = _test_arguments(call)
     stem = os.path.relpath(path, run.variables["CMAKE_CURRENT_SOURCE_DIR"]).replace("/", "_")
     name = parsed.values.get("TARGET", stem)
     _add_test(run, call, "launch", name, (path, *parsed.lists.get("ARGS", [])))
+
+
+def _test_path(run: Interpreter, call: Call, word: str) -> str:
+    path = run.source_path(word)
+    if not os.path.exists(path):
+        raise CMakeError(call.place, f"{call.name}(): there is no file {path}")
+    return path
 
 
 def _add_command_test(run: Interpreter, call: Call) -> None:
