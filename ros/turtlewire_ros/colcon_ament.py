@@ -51,6 +51,7 @@ _COMPILES = re.compile(
     r"|add_library)\s*\((?!\s*\S+\s+(?:INTERFACE|ALIAS|IMPORTED)\b)",
     re.MULTILINE | re.IGNORECASE,
 )
+_AMENT_CMAKE = re.compile(r"<build_type>\s*ament_cmake\s*</build_type>")
 #: The tests that the last build found, in the build folder.
 _TESTS = "turtlewire_tests.json"
 
@@ -74,7 +75,10 @@ class AmentPackageIdentification(PackageIdentificationExtensionPoint):
             colcon_logger.error(fault)
             desc.name, desc.type = desc.path.name, _UNREADABLE_TYPE
             return
-        if not cmake.is_file() or _is_for_cmake(cmake):
+        if not cmake.is_file():
+            if not _AMENT_CMAKE.search(manifest.read_text(encoding="utf-8", errors="replace")):
+                return
+        elif _is_for_cmake(cmake):
             return
         self._ros.identify(desc)
         if desc.type == "ros.ament_cmake":

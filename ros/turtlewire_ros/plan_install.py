@@ -72,8 +72,8 @@ def build_commands(plan: Plan, build: Path, modules: Path) -> Iterator[tuple[lis
         for relative, source in files:
             _replace_by_copy(source, folder / relative)
         output = modules if installed else build / "rosidl_generator_py"
-        command = [sys.executable, "-m", "turtlewire.msg", str(folder), "--output", str(output)]
-        yield [*command, "--package", plan.name], str(build)
+        command = [sys.executable, "-m", "turtlewire_ros.generate_interfaces", str(folder)]
+        yield [*command, "--output", str(output), "--package", plan.name], str(build)
     for step in plan.steps:
         Path(step.folder).mkdir(parents=True, exist_ok=True)
         yield list(step.words), step.folder

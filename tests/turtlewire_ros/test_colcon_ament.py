@@ -151,6 +151,34 @@ def test_a_mistake_in_a_definition_fails_the_build_with_its_line(workspace):
     )
 
 
+def test_a_type_of_nobody_fails_the_build_with_its_line(workspace):
+    path = workspace / "src/my_interfaces/srv/AddSphere.srv"
+    path.write_text("Sphere sphere\n---\nnope_msgs/X[] x  # of nobody\nSpere last\n")
+    done = run_in(
+        workspace, "source {prefix}/setup.bash; colcon build --packages-select my_interfaces"
+    )
+    assert done.returncode == 1
+    assert (
+        "my_interfaces/srv/AddSphere, line 3: there is no nope_msgs/msg/X in 'nope_msgs/X[] x'; "
+        "source or install what has it, or build nope_msgs and name it in package.xml\n"
+        "my_interfaces/srv/AddSphere, line 4: there is no my_interfaces/msg/Spere in 'Spere last'; "
+        "add its file to rosidl_generate_interfaces()\n"
+    ) in done.stderr
+
+
+def test_a_package_without_cmakelists_is_told_in_one_line(workspace):
+    (workspace / "src/my_interfaces/CMakeLists.txt").unlink()
+    done = run_in(
+        workspace, "source {prefix}/setup.bash; colcon build --packages-select my_interfaces"
+    )
+    assert done.returncode == 1
+    folder = workspace / "src/my_interfaces"
+    assert (
+        f"ERROR:colcon:my_interfaces: there is no {folder}/CMakeLists.txt, which the build_type "
+        "ament_cmake in package.xml asks for\n"
+    ) in done.stderr
+
+
 def test_where_there_is_an_ament_cmake_packages_with_code_stay_with_cmake(workspace):
     config = workspace / "ros/share/ament_cmake/cmake/ament_cmakeConfig.cmake"
     config.parent.mkdir(parents=True)

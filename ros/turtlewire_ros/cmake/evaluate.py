@@ -64,6 +64,11 @@ def evaluate_package(
         match = _DEFINITION.match(argument)
         if match is not None:
             variables[match[1]] = match[2]
+    path = source / "CMakeLists.txt"
+    if not path.is_file():
+        raise FileNotFoundError(
+            f"there is no {path}, which the build_type ament_cmake in package.xml asks for"
+        )
     interpreter = Interpreter(
         BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT | XACRO,
         plan,
@@ -73,7 +78,7 @@ def evaluate_package(
     )
     build.mkdir(parents=True, exist_ok=True)
     try:
-        interpreter.run_file(source / "CMakeLists.txt")
+        interpreter.run_file(path)
     except CMakeError as error:
         troubles = plan.missing + plan.unknown
         raise CMakeError(error.place, error.text, troubles) from error
