@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument, exclusive
@@ -53,22 +54,21 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> int:
     """Print the findings and what other packages find; status 1 when there is a problem."""
-    from ros2doctor.api import reports_of_others, run_checks_of_others
-    from ros2doctor.api.format import format_print
-
+    # By name: ros2doctor stands above, and brings the classes that other packages derive from.
+    api, printing = import_module("ros2doctor.api"), import_module("ros2doctor.api.format")
     if args.report:
         from ros2cli.system_report import system_report
 
         print(system_report())
-        for other in reports_of_others():
-            format_print(other)
+        for other in api.reports_of_others():
+            printing.format_print(other)
         return 0
     from turtlewire.cli.doctor import examine, report
 
     findings = examine(args.listen)
     failed = [finding for finding in findings if finding.is_problem or args.include_warnings]
     print(report(findings), flush=True)
-    categories, count, total = run_checks_of_others(include_warnings=args.include_warnings)
+    categories, count, total = api.run_checks_of_others(include_warnings=args.include_warnings)
     if count:
         print(f"\n{count}/{total} check(s) of other packages failed\n")
         print("Failed modules:", *sorted(categories))
