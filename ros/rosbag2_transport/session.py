@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import socket
 import sys
 import threading
 from typing import TYPE_CHECKING
@@ -83,8 +84,8 @@ def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
     """Have SIGINT, SIGTERM and SIGHUP put an item into ``stop``; nothing in a thread.
 
     SIGHUP comes when the terminal is closed: a recording is finished then, too, unless ``nohup``
-    lets it go on. A queue, because its ``put`` may run in a signal handler whatever the main thread
-    does.
+    lets it go on. A thread puts the item: a signal that comes just before the main thread begins to
+    wait for it does not end that wait.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -92,12 +93,27 @@ def stopped_by_signals(stop: queue.SimpleQueue[None]) -> Iterator[None]:
     numbers = [signal.SIGINT, signal.SIGTERM]
     if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         numbers.append(signal.SIGHUP)
-    former = {number: signal.signal(number, lambda *_: stop.put(None)) for number in numbers}
+    arrived, wakeup = socket.socketpair()
+    wakeup.setblocking(False)
+
+    def watch() -> None:
+        while number := arrived.recv(1):
+            if number[0] in numbers:
+                stop.put(None)
+
+    watcher = threading.Thread(target=watch, name="bag-signals", daemon=True)
+    watcher.start()
+    former_fd = signal.set_wakeup_fd(wakeup.fileno(), warn_on_full_buffer=False)
+    former = {number: signal.signal(number, lambda *_: None) for number in numbers}
     try:
         yield
     finally:
         for number, handler in former.items():
             signal.signal(number, handler if handler is not None else signal.SIG_DFL)
+        signal.set_wakeup_fd(former_fd)
+        wakeup.close()
+        watcher.join()
+        arrived.close()
 
 
 @contextlib.contextmanager

@@ -31,7 +31,8 @@ def test_attributes(entity):
     assert element.get_attr("b", data_type=float) == 1.5
     assert element.get_attr("c", data_type=bool) is True
     assert element.get_attr("d") == "x"
-    assert element.get_attr("d", data_type=bool) == "x"  # it may hold substitutions
+    with pytest.raises(TypeError, match="Attribute 'd' of Entity 'node' expected to be of type"):
+        element.get_attr("d", data_type=bool)
     assert element.get_attr("e", data_type=list[int]) == [1, 2]
     assert element.get_attr("e", data_type=None) == [1, 2]
     assert [child.type_name for child in element.children] == ["x", "y"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 from pathlib import Path
 
 import pytest
@@ -15,8 +14,11 @@ SMALL = Path(__file__).parents[1] / "golden" / "bag" / "p_small"
 
 
 def test_an_interrupted_conversion_says_so_and_leaves_no_half_bag(tmp_path, capfd):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
     writer = BagWriter(tmp_path / "half", max_file_ns=1_000_000_000)
-    writer.on_split = lambda *_: signal.raise_signal(signal.SIGINT)  # after a second of the bag
+    writer.on_split = interrupt  # after a second of the bag
     with open_bag(SMALL) as bag, pytest.raises(KeyboardInterrupt):
         rewrite([bag], [Output(writer, RecordOptions(all_topics=True))])
     lines = capfd.readouterr().err.splitlines()
