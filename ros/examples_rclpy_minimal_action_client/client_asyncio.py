@@ -56,12 +56,20 @@ async def run(node: MinimalActionClientAsyncIO) -> None:
     """Send the goals while a thread spins the node; Ctrl-C ends both."""
     spinning = asyncio.create_task(asyncio.to_thread(rclpy.spin, node))
     sending = asyncio.create_task(send_goals(node))
+    for task in (spinning, sending):
+        task.add_done_callback(_look_at)
     await asyncio.wait((spinning, sending), return_when=asyncio.FIRST_COMPLETED)
     if sending.done():
         rclpy.shutdown()
         await sending
     sending.cancel()
     await spinning
+
+
+def _look_at(task: asyncio.Task[None]) -> None:
+    """Take the exception, which asyncio reports otherwise: Ctrl-C may come within any task."""
+    if not task.cancelled():
+        task.exception()
 
 
 def main(args: list[str] | None = None) -> None:
