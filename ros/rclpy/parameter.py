@@ -253,7 +253,9 @@ def parameter_dict_from_yaml_file(
     for node in nodes:
         section = content[node]
         if not isinstance(section, dict) or not isinstance(section.get("ros__parameters"), dict):
-            raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {node}")  # noqa: TRY004 - as above
+            raise RuntimeError(  # noqa: TRY004 - as above
+                f"YAML file is not a valid ROS parameter file for node {node}"
+            )
         _flatten(section["ros__parameters"], namespace, parameters)
     return parameters
 

@@ -164,7 +164,8 @@ class Future(Generic[T]):
                 continue
             try:
                 callback(self)
-            except Exception as error:  # noqa: BLE001 - a done-callback must not break who finishes the future; ROS 2 warns as well
+            # A done-callback must not break who finishes the future; ROS 2 warns as well.
+            except Exception as error:  # noqa: BLE001
                 import warnings
 
                 warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=3)
@@ -240,7 +241,8 @@ class Task(Future[T]):
                 _steps.loop_outside = outer
         except StopIteration as stop:
             self._complete(result=stop.value)
-        except Exception as error:  # noqa: BLE001 - it becomes the task's outcome, which the executor raises
+        # It becomes the task's outcome, which the executor raises.
+        except Exception as error:  # noqa: BLE001
             self._complete(exception=error)
 
     def _complete(self, **outcome: Any) -> None:

@@ -140,7 +140,9 @@ class LaunchTestItem(pytest.Item):
         if reasons and all(reason is not None for reason in reasons):
             pytest.skip(str(reasons[0]))
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException]) -> Any:  # type: ignore[override]
+    def repr_failure(  # type: ignore[override]
+        self, excinfo: pytest.ExceptionInfo[BaseException]
+    ) -> Any:
         """What pytest shows of a failure."""
         if isinstance(excinfo.value, LaunchTestFailure):
             return LaunchTestFailureRepr(excinfo.value.results)

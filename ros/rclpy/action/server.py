@@ -291,7 +291,8 @@ class ActionServer(Waitable):
     ) -> None:
         try:
             result = await await_or_execute(execute_callback, goal_handle)
-        except Exception as error:  # noqa: BLE001 - the client has to get an answer; ROS 2 logs it with this text
+        # The client has to get an answer; ROS 2 logs the error with this text.
+        except Exception as error:  # noqa: BLE001
             result = self._action_type.Result()
             # A ROS logger.
             self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400

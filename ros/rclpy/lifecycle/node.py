@@ -128,7 +128,8 @@ class LifecycleNodeMixin(ManagedEntity):
         complain = self.get_logger().error  # type: ignore[attr-defined]
         try:
             outcome = self._callbacks[state.state_id](before)
-        except Exception as error:  # noqa: BLE001 - an error is one of the outcomes that the state machine knows
+        # An error is one of the outcomes that the state machine knows.
+        except Exception as error:  # noqa: BLE001
             import traceback
 
             complain(
