@@ -17,22 +17,24 @@ pytestmark = [
 
 ROS2 = Path(sys.executable).parent / "ros2"
 
-#: A program with a child, which it does not stop. Both say that they are ready.
+#: A program with a child, which it does not stop. Both say that they are ready, each by a single
+#: write: an unbuffered `print` makes two, and the other's may come in between.
 OBEDIENT = """#!/usr/bin/env python3
-import signal, subprocess, sys
-child = "print('ready', flush=True); import signal; signal.pause()"
-subprocess.Popen([sys.executable, "-c", child])
-print("ready", flush=True)
+import os, signal, subprocess, sys
+ready = "import os; os.write(1, b'ready\\\\n')"
+subprocess.Popen([sys.executable, "-c", ready + "; import signal; signal.pause()"])
+exec(ready)
 signal.pause()
 """
 #: The same, but both ignore all signals that can be ignored, and the child has its own session.
 STUBBORN = """#!/usr/bin/env python3
-import signal, subprocess, sys
+import os, signal, subprocess, sys
 ignore = "import signal; [signal.signal(n, signal.SIG_IGN) for n in (1, 2, 3, 15)]"
+ready = "import os; os.write(1, b'ready\\\\n')"
 exec(ignore)
-child = ignore + "; print('ready', flush=True); signal.pause()"
+child = f"{ignore}; {ready}; signal.pause()"
 subprocess.Popen([sys.executable, "-c", child], start_new_session=True)
-print("ready", flush=True)
+exec(ready)
 while True:
     signal.pause()
 """
