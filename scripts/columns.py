@@ -15,7 +15,7 @@ LIMIT = 100
 ROOT = Path(__file__).resolve().parent.parent
 #: Captured from elsewhere, drawn by a program, or tables whose rows are lines.
 FOREIGN = re.compile(
-    r"tests/golden/|tests/tutorial/verbatim/|.*\.svg$|LICENSE$|\.importlinter$"
+    r"tests/golden/|.*/vendor/|tests/tutorial/verbatim/|.*\.svg$|LICENSE$|\.importlinter$"
     r"|tests/rclpy/test_surface\.py$|tests/test_compatibility\.py$"
     r"|tests/urdf/test_parser\.py$"
 )
