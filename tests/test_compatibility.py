@@ -349,6 +349,9 @@ joint_state_publisher_gui opens a Qt window
   robots/test_urdf_tutorial.py test_the_workspace_is_known
   turtlewire_ros/test_cmake.py test_what_is_installed
   turtlewire_ros/test_colcon_ament.py test_scripts_modules_and_launch_files
+`ament_cmake` packages are no packages of pip
+  turtlewire_ros/test_pip_install.py test_packages_are_built_after_those_that_they_need
+  turtlewire_ros/test_colcon_ament.py test_pip_installs_such_packages
 `ament_add_gtest` and linters are tests of `colcon test`
   turtlewire_ros/test_cmake.py test_what_compiles_nothing_is_let_pass
 xacro (PyPI, 2.1)

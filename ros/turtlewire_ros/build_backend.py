@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from turtlewire_ros.manifest import ManifestError, read_manifest
-from turtlewire_ros.wheel import WheelError, build_package_wheel
+from turtlewire_ros.wheel import WheelError, build_package_wheels
 
 __all__ = ["build_sdist", "build_wheel"]
 
@@ -33,9 +33,10 @@ def build_wheel(
     Ends the process with one line for each reason if the package cannot be installed.
     """
     try:
-        return build_package_wheel(Path.cwd(), Path(wheel_directory), logging.warning).name
+        (wheel,) = build_package_wheels([Path.cwd()], Path(wheel_directory), logging.warning)
     except WheelError as error:
         sys.exit(str(error))
+    return wheel.name
 
 
 def build_sdist(

@@ -1,17 +1,22 @@
 """``python -m turtlewire_ros.pip_install PACKAGE…``: pip installs ament_cmake packages.
 
-pip itself refuses folders without pyproject.toml and setup.py, as such packages are.
+pip itself refuses folders without pyproject.toml and setup.py, as such packages are, before it asks
+anybody else. Packages that it takes are handed to it as they are, so that all packages of a
+workspace can be named.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from turtlewire_ros.wheel import WheelError, build_package_wheel
+from turtlewire_ros.wheel import WheelError, build_package_wheels
+
+_OPTIONS = ["--no-deps", "--force-reinstall"]
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -19,32 +24,56 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m turtlewire_ros.pip_install",
         description="Installs ament_cmake packages of Python, data and interfaces into this "
-        "Python's environment, in the given order. `pip uninstall NAME` removes them.",
+        "Python's environment. Each is built after those of them that it needs, and all are "
+        "installed when all are built. `pip uninstall NAME` removes them.",
     )
     parser.add_argument("packages", nargs="+", type=Path, metavar="PACKAGE", help="its folder")
     parser.add_argument("--output", type=Path, help="keep the wheels here, and install nothing")
     options = parser.parse_args(argv)
+    if importlib.util.find_spec("pip") is None and not options.output:
+        _say("this environment has no pip; with --output DIR the wheels are for another installer")
+        return 1
+    ours = [folder for folder in options.packages if not _is_for_pip(folder)]
+    others = [str(folder.resolve()) for folder in options.packages if _is_for_pip(folder)]
     try:
         with tempfile.TemporaryDirectory() as folder:
-            for package in options.packages:
-                wheel = build_package_wheel(package, options.output or Path(folder), _warn)
-                if options.output:
-                    print(wheel)  # noqa: T201 -- a command line prints
-                elif status := _install(wheel):
-                    return status
+            wheels = build_package_wheels(ours, options.output or Path(folder), _warn, _begin)
+            if not options.output:
+                return _pip("install", *_OPTIONS, *map(str, wheels), *others)
     except WheelError as error:
-        print(error, file=sys.stderr)  # noqa: T201 -- as above
+        _say(str(error))
         return 1
+    for wheel in wheels:
+        print(wheel)  # noqa: T201 -- a command line prints
+    if others:
+        return _pip("wheel", "--no-deps", "--wheel-dir", str(options.output), *others)
     return 0
 
 
-def _install(wheel: Path) -> int:
-    command = [sys.executable, "-m", "pip", "install", "--no-deps", "--force-reinstall", str(wheel)]
-    return subprocess.run(command, check=False).returncode  # noqa: S603 -- a wheel made above
+def _is_for_pip(folder: Path) -> bool:
+    """Whether pip installs a folder itself, such as an ament_python package."""
+    return not (folder / "CMakeLists.txt").is_file() and any(
+        (folder / name).is_file() for name in ("setup.py", "pyproject.toml")
+    )
+
+
+def _pip(*words: str) -> int:
+    # The words are an action of pip, its options, and what the user named.
+    command = [sys.executable, "-m", "pip", *words]
+    return subprocess.run(command, check=False).returncode  # noqa: S603
+
+
+def _begin(package: str) -> None:
+    if sys.stderr.isatty():
+        _say(f"Building the wheel of {package}")
 
 
 def _warn(line: str) -> None:
-    print(f"warning: {line}", file=sys.stderr)  # noqa: T201 -- a command line prints
+    _say(f"warning: {line}")
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr)  # noqa: T201 -- a command line prints
 
 
 if __name__ == "__main__":

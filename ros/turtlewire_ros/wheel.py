@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import os
 import subprocess
 import tempfile
 import zipfile
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,11 +23,11 @@ from turtlewire_ros.manifest import Manifest, ManifestError, read_manifest
 from turtlewire_ros.plan_install import PlanInstaller, build_commands, entry_points
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Mapping
 
     from turtlewire_ros.cmake.plan import Plan
 
-__all__ = ["WheelError", "build_package_wheel"]
+__all__ = ["WheelError", "build_package_wheels"]
 
 _MODULES = "site-packages"
 _WHEEL = "Wheel-Version: 1.0\nGenerator: turtlewire\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
@@ -35,35 +37,88 @@ class WheelError(Exception):
     """A package cannot become a wheel; the text has a line for each reason."""
 
 
-def build_package_wheel(source: Path, output: Path, warn: Callable[[str], None]) -> Path:
-    """Build the wheel of a package.
+def build_package_wheels(
+    sources: Iterable[Path],
+    output: Path,
+    warn: Callable[[str], None],
+    begin: Callable[[str], None] = lambda _: None,
+) -> list[Path]:
+    """Build the wheels of packages, each after those that it needs.
+
+    A package finds the others of the same call, also those that are not installed.
 
     Args:
-        source: The package's folder.
-        output: The folder for the wheel.
+        sources: The packages' folders, in any order.
+        output: The folder for the wheels.
         warn: Called with each line of warning, as when C++ is left out.
+        begin: Called with the name of each package before its build.
 
     Returns:
-        The wheel.
+        The wheels, in the order in which they were built.
 
     Raises:
-        WheelError: The package cannot be installed.
+        WheelError: A package cannot be installed, or packages need each other in a circle.
     """
-    source = source.resolve()
+    wheels = []
+    environment = dict(os.environ)
+    with tempfile.TemporaryDirectory(prefix="turtlewire-wheel-") as folder:
+        try:
+            for source, manifest in _in_order_of_need(sources):
+                begin(manifest.name)
+                base = Path(folder) / manifest.name
+                plan = _install(source, base / "build", base / "prefix", warn, environment)
+                wheels.append(_pack(manifest, plan, base / "prefix", output))
+                _add_prefix(environment, base / "prefix")
+        except (CMakeError, InterfaceError, ManifestError, OSError) as error:
+            raise WheelError(str(error)) from error
+    return wheels
+
+
+def _in_order_of_need(sources: Iterable[Path]) -> list[tuple[Path, Manifest]]:
+    """Folders and manifests of packages, each after those of them that its build needs."""
+    packages: dict[str, tuple[Path, Manifest]] = {}
+    for source in sources:
+        if not source.is_dir():
+            raise WheelError(f"there is no folder {source}")
+        manifest = read_manifest(source.resolve() / "package.xml")
+        if manifest.name in packages:
+            other, _ = packages[manifest.name]
+            raise WheelError(f"{other} and {source} are both called {manifest.name}")
+        packages[manifest.name] = source, manifest
+    needs = {
+        name: [other for other in manifest.build_dependencies if other in packages]
+        for name, (_, manifest) in packages.items()
+    }
     try:
-        manifest = read_manifest(source / "package.xml")
-        with tempfile.TemporaryDirectory(prefix="turtlewire-wheel-") as folder:
-            prefix = Path(folder) / "prefix"
-            plan = _install(source, Path(folder) / "build", prefix, warn)
-            return _pack(manifest, plan, prefix, output)
-    except (CMakeError, InterfaceError, ManifestError, OSError) as error:
-        raise WheelError(str(error)) from error
+        order = [*TopologicalSorter(needs).static_order()]
+    except CycleError as error:
+        circle = " needs ".join(reversed(error.args[1]))
+        raise WheelError(f"packages need each other in a circle: {circle}") from error
+    return [packages[name] for name in order]
 
 
-def _install(source: Path, build: Path, prefix: Path, warn: Callable[[str], None]) -> Plan:
+def _add_prefix(environment: dict[str, str], prefix: Path) -> None:
+    """Have the builds that follow find what was installed below a prefix."""
+    for variable, folder in (
+        ("AMENT_PREFIX_PATH", prefix),
+        ("PYTHONPATH", prefix / _MODULES),
+        ("PATH", prefix / "bin"),
+    ):
+        paths = (str(folder), environment.get(variable, ""))
+        environment[variable] = os.pathsep.join(filter(None, paths))
+
+
+def _install(
+    source: Path,
+    build: Path,
+    prefix: Path,
+    warn: Callable[[str], None],
+    environment: Mapping[str, str],
+) -> Plan:
+    source = source.resolve()
     if not (source / "CMakeLists.txt").is_file():
         raise WheelError(f"{source} is no ament_cmake package: it has no CMakeLists.txt")
-    plan, interpreter = evaluate_package(source, build, prefix, _MODULES)
+    plan, interpreter = evaluate_package(source, build, prefix, _MODULES, environment)
     errors, warnings = plan.verdict()
     if errors:
         raise WheelError("\n".join(errors))
@@ -73,7 +128,7 @@ def _install(source: Path, build: Path, prefix: Path, warn: Callable[[str], None
     for command, folder in build_commands(plan, build, modules):
         # Our own module, or what the package itself runs.
         done = subprocess.run(  # noqa: S603
-            command, cwd=folder, check=False, capture_output=True, text=True
+            command, cwd=folder, env=environment, check=False, capture_output=True, text=True
         )
         if done.returncode:
             raise WheelError(done.stderr.strip() or f"{' '.join(command)} failed")
@@ -86,7 +141,7 @@ def _install(source: Path, build: Path, prefix: Path, warn: Callable[[str], None
 
 
 def _pack(manifest: Manifest, plan: Plan, prefix: Path, output: Path) -> Path:
-    base = f"{manifest.name}-{manifest.version}"
+    base = f"{manifest.name.replace('-', '_')}-{manifest.version}"
     path = output / f"{base}-py3-none-any.whl"
     output.mkdir(parents=True, exist_ok=True)
     record = []
