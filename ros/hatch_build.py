@@ -9,7 +9,10 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import os
 import shutil
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -18,6 +21,8 @@ from xml.sax.saxutils import escape
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 _GROUP = "turtlewire.executables."
+#: Where an sdist has the files of interfaces, which are made of the engine's.
+_SHIPPED = "interface_files"
 _RULES_URL = "file:///turtlewire/rosdep.yaml"
 
 #: Packages that pip installs under their ROS names: the prefix makes them known, and `ros2 run` and
@@ -50,9 +55,13 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
     """Adds the prefix's files to the wheel, editable ones included."""
 
     def initialize(self, _version: str, build_data: dict[str, Any]) -> None:
-        """Make the files and name them to the wheel builder."""
+        """Make the files and name them to the builder of the wheel or of the sdist."""
         self._folder = Path(tempfile.mkdtemp(prefix="turtlewire-prefix-"))
         root = Path(self.root)
+        self._add_interface_files(root)
+        if self.target_name == "sdist":
+            build_data["force_include"][str(self._folder)] = _SHIPPED
+            return
         for init in sorted([*root.glob("*/__init__.py"), *root.glob("interfaces/*/__init__.py")]):
             self._add_package(init.parent.name, init.parent)
         for name, description in _FROM_PYPI.items():
@@ -74,8 +83,20 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
                 build_data["shared_data"][str(path)] = path.relative_to(self._folder).as_posix()
 
     def finalize(self, _version: str, _build_data: dict[str, Any], _artifact: str) -> None:
-        """Remove the files again; the wheel has them."""
+        """Remove the files again; the wheel or the sdist has them."""
         shutil.rmtree(self._folder)
+
+    def _add_interface_files(self, root: Path) -> None:
+        shipped = root / _SHIPPED
+        if shipped.is_dir():
+            shutil.copytree(shipped, self._folder, dirs_exist_ok=True)
+            return
+        paths = os.pathsep.join((str(root.parent / "src"), str(root)))
+        subprocess.run(  # noqa: S603 -- our own module
+            [sys.executable, "-m", "turtlewire_ros.interface_files", str(self._folder)],
+            env={**os.environ, "PYTHONPATH": paths, "AMENT_PREFIX_PATH": ""},
+            check=True,
+        )
 
     def _add_package(self, name: str, source: Path) -> None:
         docstring = (

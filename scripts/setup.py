@@ -149,6 +149,7 @@ def fingerprint() -> str:
         LEARNING / "package.xml",
     ]
     files += [*ros.glob("*.*"), *ros.glob("turtlewire_ros/*/*.*"), *ros.glob("*/share/**/*")]
+    files += [*(ROOT / "src" / "turtlewire" / "msg" / "interfaces").glob("*/*/*.*")]
     files += [path for folder in ("core", "bindings") for path in (native / folder).glob("*.?pp")]
     inits = [*ros.glob("*/__init__.py"), *ros.glob("interfaces/*/__init__.py")]
     packages = sorted(path.parent.name for path in inits)

@@ -38,8 +38,6 @@ processes find each other through a router, `rmw_zenohd`
   wire/zenoh/test_configuration.py test_the_range_of_discovery
 the router listens on all interfaces
   wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
-packages have their `.msg` files in `share`, and `.idl` files beside them
-  rosidl_runtime_py/test_utilities.py test_paths_lead_to_definitions test_a_path_has_the_ending_that_was_asked_for
 an extension of another package may take the place of one of ROS 2's of the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
 Ctrl-C in `ros2 bag convert` leaves a bag that looks whole

@@ -10,8 +10,6 @@ from rosidl_adapter.parser import parse_action_string
 if TYPE_CHECKING:
     import pathlib
 
-    from rosidl_adapter.parser import MessageSpecification
-
 __all__ = [
     "convert_action_to_idl",
     "parse_action_string",
@@ -36,9 +34,4 @@ def convert_action_to_idl(
         ValueError: A path is not as described, or the file is wrong.
         InvalidSpecification: The file is wrong.
     """
-    return convert("action", package_dir, package_name, input_file, output_dir, _messages)
-
-
-def _messages(package: str, name: str, text: str) -> list[MessageSpecification]:
-    spec = parse_action_string(package, name, text)
-    return [spec.goal, spec.result, spec.feedback]
+    return convert("action", package_dir, package_name, input_file, output_dir)

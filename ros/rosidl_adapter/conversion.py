@@ -6,11 +6,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import pathlib
-    from collections.abc import Callable
-
-    from rosidl_adapter.parser import MessageSpecification
-
-    Parse = Callable[[str, str, str], "list[MessageSpecification]"]
 
 __all__ = ["convert"]
 
@@ -21,7 +16,6 @@ def convert(
     package_name: str,
     input_file: pathlib.Path,
     output_dir: pathlib.Path,
-    parse: Parse,
 ) -> pathlib.Path:
     """Write the IDL file, and print what is read and written.
 
@@ -31,7 +25,6 @@ def convert(
         package_name: Its name.
         input_file: Path of the file below the folder.
         output_dir: Folder for the result.
-        parse: Returns the messages of package, name and text.
 
     Returns:
         Path of the result.
@@ -39,7 +32,7 @@ def convert(
     Raises:
         ValueError: A path is not as described.
     """
-    from rosidl_adapter.idl import idl_text
+    from rosidl_adapter.idl import interface_to_idl
 
     if not package_dir.is_absolute() or input_file.is_absolute():
         raise ValueError(f"'{package_dir}' must be absolute, and '{input_file}' relative")
@@ -47,10 +40,9 @@ def convert(
         raise ValueError(f"'{input_file}' does not end in '.{kind}'")
     source = package_dir / input_file
     print(f"Reading input file: {source}")
-    messages = parse(package_name, input_file.stem, source.read_text(encoding="utf-8"))
+    text = interface_to_idl(package_name, input_file, source.read_text(encoding="utf-8"))
     target = output_dir / f"{input_file.stem}.idl"
     print(f"Writing output file: {target.absolute()}")
     output_dir.mkdir(parents=True, exist_ok=True)
-    text = idl_text(kind, package_name, input_file.as_posix(), messages)
     target.write_text(text, encoding="utf-8")
     return target

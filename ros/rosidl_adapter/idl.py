@@ -4,10 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosidl_adapter.parser import BaseType, MessageSpecification, Type
+from rosidl_adapter.parser import (
+    BaseType,
+    MessageSpecification,
+    Type,
+    parse_action_string,
+    parse_message_string,
+    parse_service_string,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import PurePath
 
     from rosidl_adapter.parser import Constant, Field
 
@@ -16,6 +24,7 @@ __all__ = [
     "get_idl_type",
     "get_include_file",
     "idl_text",
+    "interface_to_idl",
     "string_to_idl_string_literal",
     "string_to_idl_wstring_literal",
     "to_idl_literal",
@@ -40,6 +49,31 @@ MSG_TYPE_TO_IDL = {
 }
 
 _EMPTY = "uint8 structure_needs_at_least_one_member;"
+
+
+def interface_to_idl(package: str, source: PurePath, text: str) -> str:
+    """The IDL of an interface file.
+
+    Args:
+        package: Name of the package.
+        source: Path of the file below that of the package; its ending is ``.msg``, ``.srv`` or
+            ``.action``.
+        text: What the file holds.
+
+    Raises:
+        ValueError: The text is wrong.
+        InvalidSpecification: The text is wrong.
+    """
+    kind, name = source.suffix[1:], source.stem
+    if kind == "msg":
+        messages = [parse_message_string(package, name, text)]
+    elif kind == "srv":
+        service = parse_service_string(package, name, text)
+        messages = [service.request, service.response]
+    else:
+        action = parse_action_string(package, name, text)
+        messages = [action.goal, action.result, action.feedback]
+    return idl_text(kind, package, source.as_posix(), messages)
 
 
 def idl_text(kind: str, package: str, source: str, messages: Iterable[MessageSpecification]) -> str:
@@ -88,7 +122,7 @@ def _message(message: MessageSpecification) -> Iterator[str]:
         yield f"    module {name}_Constants {{"
         for constant in message.constants:
             yield from _annotations(constant, 6)
-            kind = get_idl_type(constant.type)
+            kind = get_idl_type(constant.type.partition("<")[0])  # a value needs no bound
             yield f"      const {kind} {constant.name} = {to_idl_literal(kind, constant.value)};"
         yield "    };"
     yield from _annotations(message, 4)

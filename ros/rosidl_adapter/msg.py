@@ -18,8 +18,6 @@ from rosidl_adapter.parser import parse_message_string
 if TYPE_CHECKING:
     import pathlib
 
-    from rosidl_adapter.parser import MessageSpecification
-
 __all__ = [
     "MSG_TYPE_TO_IDL",
     "convert_msg_to_idl",
@@ -50,8 +48,4 @@ def convert_msg_to_idl(
         ValueError: A path is not as described, or the file is wrong.
         InvalidSpecification: The file is wrong.
     """
-    return convert("msg", package_dir, package_name, input_file, output_dir, _messages)
-
-
-def _messages(package: str, name: str, text: str) -> list[MessageSpecification]:
-    return [parse_message_string(package, name, text)]
+    return convert("msg", package_dir, package_name, input_file, output_dir)

@@ -10,8 +10,6 @@ from rosidl_adapter.parser import parse_service_string
 if TYPE_CHECKING:
     import pathlib
 
-    from rosidl_adapter.parser import MessageSpecification
-
 __all__ = [
     "convert_srv_to_idl",
     "parse_service_string",
@@ -36,9 +34,4 @@ def convert_srv_to_idl(
         ValueError: A path is not as described, or the file is wrong.
         InvalidSpecification: The file is wrong.
     """
-    return convert("srv", package_dir, package_name, input_file, output_dir, _messages)
-
-
-def _messages(package: str, name: str, text: str) -> list[MessageSpecification]:
-    spec = parse_service_string(package, name, text)
-    return [spec.request, spec.response]
+    return convert("srv", package_dir, package_name, input_file, output_dir)

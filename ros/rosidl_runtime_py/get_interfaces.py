@@ -61,11 +61,12 @@ def get_interface_path(interface_name: str) -> str:
     """Path of the file that defines an interface.
 
     Args:
-        interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file. That
-            of the definition always has a file; ``.idl`` has one in packages that come with it.
+        interface_name: ``geometry_msgs/msg/Twist``, with or without the ending of the file, such
+            as ``.msg`` or ``.idl``.
 
     Returns:
-        The path.
+        The path below the package's share folder. Packages that were generated without one, and
+        this distribution's when it was not installed, have their definitions elsewhere.
 
     Raises:
         ValueError: It is not the name of an interface.
@@ -83,11 +84,23 @@ def get_interface_path(interface_name: str) -> str:
     if parts[0] not in msg.interface_names():
         raise LookupError(f"Unknown package '{parts[0]}'")
     stem, dot, ending = interface_name.partition(".")
-    path = msg.interface_path(stem)
+    path = _in_share(msg.interface_path(stem), parts[0])
     asked = f"{os.path.splitext(path)[0]}.{ending}" if dot else path
     if asked != path and (ending != "idl" or not os.path.isfile(asked)):
         raise LookupError(f"Could not find the interface '{asked}'")
     return asked
+
+
+def _in_share(path: str, package: str) -> str:
+    """The file of a package's share folder for a definition, or the definition itself."""
+    from turtlewire_ros.prefix import share_directory
+
+    share = share_directory(package)
+    if share is None:
+        return path
+    kind, name = path.split(os.sep)[-2:]
+    installed = os.path.join(share, kind, name)
+    return installed if os.path.isfile(installed) else path
 
 
 def _interfaces(package_names: Collection[str], kinds: tuple[str, ...]) -> dict[str, list[str]]:

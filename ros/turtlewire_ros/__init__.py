@@ -11,6 +11,7 @@ module                                what it holds
 `cmake`                               reads their CMakeLists.txt, without CMake
 `package_lookup`                      which packages ``find_package`` finds
 `plan_install`                        installs what a CMakeLists.txt names
+`interface_files`                     definitions and IDL of the prefix's own packages
 `generate_interfaces`                 Python of interfaces, all of whose types must be there
 `run_test`                            runs one test of ``colcon test``
 `wheel`                               an ament_cmake package as a wheel

@@ -10,6 +10,8 @@ from pathlib import Path
 from shutil import copyfile, copymode
 from typing import TYPE_CHECKING
 
+from rosidl_adapter.idl import interface_to_idl
+from rosidl_adapter.parser import InvalidSpecification, InvalidValue
 from turtlewire.msg.idl import idl_to_text
 from turtlewire_ros.cmake.basics import configured
 from turtlewire_ros.cmake.syntax import CMakeError
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
     from turtlewire_ros.cmake.interpreter import Interpreter
     from turtlewire_ros.cmake.plan import FileRule, Install, Plan, PythonPackage
+    from turtlewire_ros.cmake.syntax import Place
 
 __all__ = ["PlanInstaller", "build_commands", "entry_points"]
 
@@ -148,8 +151,7 @@ class PlanInstaller:
         for interfaces in self._plan.interfaces:
             for relative, path in interfaces.files if interfaces.installed else ():
                 self._put(path, self._share / relative)
-                if path.suffix == ".idl":
-                    self._put_translation(relative, path)
+                self._put_translation(relative, path, interfaces.place)
         self._put(self._source / "package.xml", self._share / "package.xml")
         self._register()
         self._install_extras()
@@ -236,10 +238,13 @@ class PlanInstaller:
     def _register(self) -> None:
         index = self._prefix / "share" / "ament_index" / "resource_index"
         listed = sorted(
-            relative
-            for interfaces in self._plan.interfaces
-            if interfaces.installed
-            for relative, _ in interfaces.files
+            {
+                name
+                for interfaces in self._plan.interfaces
+                if interfaces.installed
+                for relative, _ in interfaces.files
+                for name in (relative, f"{relative.rpartition('.')[0]}.idl")
+            }
         )
         entries = [("packages", self._plan.name, "")]
         entries += [("rosidl_interfaces", self._plan.name, "\n".join(listed))] if listed else []
@@ -280,11 +285,24 @@ class PlanInstaller:
                 wrappers.append(path.relative_to(self._prefix).as_posix())
         return wrappers
 
-    def _put_translation(self, relative: str, path: Path) -> None:
-        """Install what an .idl file means as .msg, .srv or .action, which all tools read."""
-        kind, _, name = relative.removesuffix(".idl").partition("/")
-        text = idl_to_text(f"{self._plan.name}/{kind}/{name}", path.read_text(encoding="utf-8"))
-        (self._share / kind / f"{name}.{kind}").write_text(text, encoding="utf-8")
+    def _put_translation(self, relative: str, path: Path, place: Place) -> None:
+        """Install what an .idl file means as .msg, .srv or .action, or what one of those is in IDL.
+
+        All tools here read the former, and some programs the latter.
+        """
+        source, text = Path(relative), path.read_text(encoding="utf-8")
+        kind = source.parent.name
+        if source.suffix == ".idl":
+            translated = idl_to_text(f"{self._plan.name}/{kind}/{source.stem}", text)
+            target = source.with_suffix(f".{kind}")
+        else:
+            try:
+                translated = interface_to_idl(self._plan.name, source, text)
+            except (NameError, TypeError, ValueError, InvalidSpecification, InvalidValue) as error:
+                raise CMakeError(place, f"{path}: {error}") from error
+            target = source.with_suffix(".idl")
+        _remove(self._share / target)
+        (self._share / target).write_text(translated, encoding="utf-8")
 
     def _put_template(self, source: Path, target: Path) -> None:
         if source.suffix != ".in":

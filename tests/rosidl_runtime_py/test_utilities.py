@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import rosidl_runtime_py
+from ament_index_python import get_package_share_directory, get_resource
 from geometry_msgs.msg import Twist
 from rosidl_runtime_py import utilities
 from rosidl_runtime_py.utilities import (
@@ -76,6 +77,18 @@ def test_interfaces_are_listed_by_package():
         rosidl_runtime_py.get_interfaces(["nope"])
 
 
+def test_packages_have_their_definitions_in_share():
+    """Programs put paths together from the share folder, as with a real ROS 2."""
+    share = Path(get_package_share_directory("std_msgs"))
+    assert (share / "msg/String.msg").read_text().splitlines()[-1] == "string data"
+    assert "struct String {" in (share / "msg/String.idl").read_text()
+    for ending in ("msg", "idl"):
+        path = rosidl_runtime_py.get_interface_path(f"std_msgs/msg/String.{ending}")
+        assert path == str(share / f"msg/String.{ending}")
+    listed, _ = get_resource("rosidl_interfaces", "std_msgs")
+    assert {"msg/String.msg", "msg/String.idl"} <= {*listed.splitlines()}
+
+
 def test_paths_lead_to_definitions():
     path = Path(rosidl_runtime_py.get_interface_path("turtlesim/msg/Color"))
     assert path.read_text() == "uint8 r\nuint8 g\nuint8 b\n"
@@ -105,7 +118,6 @@ def test_a_path_has_the_ending_that_was_asked_for(tmp_path, monkeypatch):
         ("nope/msg/X", LookupError, "Unknown package 'nope'"),
         ("turtlesim/msg/X", LookupError, "unknown interface 'turtlesim/msg/X'"),
         ("turtlesim/msg/X.idl", LookupError, "unknown interface 'turtlesim/msg/X'"),
-        ("turtlesim/msg/Color.idl", LookupError, "Could not find the interface '/"),
         ("turtlesim/msg/Color.foo", LookupError, "Could not find the interface '/"),
         ("turtlesim/msg/Color.msg.bak", LookupError, "Could not find the interface '/"),
         ("turtlesim/msg/Color.", LookupError, "Could not find the interface '/"),

@@ -347,11 +347,23 @@ END
         "True",
     ]
     share = built / "install/all_msgs/share"
-    assert (share / "ament_index/resource_index/rosidl_interfaces/all_msgs").read_text() == (
-        "action/Count.action\nmsg/Bounds.msg\nmsg/Defaults.msg\nmsg/Own.msg\nmsg/Shape.idl\n"
-        "srv/Empty.srv"
-    )
-    assert (share / "all_msgs/msg/Shape.idl").is_file()
+    index = (share / "ament_index/resource_index/rosidl_interfaces/all_msgs").read_text()
+    assert index.splitlines() == [
+        "action/Count.action",
+        "action/Count.idl",
+        "msg/Bounds.idl",
+        "msg/Bounds.msg",
+        "msg/Defaults.idl",
+        "msg/Defaults.msg",
+        "msg/Own.idl",
+        "msg/Own.msg",
+        "msg/Shape.idl",
+        "srv/Empty.idl",
+        "srv/Empty.srv",
+    ]
+    assert {*index.splitlines()} <= {
+        path.relative_to(share / "all_msgs").as_posix() for path in share.glob("all_msgs/*/*")
+    }
 
 
 def test_colcon_test_runs_what_the_package_adds(built):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -12,7 +13,13 @@ import pytest
 import yaml
 from defusedxml import ElementTree
 
+from turtlewire.msg.idl import idl_to_text
+from turtlewire.msg.parser import parse_action, parse_message, parse_service
+
 ROS = Path(__file__).parents[2] / "ros"
+INTERFACES = ROS.parent / "src" / "turtlewire" / "msg" / "interfaces"
+PARSERS = {"msg": parse_message, "srv": parse_service, "action": parse_action}
+KINDS = [*PARSERS]
 DATA = "turtlewire_ros-0.1.0.data/data/"
 
 
@@ -51,6 +58,55 @@ def test_nothing_but_packages_lies_beside_them(wheel):
     assert {
         top for top in tops if "." in top and not top.startswith("turtlewire_ros-0.1.0.")
     } == set()
+
+
+def said_by(definition):
+    """Fields and constants of a definition, in order."""
+    messages = [definition] if not hasattr(definition, "messages") else definition.messages()
+    return [
+        (
+            message.full_name,
+            [(field.name, str(field.type), field.default) for field in message.fields],
+            [(each.name, str(each.type), each.value) for each in message.constants],
+        )
+        for message in messages
+    ]
+
+
+def test_interfaces_are_in_share_as_text_and_as_idl(wheel):
+    """The text is the engine's, IDL says the same, and the index names both."""
+    definitions = sorted(
+        path for kind in KINDS for path in INTERFACES.glob(f"*/{kind}/*.{kind}") if path.is_file()
+    )
+    assert len(definitions) == 363
+    index = {}
+    for path in definitions:
+        package, kind, name = (path.parents[1].name, path.parent.name, path.stem)
+        place = f"{DATA}share/{package}/{kind}/{name}"
+        text = path.read_text(encoding="utf-8")
+        assert wheel.read(f"{place}.{kind}").decode() == text
+        translated = idl_to_text(f"{package}/{kind}/{name}", wheel.read(f"{place}.idl").decode())
+        meant = [PARSERS[kind](f"{package}/{kind}/{name}", each) for each in (translated, text)]
+        assert said_by(meant[0]) == said_by(meant[1]), place
+        index.setdefault(package, []).extend([f"{kind}/{name}.{kind}", f"{kind}/{name}.idl"])
+    for package, names in index.items():
+        listed = wheel.read(f"{DATA}share/ament_index/resource_index/rosidl_interfaces/{package}")
+        assert listed.decode().splitlines() == sorted(names)
+
+
+def test_an_sdist_has_all_that_its_wheel_needs(wheel, tmp_path):
+    """Where it is built, the engine's sources are not beside it."""
+    build = "import sys, hatchling.build as b; b.build_sdist(sys.argv[1])"
+    subprocess.run([sys.executable, "-c", build, str(tmp_path)], cwd=ROS, check=True)
+    (archive,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(archive) as sources:
+        sources.extractall(tmp_path, filter="data")
+    build = "import sys, hatchling.build as b; b.build_wheel(sys.argv[1])"
+    folder = tmp_path / archive.name.removesuffix(".tar.gz")
+    subprocess.run([sys.executable, "-c", build, str(tmp_path)], cwd=folder, check=True)
+    (path,) = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(path) as built:
+        assert {*built.namelist()} == {*wheel.namelist()}
 
 
 def test_executables_are_scripts_that_can_be_run(wheel):
