@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from turtlewire.wire.environment import compares_qos
+
 from .qos import (
     DurabilityPolicy,
     LivelinessPolicy,
@@ -25,17 +27,32 @@ _UNLIMITED_NS = (0, 2**63 - 1)
 
 
 def check(publisher: QoSProfile, subscription: QoSProfile) -> tuple[QoSCompatibility, str]:
-    """Compare all policies that can keep two ends apart.
+    """Compare all policies that can keep two ends apart with the middleware in use.
 
     Returns:
         The worst finding, and the reasons of that severity, each ended by a semicolon.
     """
+    if not compares_qos():
+        return _check_without_matching(publisher, subscription)
     errors = _errors(publisher, subscription)
     if errors:
         return QoSCompatibility.ERROR, "".join(f"ERROR: {text};" for text in errors)
     warnings = _warnings(publisher, subscription)
     if warnings:
         return QoSCompatibility.WARNING, "".join(f"WARNING: {text};" for text in warnings)
+    return QoSCompatibility.OK, ""
+
+
+def _check_without_matching(
+    publisher: QoSProfile, subscription: QoSProfile
+) -> tuple[QoSCompatibility, str]:
+    """With Zenoh all ends match; a subscription may only miss what was published before."""
+    if (
+        publisher.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        and subscription.durability == DurabilityPolicy.VOLATILE
+    ):
+        text = "Publisher durability is transient local, but subscription durability is volatile"
+        return QoSCompatibility.WARNING, f"WARNING: {text};"
     return QoSCompatibility.OK, ""
 
 

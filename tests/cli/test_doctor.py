@@ -75,12 +75,22 @@ def test_nodes_of_one_name(context):
         ),
     ],
 )
-def test_qos_that_cannot_match_names_both_ends(context, offered, asked, reason):
+def test_qos_that_cannot_match_names_both_ends(context, offered, asked, reason, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     context.create_node("talker").create_publisher("/x", STRING, offered)
     context.create_node("listener").create_subscription("/x", STRING, asked)
     assert texts(graph_findings(context.graph)) == [
         f"/x: /listener receives nothing from /talker: {reason}."
     ]
+
+
+def test_with_zenoh_every_qos_matches(context, monkeypatch):
+    pytest.importorskip("zenoh")
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
+    weak = QoS(reliability=Reliability.BEST_EFFORT)
+    context.create_node("talker").create_publisher("/x", STRING, weak)
+    context.create_node("listener").create_subscription("/x", STRING, QoS())
+    assert graph_findings(context.graph) == []
 
 
 def test_weaker_requests_match(context):

@@ -211,13 +211,30 @@ def test_text():
         ({"reliability": S}, {"reliability": B}, "OK", ""),
     ],
 )
-def test_compatibility(publisher, subscription, level, reason):
+def test_compatibility(publisher, subscription, level, reason, monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     answer = qos_check_compatible(profile(**publisher), profile(**subscription))
     assert answer == (QoSCompatibility[level], reason)
     assert answer.compatibility is QoSCompatibility[level]
 
 
-def test_two_system_defaults_are_left_open():
+def test_with_zenoh_everything_matches(monkeypatch):
+    pytest.importorskip("zenoh")
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
+    weak, strong = profile(reliability=B), profile(reliability=R)
+    latched, system = (
+        profile(durability=DurabilityPolicy.TRANSIENT_LOCAL),
+        qos_profile_system_default,
+    )
+    for publisher, subscription in ((weak, strong), (strong, latched), (system, system)):
+        assert qos_check_compatible(publisher, subscription) == (QoSCompatibility.OK, "")
+    level, reason = qos_check_compatible(latched, strong)
+    assert level is QoSCompatibility.WARNING
+    assert "transient local" in reason
+
+
+def test_two_system_defaults_are_left_open(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
     assert level is QoSCompatibility.WARNING
     assert reason.startswith(

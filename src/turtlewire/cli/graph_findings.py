@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from turtlewire.cli.finding import Finding, problem
 from turtlewire.cli.network import domains_of, udp_ports
 from turtlewire.cli.setup_findings import only_this_host
-from turtlewire.wire.environment import discovery, domain_id
+from turtlewire.wire.environment import compares_qos, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.qos import Durability, Reliability
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, Graph
+    from turtlewire.wire.qos import QoS
 
 __all__ = ["graph_findings", "owner_of"]
 
@@ -85,11 +86,16 @@ def _topic_findings(topic: str, endpoints: list[EndpointInfo]) -> list[Finding]:
 
 
 def _mismatch(publisher: EndpointInfo, subscription: EndpointInfo) -> str:
-    """Why DDS does not connect the two; empty if it does."""
-    offered, asked = publisher.qos, subscription.qos
+    """Why the middleware does not connect the two; empty if it does."""
+    hashes = {publisher.type_hash, subscription.type_hash} - {""}
+    return (compares_qos() and _qos_mismatch(publisher.qos, subscription.qos)) or (
+        "their definitions of the type differ" if len(hashes) > 1 else ""
+    )
+
+
+def _qos_mismatch(offered: QoS, asked: QoS) -> str:
     if (offered.reliability, asked.reliability) == (Reliability.BEST_EFFORT, Reliability.RELIABLE):
         return "it asks for RELIABLE, and BEST_EFFORT is offered"
     if (offered.durability, asked.durability) == (Durability.VOLATILE, Durability.TRANSIENT_LOCAL):
         return "it asks for TRANSIENT_LOCAL, and VOLATILE is offered"
-    hashes = {publisher.type_hash, subscription.type_hash} - {""}
-    return "their definitions of the type differ" if len(hashes) > 1 else ""
+    return ""

@@ -16,6 +16,7 @@ __all__ = [
     "MIDDLEWARES",
     "Discovery",
     "Range",
+    "compares_qos",
     "discovery",
     "domain_id",
     "is_installed",
@@ -97,6 +98,14 @@ def middleware_name() -> str:
             "which reaches robots that run rmw_zenoh_cpp",
         )
     return default
+
+
+def compares_qos() -> bool:
+    """Whether endpoints of one topic and type can fail to match because of their QoS.
+
+    They can with DDS; with Zenoh, every publisher reaches every subscription.
+    """
+    return middleware_name() != "rmw_zenoh_cpp"
 
 
 def is_installed(middleware: str) -> bool:
