@@ -211,7 +211,12 @@ def _as_number(name: str, value: object) -> float:
     return float(value)
 
 
-def run(make_node: Callable[[str | None], Node], args: list[str] | None = None) -> int:
+def run(
+    make_node: Callable[..., Node],
+    args: list[str] | None = None,
+    *,
+    add_options: Callable[[argparse.ArgumentParser], object] | None = None,
+) -> int:
     """Read the command line, make the node and spin it until Ctrl-C; returns the exit status."""
     parser = argparse.ArgumentParser(description="Publish the states of a robot's joints.")
     parser.add_argument(
@@ -219,11 +224,13 @@ def run(make_node: Callable[[str | None], Node], args: list[str] | None = None) 
         nargs="?",
         help="a URDF file; without it, the node waits for the topic robot_description",
     )
+    if add_options is not None:
+        add_options(parser)
     argv = remove_ros_args(sys.argv if args is None else ["", *args])
     options = parser.parse_args(argv[1:])
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         try:
-            node = make_node(options.description_file)
+            node = make_node(**vars(options))
         except SettingError as error:
             print(f"Exception: {error}", file=sys.stderr)  # noqa: T201 - as ROS 2's last line
             return 1

@@ -9,9 +9,12 @@ from joint_state_publisher.joint_state_publisher import JointStatePublisher, run
 from joint_state_publisher_gui.page_commands import Center, Randomize
 from joint_state_publisher_gui.screen import Screen
 from joint_state_publisher_gui.sliders import Sliders
-from turtlewire.web.desktop import open_browser, wanted_port
+from turtlewire.web.desktop import open_browser, wanted_lan, wanted_port
+from turtlewire.web.lan import invite
 
 if TYPE_CHECKING:
+    import argparse
+
     from joint_state_publisher_gui.page_commands import Command
 
 __all__ = ["JointStatePublisherGui", "main"]
@@ -24,20 +27,25 @@ class JointStatePublisherGui(JointStatePublisher):
 
     Args:
         description_file: As for :class:`JointStatePublisher`.
+        lan: Whether to serve the page to other devices of the network, too.
         **options: As for :class:`rclpy.node.Node`.
 
     Attributes:
         url: The page's address.
     """
 
-    def __init__(self, description_file: str | None = None, **options: Any) -> None:
+    def __init__(
+        self, description_file: str | None = None, *, lan: bool = False, **options: Any
+    ) -> None:
         self._screen: Screen | None = None
         self._sliders: Sliders | None = None
         super().__init__(description_file, **options)
         self._sliders = Sliders(self.joints)
-        self._screen = Screen(self.get_fully_qualified_name(), self._sliders, self._obey)
+        self._screen = Screen(self.get_fully_qualified_name(), self._sliders, self._obey, lan=lan)
         self.url = self._screen.url
         self.get_logger().info(f"The joints' sliders are at {self.url}")
+        if lan:
+            invite(self.url, self.get_logger().info)
         open_browser(self.url)
 
     def destroy_node(self) -> None:
@@ -79,4 +87,13 @@ def main(args: list[str] | None = None) -> int:
     except ValueError as error:
         print(error, file=sys.stderr)  # noqa: T201 - there is no node yet that could log it
         return 1
-    return run(JointStatePublisherGui, args)
+    return run(JointStatePublisherGui, args, add_options=_add_options)
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--lan",
+        action="store_true",
+        default=wanted_lan(),
+        help="serve the page to other devices of the network, too, for those who have its address",
+    )

@@ -33,16 +33,24 @@ class Screen:
         node: Fully qualified name of the node.
         sliders: What the page shows.
         on_command: Called on the server's thread for each command; must return at once.
+        lan: Whether to serve the devices of the network, too.
 
     Attributes:
         url: The page's address.
     """
 
-    def __init__(self, node: str, sliders: Sliders, on_command: Callable[[Command], None]) -> None:
+    def __init__(
+        self,
+        node: str,
+        sliders: Sliders,
+        on_command: Callable[[Command], None],
+        *,
+        lan: bool = False,
+    ) -> None:
         self._node = node
         self._sliders = sliders
         self._on_command = on_command
-        self._server = Server(_PAGE, lambda: _Session(self), port=wanted_port())
+        self._server = Server(_PAGE, lambda: _Session(self), port=wanted_port(), lan=lan)
         self.url = self._server.url
 
     def update(self) -> None:

@@ -65,7 +65,12 @@ class Screen:
     """
 
     def __init__(
-        self, scene: Scene, on_command: Callable[[Command], None], transforms: TransformView
+        self,
+        scene: Scene,
+        on_command: Callable[[Command], None],
+        transforms: TransformView,
+        *,
+        lan: bool = False,
     ) -> None:
         """Start serving.
 
@@ -74,6 +79,7 @@ class Screen:
             on_command: Called on the server's thread for each command of a page; must return at
                 once.
             transforms: The frames; closed with the screen.
+            lan: Whether to serve the devices of the network, too.
         """
         self.transforms = transforms
         self._lock = threading.Lock()
@@ -83,7 +89,9 @@ class Screen:
         self._poses = b""
         self._shown: tuple[str, ...] = ()
         self._drawing = Drawing()
-        self._server = Server(_PAGE, lambda: _Session(self, on_command), port=wanted_port())
+        self._server = Server(
+            _PAGE, lambda: _Session(self, on_command), port=wanted_port(), lan=lan
+        )
         self.url = self._server.url
 
     def show(self, ticks: list[TurtleTick]) -> None:

@@ -44,6 +44,7 @@ class TurtlesimNode(CppNode):
         headless: Whether to serve no page.
         speed: How many times faster than real time to run; the simulator then publishes ``/clock``
             itself. None runs in real time and publishes no clock.
+        lan: Whether to serve the page to other devices of the network, too.
         options: Passed on to :class:`rclpy.node.Node`.
 
     Attributes:
@@ -51,7 +52,12 @@ class TurtlesimNode(CppNode):
     """
 
     def __init__(
-        self, *, headless: bool = False, speed: float | None = None, **options: Any
+        self,
+        *,
+        headless: bool = False,
+        speed: float | None = None,
+        lan: bool = False,
+        **options: Any,
     ) -> None:
         super().__init__("turtlesim", **options)
         self._declare_parameters()
@@ -73,7 +79,7 @@ class TurtlesimNode(CppNode):
         self.add_post_set_parameters_callback(lambda _: self._show_scene())
         self.context.on_shutdown(self._on_shutdown)
         if not headless:
-            self._open_screen()
+            self._open_screen(lan)
         if speed is None:
             self.create_timer(TICK_NS / 1e9, lambda: self._tick(self.get_clock().now().nanoseconds))
         else:
@@ -267,16 +273,19 @@ class TurtlesimNode(CppNode):
 
     # The page
 
-    def _open_screen(self) -> None:
+    def _open_screen(self, lan: bool) -> None:
         from turtlesim.screen import Screen
         from turtlesim.transform_view import TransformView
         from turtlewire.web.desktop import open_browser
+        from turtlewire.web.lan import invite
 
         transforms = TransformView(
             self.context.wire, self.get_namespace(), lambda: self.get_clock().now().nanoseconds
         )
-        self._screen = Screen(self._scene(), self._page.add, transforms)
+        self._screen = Screen(self._scene(), self._page.add, transforms, lan=lan)
         self.get_logger().info(f"The field is shown at {self._screen.url}")
+        if lan:
+            invite(self._screen.url, self.get_logger().info)
         open_browser(self._screen.url)
 
     def _scene(self) -> Any:
@@ -307,7 +316,7 @@ def main(args: list[str] | None = None) -> None:
     # Around the shutdown as well, because Ctrl-C may also come then.
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         try:
-            node = TurtlesimNode(headless=options.headless, speed=options.speed)
+            node = TurtlesimNode(headless=options.headless, speed=options.speed, lan=options.lan)
             rclpy.spin(node)
         finally:
             # Before the node: all endpoints go at once, which saves seconds with many turtles.
@@ -318,10 +327,19 @@ def main(args: list[str] | None = None) -> None:
 
 def _parse_options(args: list[str]) -> argparse.Namespace:
     """The options outside of ``--ros-args``; unknown arguments are ignored, as in the original."""
+    from turtlewire.web.desktop import wanted_lan
+
     parser = argparse.ArgumentParser(
         prog="turtlesim_node", description="Turtles on a field, shown in the browser."
     )
-    parser.add_argument("--headless", action="store_true", help="serve no page")
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument("--headless", action="store_true", help="serve no page")
+    shown.add_argument(
+        "--lan",
+        action="store_true",
+        default=wanted_lan(),
+        help="serve the page to other devices of the network, too, for those who have its address",
+    )
     parser.add_argument(
         "--speed",
         type=_factor,

@@ -21,7 +21,7 @@ BLUE = (69, 86, 255)
 class Simulator:
     """The model, stepped in real time in a thread of its own, and its screen."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, lan: bool = False) -> None:
         self.world = World()
         self._crowd = Crowd()
         self.turtle1 = self.world.spawn_centred()
@@ -31,7 +31,7 @@ class Simulator:
         self._queue: queue.SimpleQueue = queue.SimpleQueue()
         self.wire = open_context(middleware="local")
         self.screen = Screen(
-            self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns)
+            self._scene(), self._queue.put, TransformView(self.wire, "/", time.time_ns), lan=lan
         )
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run)
@@ -86,9 +86,9 @@ def make_simulator(monkeypatch):
     monkeypatch.setenv("TURTLEWIRE_PORT", "0")
     simulators = []
 
-    def make_simulator(port: str = "0") -> Simulator:
+    def make_simulator(port: str = "0", *, lan: bool = False) -> Simulator:
         monkeypatch.setenv("TURTLEWIRE_PORT", port)
-        simulators.append(Simulator())
+        simulators.append(Simulator(lan=lan))
         return simulators[-1]
 
     yield make_simulator

@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 import pytest
+from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import rclpy
@@ -130,6 +131,23 @@ def test_ctrl_c_ends_it_with_a_browser_open_too():
         assert json.loads(browser.recv(timeout=60))["node"] == "/sim"
         assert simulator.interrupt() == 0
     assert "Traceback" not in simulator.output
+
+
+@pytest.mark.parametrize("asked", ["option", "environment"])
+def test_another_device_needs_the_token(asked):
+    options, env = (["--lan"], {}) if asked == "option" else ([], {"TURTLEWIRE_LAN": "1"})
+    simulator = Process("turtlesim.turtlesim_node", *options, **env)
+    url = simulator.wait_for(r"The field is shown at (http://127\.0\.0\.1:\d+/\w{16}/)")[1]
+    simulator.wait_for("no other device reaches the page|On another device of this network: http")
+    with connect(url.replace("http", "ws") + "live", close_timeout=0.2) as browser:
+        assert json.loads(browser.recv(timeout=60))["node"] == "/turtlesim"
+    with (
+        pytest.raises(InvalidStatus) as refused,
+        connect(re.sub(r"^http(.*/)\w+/$", r"ws\1live", url)),
+    ):
+        pass
+    assert refused.value.response.status_code == 403
+    assert simulator.interrupt() == 0
 
 
 def test_sigterm_ends_it_too(ear):

@@ -2,33 +2,12 @@
 
 from __future__ import annotations
 
-import socket
-import struct
-import sys
 from typing import Any
 from xmlrpc.server import SimpleXMLRPCServer
 
+from turtlewire.web.lan import interface_addresses as get_local_ipaddrs
+
 __all__ = ["LocalXMLRPCServer", "get_local_ipaddrs"]
-
-_SIOCGIFADDR = 0x8915  # <linux/sockios.h>
-
-
-def get_local_ipaddrs() -> list[str]:
-    """IPv4 addresses of the interfaces of this host."""
-    if sys.platform != "linux":
-        return socket.gethostbyname_ex(socket.gethostname())[2]
-    import fcntl
-
-    found = []
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
-        for _, name in socket.if_nameindex():
-            request = struct.pack("256s", name.encode()[:15])
-            try:  # an interface need not have an IPv4 address
-                answer = fcntl.ioctl(asked.fileno(), _SIOCGIFADDR, request)
-            except OSError:
-                continue
-            found.append(socket.inet_ntoa(answer[20:24]))
-    return found
 
 
 class LocalXMLRPCServer(SimpleXMLRPCServer):

@@ -4,14 +4,16 @@
 module     what it holds
 =========  =================================================================
 `server`   `Server`: one thread for the pages and WebSockets of all browsers
-`files`    the static files of a page
+`files`    what a page consists of: files, media types, headers
 `desktop`  where a page is shown: browser and port
 `origin`   which requests are answered
+`lan`      a page for other devices: token, addresses, QR code
 =========  =================================================================
 """
 
 from __future__ import annotations
 
+from turtlewire.web.files import Content
 from turtlewire.web.server import Server, Session
 
-__all__ = ["Server", "Session"]
+__all__ = ["Content", "Server", "Session"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-__all__ = ["DEFAULT_PORT", "desktop_is_there", "open_browser", "wanted_port"]
+__all__ = ["DEFAULT_PORT", "desktop_is_there", "open_browser", "wanted_lan", "wanted_port"]
 
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
 #: use.
@@ -25,6 +25,14 @@ def open_browser(url: str) -> None:
         import webbrowser
 
         webbrowser.open(url)
+
+
+def wanted_lan() -> bool:
+    """Whether TURTLEWIRE_LAN=1 asks for pages that other devices reach, as the option --lan does.
+
+    It is for programs that a launch file or another program starts.
+    """
+    return os.environ.get("TURTLEWIRE_LAN", "0") not in ("", "0")
 
 
 def wanted_port() -> int:

@@ -1,13 +1,19 @@
-"""The static files of a page, known by their paths when the server starts."""
+"""What a page consists of: its files, known by their paths when the server starts, and the headers.
+
+A page may hold import maps, ``<script type="importmap">``: the only scripts that must stand in the
+page itself. The policy allows them by their hashes.
+"""
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
-__all__ = ["File", "find_files"]
+__all__ = ["Content", "File", "find_files", "headers", "policy"]
 
 #: Suffix to media type. A page consists of nothing else.
 _MEDIA_TYPES = {
@@ -18,6 +24,30 @@ _MEDIA_TYPES = {
     ".png": "image/png",
     ".svg": "image/svg+xml",
 }
+#: Everything comes from this server, and no other page may embed this one.
+_SOURCES = {
+    "default-src": "'none'",
+    "script-src": "'self'",
+    "style-src": "'self'",
+    "img-src": "'self' data: blob:",
+    "connect-src": "'self' ws://{host}",
+    "base-uri": "'none'",
+    "form-action": "'none'",
+    "frame-ancestors": "'none'",
+}
+_IMPORT_MAP = re.compile(rb'<script type="importmap">(.*?)</script>', re.DOTALL)
+
+
+class Content(NamedTuple):
+    """An answer to a request.
+
+    Attributes:
+        body: The bytes.
+        media_type: The value of ``Content-Type``.
+    """
+
+    body: bytes
+    media_type: str
 
 
 class File(NamedTuple):
@@ -40,3 +70,44 @@ def find_files(root: Path) -> dict[str, File]:
     if "/index.html" in files:
         files["/"] = files["/index.html"]
     return files
+
+
+def policy(files: Mapping[str, File], sources: Mapping[str, str]) -> str:
+    """The ``Content-Security-Policy`` of a page; ``{host}`` stands for the request's ``Host``.
+
+    Args:
+        files: The page's files; the import maps of those in HTML are allowed.
+        sources: What is allowed besides, by directive: ``{"connect-src": "blob:"}``.
+    """
+    allowed = dict(_SOURCES)
+    maps = [
+        text
+        for path, file in files.items()
+        if path.endswith(".html")
+        for text in _IMPORT_MAP.findall(file.path.read_bytes())
+    ]
+    for directive, more in [("script-src", _hash(text)) for text in maps] + [*sources.items()]:
+        given = allowed.get(directive, "'none'")
+        allowed[directive] = more if given == "'none'" else f"{given} {more}"
+    return "; ".join(f"{directive} {value}" for directive, value in allowed.items())
+
+
+def _hash(script: bytes) -> str:
+    """The source expression that allows a script by its text."""
+    import base64
+    import hashlib
+
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script).digest()).decode()}'"
+
+
+def headers(content: Content, policy: str, *, immutable: bool) -> dict[str, str]:
+    """The headers of an answer; an ``immutable`` one is never asked for again."""
+    return {
+        "Content-Type": content.media_type,
+        "Content-Length": str(len(content.body)),
+        "Content-Security-Policy": policy,
+        "X-Content-Type-Options": "nosniff",
+        "Referrer-Policy": "no-referrer",
+        "Cache-Control": "private, max-age=31536000, immutable" if immutable else "no-cache",
+        "Connection": "close",
+    }

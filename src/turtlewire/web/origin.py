@@ -3,24 +3,32 @@
 A browser sends in ``Host`` the name that it looked up and in ``Origin`` the page that makes the
 request. A foreign page can make the user's browser connect to 127.0.0.1, also under a name of its
 own that resolves to it (DNS rebinding). These two headers reveal both.
+
+A server for the network answers to every address and to this computer's name besides. A page that
+rebinds its own name still fails, and would lack the token (:mod:`turtlewire.web.lan`).
 """
 
 from __future__ import annotations
+
+import socket
 
 __all__ = ["refusal"]
 
 _LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "[::1]"})
 
 
-def refusal(hosts: list[str], origins: list[str]) -> str | None:
+def refusal(hosts: list[str], origins: list[str], *, lan: bool = False) -> str | None:
     """Why a request is refused, as one sentence, or None if it is allowed.
 
     Args:
         hosts: All ``Host`` headers. Any port is allowed, as a forwarded port has another number.
         origins: All ``Origin`` headers. Programs other than browsers send none.
+        lan: Whether other devices of the network are served, too.
     """
-    if len(hosts) != 1 or _name(hosts[0]) not in _LOOPBACK_NAMES:
-        return f"Host is {_shown(hosts)}, this server answers only to localhost and 127.0.0.1."
+    name = _name(hosts[0]) if len(hosts) == 1 else ""
+    if name not in _LOOPBACK_NAMES and not (lan and _is_of_this_computer(name)):
+        known = "its addresses and its name" if lan else "localhost and 127.0.0.1"
+        return f"Host is {_shown(hosts)}, this server answers only to {known}."
     if len(origins) > 1 or (origins and origins[0].lower() != f"http://{hosts[0].lower()}"):
         return f"Origin is {_shown(origins)}, this server answers only to its own pages."
     return None
@@ -31,6 +39,19 @@ def _name(host: str) -> str:
     end = host.find("]") + 1 if host.startswith("[") else host.find(":")
     name, port = (host[:end], host[end:]) if end > 0 else (host, "")
     return name.lower() if not port or port[1:].isdecimal() else ""
+
+
+def _is_of_this_computer(name: str) -> bool:
+    """Whether this is an IPv4 address, or this computer's name in whatever domain."""
+    own = socket.gethostname().lower().partition(".")[0]
+    return name.partition(".")[0] == own or _is_ipv4(name)
+
+
+def _is_ipv4(name: str) -> bool:
+    try:
+        return socket.inet_ntoa(socket.inet_aton(name)) == name
+    except OSError:
+        return False
 
 
 def _shown(values: list[str]) -> str:

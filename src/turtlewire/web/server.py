@@ -8,13 +8,14 @@ import socket
 import threading
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
-from turtlewire.web.files import find_files
+from turtlewire.web.files import Content, find_files, headers, policy
+from turtlewire.web.lan import new_token, path_below
 from turtlewire.web.origin import refusal
 
 if TYPE_CHECKING:
     import asyncio
     import logging
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from websockets.asyncio.server import ServerConnection
@@ -30,11 +31,8 @@ _MAX_MESSAGE = 65536
 _OUT_OF_RESOURCES = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 #: How long a browser may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
-#: Everything comes from this server, and no other page may embed this one.
-_CONTENT_POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
-    "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-)
+#: What is said to those who lack it.
+_UNINVITED = "The address lacks the token that the program has printed."
 
 
 class Session(Protocol):
@@ -59,30 +57,54 @@ class Session(Protocol):
 
 
 class Server:
-    """Serves the files below a folder on 127.0.0.1, and a WebSocket at ``/live``.
+    """Serves the files below a folder on 127.0.0.1, and a WebSocket at ``live``.
 
     It answers from the moment it is constructed until :meth:`close`. Requests under a foreign name
-    and WebSockets of foreign pages get status 403 (see :mod:`turtlewire.web.origin`).
+    and WebSockets of foreign pages get status 403 (see :mod:`turtlewire.web.origin`). Pages name
+    everything relative to their own address, which may have a path.
 
     Attributes:
-        url: The page's address.
+        url: The page's address on this computer.
     """
 
-    def __init__(self, root: Path, connect: Callable[[], Session], *, port: int = 0) -> None:
+    def __init__(
+        self,
+        root: Path,
+        connect: Callable[[], Session],
+        *,
+        port: int = 0,
+        lan: bool = False,
+        answer: Callable[[str], Content | None] | None = None,
+        sources: Mapping[str, str] | None = None,
+        immutable: str | None = None,
+    ) -> None:
         """Start serving.
 
         Args:
             root: Folder of the page's files.
             connect: Called on the server's thread for each browser that opens the WebSocket.
             port: Preferred TCP port. A free one is taken if it is in use.
+            lan: Whether to serve all devices of the network. Every request must then begin with a
+                random token, which is part of ``url`` (see :mod:`turtlewire.web.lan`).
+            answer: Called, on any thread, for a path that is no file, with its escapes decoded:
+                ``/mesh/x.stl``. None is answered with status 404.
+            sources: What the page may load besides, by directive of the Content-Security-Policy.
+                Import maps in the page need no entry.
+            immutable: Beginning of the paths of files that never change, as ``/three-0.180/``;
+                browsers keep them.
 
         Raises:
             OSError: No socket can be opened, or the port may not be used.
         """
         self._files = find_files(root)
+        self._policy = policy(self._files, sources or {})
+        self._immutable = immutable
         self._connect = connect
-        self._socket = _listen(port)
-        self.url = f"http://127.0.0.1:{self._socket.getsockname()[1]}/"
+        self._computed = answer
+        self._token = new_token() if lan else None
+        self._socket = _listen("0.0.0.0" if lan else "127.0.0.1", port)  # noqa: S104
+        self._home = f"/{self._token}/" if lan else "/"
+        self.url = f"http://127.0.0.1:{self._socket.getsockname()[1]}{self._home}"
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stopping: asyncio.Event | None = None
@@ -158,42 +180,57 @@ class Server:
         for wake_up in self._wake_ups:
             wake_up.set()
 
-    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
+    async def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer a plain HTTP request; None lets the WebSocket begin."""
         from http import HTTPStatus
 
         hosts = request.headers.get_all("Host")
-        reason = refusal(hosts, request.headers.get_all("Origin"))
-        if reason is not None:
-            return connection.respond(HTTPStatus.FORBIDDEN, f"Refused: {reason}\n")
+        path = self._asked(request.path.partition("?")[0])
+        reason = refusal(hosts, request.headers.get_all("Origin"), lan=self._token is not None)
+        if reason is not None or path is None:
+            text = f"Refused: {reason or _UNINVITED}\n"
+            return connection.respond(HTTPStatus.FORBIDDEN, text)
         # Older releases of the library have no such attribute and refuse other methods themselves.
         if getattr(request, "method", "GET") != "GET":
             return connection.respond(HTTPStatus.METHOD_NOT_ALLOWED, "Only GET is answered here.\n")
-        path = request.path.partition("?")[0]
         if path == LIVE_PATH:
             return None
-        if path not in self._files:
+        if not path:  # names in the page are relative to its address, which ends with a slash
+            response = connection.respond(HTTPStatus.PERMANENT_REDIRECT, "The page is at a /.\n")
+            response.headers["Location"] = self._home
+            return response
+        content = await self._content(path)
+        if content is None:
             return connection.respond(HTTPStatus.NOT_FOUND, f"There is no {path} here.\n")
-        return self._file_response(path, hosts[0])
+        return self._response(path, content, hosts[0])
 
-    def _file_response(self, path: str, host: str) -> Response:
+    def _asked(self, path: str) -> str | None:
+        """The path that is asked for, without the token; None if a token is needed and missing."""
+        return path if self._token is None else path_below(self._token, path)
+
+    async def _content(self, path: str) -> Content | None:
+        """What is at a path; None if nothing is."""
+        import asyncio
+        from urllib.parse import unquote
+
+        if path in self._files:
+            file = self._files[path]
+            return Content(file.path.read_bytes(), file.media_type)
+        if self._computed is None:
+            return None
+        try:  # in another thread: it may read long files, and the streams go on
+            return await asyncio.to_thread(self._computed, unquote(path))
+        except Exception:
+            _logger().exception("A defect kept the page from getting %s", path)
+            raise  # the browser gets status 500
+
+    def _response(self, path: str, content: Content, host: str) -> Response:
         from websockets.datastructures import Headers
         from websockets.http11 import Response
 
-        file = self._files[path]
-        body = file.path.read_bytes()
-        headers = Headers(
-            {
-                "Content-Type": file.media_type,
-                "Content-Length": str(len(body)),
-                "Content-Security-Policy": _CONTENT_POLICY.format(host=host),
-                "X-Content-Type-Options": "nosniff",
-                "Referrer-Policy": "no-referrer",
-                "Cache-Control": "no-cache",
-                "Connection": "close",
-            }
-        )
-        return Response(200, "OK", headers, body)
+        immutable = self._immutable is not None and path.startswith(self._immutable)
+        fields = headers(content, self._policy.format(host=host), immutable=immutable)
+        return Response(200, "OK", Headers(fields), content.body)
 
     async def _handle(self, connection: ServerConnection) -> None:
         """Serve one WebSocket until either side ends it."""
@@ -271,21 +308,21 @@ def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConn
     return TrackedConnection
 
 
-def _listen(port: int) -> socket.socket:
+def _listen(host: str, port: int) -> socket.socket:
     try:
-        return _bound(port)
+        return _bound(host, port)
     except OSError as error:
         if error.errno != errno.EADDRINUSE:
             raise
-        return _bound(0)
+        return _bound(host, 0)
 
 
-def _bound(port: int) -> socket.socket:
+def _bound(host: str, port: int) -> socket.socket:
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         if os.name == "posix":  # on Windows the option would let two servers share a port
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind(("127.0.0.1", port))
+        listener.bind((host, port))
         listener.listen()
     except BaseException:
         listener.close()

@@ -22,7 +22,9 @@ export class Connection {
   }
 
   #open() {
-    const socket = new WebSocket(`ws://${location.host}/live`);
+    const address = new URL("live", location.href);
+    address.protocol = "ws:";
+    const socket = new WebSocket(address);
     socket.onopen = () => {
       this.#retryMs = FIRST_RETRY_MS;
       this.#handlers.onState("live");

@@ -25,7 +25,9 @@ export class Connection {
   }
 
   #open() {
-    const socket = new WebSocket(`ws://${location.host}/live`);
+    const address = new URL("live", location.href);
+    address.protocol = "ws:";
+    const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.#retryMs = FIRST_RETRY_MS;
