@@ -21,7 +21,7 @@ from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 from turtlewire import msg, wire
 from turtlewire.cli.frame_picture import take_picture
-from turtlewire.cli.frames import Window, forget_former_time
+from turtlewire.cli.frames import Window
 from turtlewire.cli.main import main
 from turtlewire.tf.listener import QOS, STATIC_QOS
 from turtlewire.wire.base import TypeId
@@ -93,24 +93,6 @@ def test_simulated_time_is_counted_from_the_newest_stamp():
         ("lost", 3.0, True),
         ("robot", 0.0, False),
     ]
-
-
-def test_a_world_that_begins_anew_is_shown(buffer):
-    static = {row.frame for row in take_picture(buffer, NOW_NS).rows if row.static}
-    before = forget_former_time(buffer, {})
-    late = buffer.set_transform("world", "robot", NOW_NS - 100 * SECOND, (0, 0, 0), (0, 0, 0, 1))
-    assert late.startswith("TF_OLD_DATA")
-    put(buffer, "world", "robot", 0.0)
-    before = forget_former_time(buffer, before)
-    assert buffer.lookup_transform("world", "robot").stamp_ns == NOW_NS  # it still goes on
-    buffer.set_transform("world", "robot", SECOND, (0, 0, 0), (0, 0, 0, 1))
-    before = forget_former_time(buffer, before)
-    put(buffer, "world", "robot", 0.0, now_ns=2 * SECOND)
-    forget_former_time(buffer, before)
-    rows = {row.frame: row for row in take_picture(buffer, NOW_NS).rows}
-    assert (rows["robot"].age_s, rows["robot"].stale) == (0.0, False)
-    assert {frame for frame, row in rows.items() if row.static} == static
-
 
 def test_names_do_not_steer_the_terminal():
     buffer = turtlewire.Buffer()

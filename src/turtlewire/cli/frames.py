@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 
 from turtlewire.cli.frame_picture import take_picture
 from turtlewire.cli.keyboard import open_keyboard
-from turtlewire.tf import inspection
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.listener import TransformListener
+from turtlewire.tf.restarts import RestartWatch
 
 if TYPE_CHECKING:
     from turtlewire.cli.frame_picture import Picture
     from turtlewire.cli.keyboard import Keyboard
 
-__all__ = ["Window", "forget_former_time", "show_frames"]
+__all__ = ["Window", "show_frames"]
 
 _CLEAR_SCREEN = "\033[H\033[2J"
 _QUIT = "q"
@@ -40,13 +40,14 @@ def show_frames(top: str | None, *, once: bool, as_json: bool, period_s: float) 
         The exit status: 1 if there were no frames to print once.
     """
     live = sys.stdout.isatty() and not as_json and not once
-    buffer, before = Buffer(), dict[str, tuple[int, int]]()
+    buffer = Buffer()
+    restarts = RestartWatch(buffer)
     window = Window()
     with TransformListener(buffer), open_keyboard(wanted=live) as keyboard:
         while True:
             if _browse(keyboard, window, period_s) == _QUIT:
                 return 0
-            before = forget_former_time(buffer, before)
+            restarts.look()
             picture = take_picture(buffer, time.time_ns(), top)
             if live:
                 window.show(picture)
@@ -108,33 +109,6 @@ class Window:
             last = self._first + len(shown)
             text.append(f"{self._first + 1}-{last} of {len(lines)}: arrow keys scroll, q quits")
         _print(_CLEAR_SCREEN + "\n".join(text))
-
-
-def forget_former_time(
-    buffer: Buffer, before: dict[str, tuple[int, int]]
-) -> dict[str, tuple[int, int]]:
-    """Clear the buffer if a link brings only samples that are too old for it.
-
-    That happens when a simulation or a bag starts again.
-
-    Args:
-        buffer: The buffer.
-        before: The result of the call before; empty for the first.
-
-    Returns:
-        For each link, how many samples were too old for it, and its newest stamp.
-    """
-    newest = {link.child_frame: link.newest_ns for link in inspection.links(buffer)}
-    refused = {
-        frame: each.counts.get("old_data", 0) for frame, each in inspection.refusals(buffer).items()
-    }
-    now = {frame: (refused.get(frame, 0), stamp) for frame, stamp in newest.items()}
-    if any(
-        now[frame][0] > before[frame][0] and now[frame][1] == before[frame][1]
-        for frame in now.keys() & before.keys()
-    ):
-        buffer.clear()
-    return now
 
 
 def _lines(picture: Picture, columns: int | None = None) -> list[str]:

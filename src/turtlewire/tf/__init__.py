@@ -25,6 +25,7 @@ module                     what it holds
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
 `publisher_names`          the node that published a message
 `links`, `inspection`      the links of a buffer as rows, and as objects with rates and ages
+`restarts`                 notices that a simulation has started again
 `conversions`              quaternions, Euler angles, matrices and poses as arrays
 `arrays`                   a transform as an array
 `frame_tree`               the frames with the figures of their links, for pictures

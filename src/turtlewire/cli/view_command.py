@@ -1,0 +1,87 @@
+"""`turtlewire view`: the frames of the wire or of a bag in the browser, in 3D."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import argparse
+
+    from turtlewire.view.source import Source
+
+__all__ = ["add_view_command", "show_view"]
+
+
+def add_view_command(commands: Any) -> None:
+    """Add ``view`` to the command's words."""
+    from turtlewire.cli.bag_commands import complete_bags, reporting_errors
+
+    summary = "Show the frames of the wire, or of a bag, in 3D in the browser"
+    parser = commands.add_parser("view", help=summary, description=summary, allow_abbrev=False)
+    bag = parser.add_argument(
+        "bag", nargs="?", metavar="BAG", help="Show this bag, and nothing of the network"
+    )
+    bag.completer = complete_bags
+    parser.add_argument(
+        "--fixed-frame",
+        default="",
+        metavar="FRAME",
+        help="Look from this frame first (default: the root of the largest tree)",
+    )
+    parser.add_argument(
+        "--port", type=_port, metavar="N", help="Serve the page at this port (default: 7070)"
+    )
+    parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
+
+
+def _view(args: argparse.Namespace) -> int:
+    return show_view(args.bag, args.fixed_frame, args.port)
+
+
+def show_view(bag: str | None, fixed_frame: str, port: int | None) -> int:
+    """Serve the page until Ctrl-C or SIGTERM.
+
+    Args:
+        bag: A bag to show; None shows the wire.
+        fixed_frame: What pages look from first; empty takes the root of the largest tree.
+        port: Preferred TCP port; None takes `TURTLEWIRE_PORT` or 7070.
+
+    Returns:
+        The exit status.
+    """
+    from turtlewire.view.viewer import Viewer
+    from turtlewire.web.desktop import open_browser
+
+    ended = threading.Event()
+    former = signal.signal(signal.SIGTERM, lambda *_: ended.set())
+    viewer = Viewer(_source(bag), fixed_frame, port=port)
+    try:
+        print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)
+        open_browser(viewer.url)
+        ended.wait()
+    except KeyboardInterrupt:
+        print()
+    finally:
+        viewer.close()
+        signal.signal(signal.SIGTERM, former)
+    return 0
+
+
+def _source(bag: str | None) -> Source:
+    if bag is None:
+        from turtlewire.view.live import LiveSource
+
+        return LiveSource()
+    from turtlewire.view.bag_source import BagSource
+
+    return BagSource(bag)
+
+
+def _port(text: str) -> int:
+    import argparse
+
+    if not (text.isdecimal() and int(text) < 65536):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port number, from 0 (any) to 65535")
+    return int(text)

@@ -1,0 +1,33 @@
+"""The 3D view: a page that shows the frames of the wire or of a bag, and what is in them.
+
+::
+
+    from turtlewire.view import LiveSource, Viewer
+
+    viewer = Viewer(LiveSource())
+    print(viewer.url)
+
+===============  ===============================================================================
+module           what it holds
+===============  ===============================================================================
+`viewer`         `Viewer`: serves the page, one thread for its pace and one for displays
+`session`        one page: what it asks for, and what it does not have yet
+`source`         `Source`, `Timeline`: what frames and messages come from, and at which time
+`live`           `LiveSource`: the wire
+`bag_source`     `BagSource`: a bag with its own time
+`frames`         `FrameScene`: all poses in one frame, at one time, as one array
+`tree`           the rows of the tree; one frame as another sees it
+`words`          the same in a sentence
+`display_feed`   a display of a page: waits for transforms, makes packets
+`displays`       what to draw for each type of message
+`packets`        a JSON header and arrays as bytes
+===============  ===============================================================================
+"""
+
+from __future__ import annotations
+
+from turtlewire.view.bag_source import BagSource
+from turtlewire.view.live import LiveSource
+from turtlewire.view.viewer import Viewer
+
+__all__ = ["BagSource", "LiveSource", "Viewer"]

@@ -1,0 +1,235 @@
+"""One display of one page: messages of a topic in, packets out, each where its frame was then.
+
+A message is shown when its frame can be transformed into the fixed frame at its stamp, as tf2's
+message filter has it: what comes before its transforms waits for them, what is older than all of
+them is dropped, and if too many wait, the oldest is dropped. The status says why.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire import msg
+from turtlewire.errors import CdrError, ExtrapolationException, TransformException
+from turtlewire.view.displays.content import Content, Removal, Status
+from turtlewire.view.packets import encode_packet
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from turtlewire.tf.buffer import Buffer
+    from turtlewire.view.displays.content import Display, Output
+
+__all__ = ["Base", "DisplayFeed"]
+
+_logger = logging.getLogger(__name__)
+_MOST_MESSAGES = 1000
+_MOST_WAITING = 50
+
+
+class Base:
+    """What poses refer to: the frame, what is subtracted from its coordinates, and the buffer."""
+
+    __slots__ = ("buffer", "fixed", "origin")
+
+    def __init__(self, buffer: Buffer, fixed: str, origin: tuple[float, float, float]) -> None:
+        self.buffer = buffer
+        self.fixed = fixed
+        self.origin = origin
+
+    def same_place(self, other: Base) -> bool:
+        """Whether poses in both are equal."""
+        return self.fixed == other.fixed and self.origin == other.origin
+
+    def pose(self, content: Content) -> list[float]:
+        """The pose of a content's anchor: x, y, z, and the quaternion xyzw.
+
+        Raises:
+            TransformException: It is not known.
+        """
+        assert content.frame_id is not None
+        fixed_from_frame = self.buffer.lookup_transform(
+            self.fixed, content.frame_id, content.stamp_ns
+        )
+        matrix = fixed_from_frame.as_matrix()
+        place = matrix[:3, :3] @ np.asarray(content.anchor) + matrix[:3, 3] - self.origin
+        pose = [*place.tolist(), *fixed_from_frame.rotation]
+        if not np.isfinite(pose).all():
+            raise TransformException(f"The pose of {content.frame_id!r} is not finite.")
+        return pose
+
+
+class DisplayFeed:
+    """Messages come in on any thread; one thread calls :meth:`work`, another one takes packets.
+
+    Args:
+        name: The page's name of the display.
+        display: Makes geometry of messages.
+        types: Message types by topic.
+        on_work: Called when :meth:`work` should be called; on the threads that bring messages.
+        on_packets: Called when there are packets to take; on the thread of :meth:`work`.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        display: Display,
+        types: Mapping[str, str],
+        on_work: Callable[[DisplayFeed], None],
+        on_packets: Callable[[], None],
+    ) -> None:
+        self.name = name
+        self.display = display
+        self.paused = False
+        self._classes = {topic: msg.get_message(each) for topic, each in types.items()}
+        self._on_work, self._on_packets = on_work, on_packets
+        self._lock = threading.Lock()
+        self._inbox: deque[tuple[str, bytes]] = deque(maxlen=_MOST_MESSAGES)
+        self._waiting: deque[Content] = deque()
+        self._shown: dict[str, Content] = {}
+        self._base: Base | None = None
+        self._ready: dict[str, bytes] = {}
+        self._status: Status | None = None
+        self._said: Status | None = None
+        self.ends: list[Callable[[], None]] = []
+
+    @property
+    def waits(self) -> bool:
+        """Whether new transforms may make something visible."""
+        return bool(self._waiting)
+
+    def take_message(self, topic: str, cdr: bytes) -> None:
+        """A message has come; for any thread."""
+        if not self.paused:
+            self._inbox.append((topic, cdr))
+            self._on_work(self)
+
+    def take_packets(self) -> list[bytes]:
+        """What the page does not have yet; a newer content of a part replaces an older one."""
+        with self._lock:
+            ready, self._ready = self._ready, {}
+            status, self._status = self._status, None
+        packets = list(ready.values())
+        if status is not None and status != self._said:
+            self._said = status
+            packets.append(
+                encode_packet(
+                    {"type": "status", "id": self.name, "level": status.level, "text": status.text}
+                )
+            )
+        return packets
+
+    def work(self, base: Base) -> None:
+        """Turn messages into packets as far as transforms allow."""
+        while self._inbox:
+            topic, cdr = self._inbox.popleft()
+            self._take(self._outputs(topic, cdr))
+        self._place_waiting(base)
+        if self._base is None or not base.same_place(self._base):
+            self._base = base
+            self._place_again(base)
+        if self._ready or self._status is not None:
+            self._on_packets()
+
+    def close(self) -> None:
+        """End the subscriptions."""
+        for end in self.ends:
+            end()
+
+    def _outputs(self, topic: str, cdr: bytes) -> list[Output]:
+        try:
+            message: Any = msg.deserialize(self._classes[topic], cdr)
+        except CdrError as error:
+            return [Status.of("error", f"A message on {topic} cannot be read: {error}")]
+        try:
+            return self.display.content(message)
+        except Exception:  # a fault of ours must not end the thread of all displays
+            _logger.exception("The display %s cannot show a message", self.display.kind)
+            return [Status.of("error", "This message cannot be shown; the log says why.")]
+
+    def _take(self, outputs: list[Output]) -> None:
+        for output in outputs:
+            if isinstance(output, Status):
+                self._say(output)
+            elif isinstance(output, Removal):
+                self._forget(output.part)
+            elif output.frame_id is None or output.locked:
+                self._shown[output.part] = output
+                self._send(output, {"frame": output.frame_id, "anchor": list(output.anchor)})
+            else:
+                self._waiting.append(output)
+        while len(self._waiting) > _MOST_WAITING:
+            dropped = self._waiting.popleft()
+            self._say(Status.of("warn", f"No transform for {dropped.frame_id!r}: dropped."))
+
+    def _forget(self, part: str) -> None:
+        self._shown.pop(part, None)
+        self._waiting = deque(content for content in self._waiting if content.part != part)
+        with self._lock:
+            self._ready[part] = encode_packet({"type": "removed", "id": self.name, "part": part})
+
+    def _place_waiting(self, base: Base) -> None:
+        still: deque[Content] = deque()
+        for content in self._waiting:
+            pose = self._pose(content, base)
+            if isinstance(pose, TransformException):
+                if not _is_too_old(pose, content, base):
+                    still.append(content)
+            else:
+                self._shown[content.part] = content
+                self._send(content, {"pose": pose})
+        self._waiting = still
+
+    def _pose(self, content: Content, base: Base) -> list[float] | TransformException:
+        """The pose, or why it is not known, which the status then says."""
+        try:
+            return base.pose(content)
+        except TransformException as error:
+            self._say(Status.of("warn", f"{error} {error.hint}".strip()))
+            return error
+
+    def _place_again(self, base: Base) -> None:
+        """Tell the poses in another fixed frame."""
+        for part, content in list(self._shown.items()):
+            if content.frame_id is None or content.locked:
+                continue
+            pose = self._pose(content, base)
+            header = {"type": "pose", "id": self.name, "part": part}
+            known = None if isinstance(pose, TransformException) else pose
+            with self._lock:  # beside the content, which may wait to be sent, too
+                self._ready[f"pose {part}"] = encode_packet({**header, "pose": known})
+
+    def _send(self, content: Content, place: dict[str, Any]) -> None:
+        header = {
+            **content.header,
+            "type": "display",
+            "id": self.name,
+            "kind": self.display.kind,
+            "part": content.part,
+            **place,
+        }
+        packet = encode_packet(header, content.arrays)
+        with self._lock:
+            self._ready.pop(f"pose {content.part}", None)
+            self._ready[content.part] = packet
+
+    def _say(self, status: Status) -> None:
+        with self._lock:
+            self._status = status
+
+
+def _is_too_old(error: TransformException, content: Content, base: Base) -> bool:
+    """Whether no transform that comes can make it visible."""
+    if not isinstance(error, ExtrapolationException):
+        return False
+    assert content.frame_id is not None
+    try:
+        newest = base.buffer.latest_common_time(base.fixed, content.frame_id)
+    except TransformException:
+        return False
+    return newest > content.stamp_ns

@@ -1,0 +1,190 @@
+"""All frames as a page draws them: in one frame, at one time, as one array."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from turtlewire.errors import TransformException
+from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["FrameScene", "Frames", "Structure"]
+
+#: Beyond this distance from the origin [m], 32-bit coordinates would be wrong by a millimetre.
+_FAR_M = 10_000.0
+_ORIGIN_STEP_M = 1_000.0
+#: What is farther than the sun is a mistake, and cannot be drawn.
+_FARTHEST_M = 1.5e11
+
+
+class Structure(NamedTuple):
+    """Which frames there are; it changes rarely.
+
+    Attributes:
+        version: Counts changes.
+        names: The N frames, parents before children.
+        parents: For each frame the index of its parent, or -1.
+        trees: For each frame the index of its root in ``roots``.
+        roots: The root of each tree, the largest tree first.
+        loops: Frames that are their own ancestors, from child to parent.
+    """
+
+    version: int
+    names: list[str]
+    parents: list[int]
+    trees: list[int]
+    roots: list[str]
+    loops: list[list[str]]
+
+
+class Frames(NamedTuple):
+    """The poses at one time.
+
+    Attributes:
+        structure: The frames.
+        fixed: The frame in which poses of its tree are given; those of other trees are given in
+            their roots.
+        origin: What was subtracted from the positions in the fixed frame's tree [m].
+        poses: (N, 7) x, y, z, and the quaternion xyzw, 32-bit.
+        stamps: (N,) newest time that a frame has in common with the fixed frame [s]; 0 if all
+            between them is static.
+        known: (N,) 1 for each frame that has a finite pose at that time.
+    """
+
+    structure: Structure
+    fixed: str
+    origin: tuple[float, float, float]
+    poses: NDArray[np.float32]
+    stamps: NDArray[np.float64]
+    known: NDArray[np.uint8]
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What a packet carries."""
+        return {"poses": self.poses, "stamps": self.stamps, "known": self.known}
+
+
+class FrameScene:
+    """Computes frames for one page. Not thread-safe."""
+
+    def __init__(self) -> None:
+        self._structure = Structure(0, [], [], [], [], [])
+        self._index: dict[str, int] = {}
+        self._frame_strings: list[str] = []
+        self._rows: dict[str, tuple[list[str], NDArray[np.intp]]] = {}
+        self._origin = (0.0, 0.0, 0.0)
+
+    @property
+    def structure(self) -> Structure:
+        """The frames of the last look."""
+        return self._structure
+
+    def look(self, buffer: Buffer, fixed: str = "", stamp_ns: int = 0) -> Frames:
+        """Compute all poses.
+
+        Args:
+            buffer: The frames.
+            fixed: The frame to look from; empty, or one that does not exist, takes the root of the
+                largest tree.
+            stamp_ns: 0 takes the newest time that each frame has in common with the fixed one.
+        """
+        frame_strings = buffer.frame_strings()
+        if frame_strings != self._frame_strings:
+            self.read_structure(buffer)
+            self._frame_strings = frame_strings
+        structure = self._structure
+        is_there = fixed in self._index
+        tree = structure.trees[self._index[fixed]] if is_there else 0
+        shown = fixed if is_there else (structure.roots or [""])[0]
+        poses, stamps = np.zeros((len(structure.names), 7)), np.zeros(len(structure.names))
+        known = np.zeros(len(structure.names), np.uint8)
+        for number, root in enumerate(structure.roots):
+            target = shown if number == tree else root
+            self._fill(buffer, target, stamp_ns, poses, stamps, known)
+        with np.errstate(invalid="ignore"):
+            known &= (np.abs(poses) < _FARTHEST_M).all(axis=1)
+        poses[known == 0] = 0.0
+        self._subtract_origin(poses, (np.asarray(structure.trees) == tree) & (known == 1))
+        return Frames(structure, shown, self._origin, poses.astype(np.float32), stamps, known)
+
+    def read_structure(self, buffer: Buffer) -> None:
+        """Look which frames there are, and who is whose parent: that may change without new names.
+
+        It is as expensive as forty looks at the poses, so a page does it once a second.
+        """
+        tree = read_frame_tree(buffer)
+        names, trees, roots = _in_order(tree)
+        index = {name: number for number, name in enumerate(names)}
+        cut = set(tree.roots)
+        parents = [
+            -1 if name in cut or name not in tree.links else index[tree.links[name].parent]
+            for name in names
+        ]
+        former = self._structure
+        if (names, parents, roots, tree.loops) != (
+            former.names,
+            former.parents,
+            former.roots,
+            former.loops,
+        ):
+            self._structure = Structure(
+                former.version + 1, names, parents, trees, roots, tree.loops
+            )
+            self._index = index
+            self._rows.clear()
+
+    def _fill(
+        self,
+        buffer: Buffer,
+        target: str,
+        stamp_ns: int,
+        poses: NDArray[np.float64],
+        stamps: NDArray[np.float64],
+        known: NDArray[np.uint8],
+    ) -> None:
+        """Look up all frames in ``target``, and put them in the rows of the structure."""
+        try:
+            names, found, times_ns = buffer.lookup_all(target, stamp_ns)
+        except TransformException:
+            return  # a frame that has only been a name until now
+        former, rows = self._rows.get(target, (None, None))
+        if rows is None or names != former:
+            rows = np.array([self._index.get(name, -1) for name in names], np.intp)
+            self._rows[target] = (names, rows)
+        there = rows >= 0  # a frame may have come since the structure was read
+        poses[rows[there]], stamps[rows[there]] = found[there], times_ns[there] / 1e9
+        known[rows[there]] = 1
+
+    def _subtract_origin(self, poses: NDArray[np.float64], rows: NDArray[np.bool_]) -> None:
+        """Keep coordinates small enough for 32 bits; the origin moves only when it must."""
+        places = poses[rows, :3]
+        if places.size:
+            centre = np.median(places, axis=0)
+            if np.abs(centre - self._origin).max() > _FAR_M:
+                step = _ORIGIN_STEP_M
+                x, y, z = (float(value) for value in np.round(centre / step) * step)
+                self._origin = (x, y, z)
+            elif np.abs(centre).max() <= _FAR_M / 2:
+                self._origin = (0.0, 0.0, 0.0)
+        poses[rows, :3] -= self._origin
+
+
+def _in_order(tree: FrameTree) -> tuple[list[str], list[int], list[str]]:
+    """The frames parents first, the number of the tree of each, and the roots by size of trees."""
+    found = []
+    for root in tree.roots:
+        members, waiting = [], [root]
+        while waiting:
+            frame = waiting.pop()
+            members.append(frame)
+            waiting += reversed(tree.children[frame])
+        found.append((root, members))
+    found.sort(key=lambda each: -len(each[1]))  # stable: the one that came first leads its equals
+    names = [name for _, members in found for name in members]
+    trees = [number for number, (_, members) in enumerate(found) for _ in members]
+    return names, trees, [root for root, _ in found]

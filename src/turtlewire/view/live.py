@@ -1,0 +1,256 @@
+"""The wire as a source: frames from ``/tf`` and ``/tf_static``, messages of any topic."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from turtlewire import msg, wire
+from turtlewire.tf import inspection
+from turtlewire.tf.buffer import Buffer
+from turtlewire.tf.listener import TransformListener
+from turtlewire.tf.restarts import RestartWatch
+from turtlewire.view.source import TimelineState, Topic
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire import base
+
+__all__ = ["LiveSource"]
+
+#: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
+#: explains what happened before.
+_HISTORY_NS = 60 * 10**9
+#: Stamps below are of a simulation, and no system time [ns].
+_WALL_TIME_FROM_NS = 10**18
+_NODE_NAME = "turtlewire_view"
+_DEPTH = 100
+
+
+class LiveSource:
+    """What is on the wire of this process's domain.
+
+    Args:
+        history_ns: How long samples of frames are kept.
+
+    Raises:
+        WireError: The network cannot be joined.
+    """
+
+    kind = "live"
+    problem = ""
+
+    def __init__(self, history_ns: int = _HISTORY_NS) -> None:
+        self._context = wire.open_context()
+        self.name = f"ROS_DOMAIN_ID {self._context.domain_id}"
+        self.buffer = Buffer(history_ns)
+        self._restarts = RestartWatch(self.buffer)
+        self._changed: Callable[[], None] = _nothing
+        self._lock = threading.Lock()
+        self._subscriptions: set[_FittedSubscription] = set()
+        self._publishers: dict[tuple[str, str], base.Publisher] = {}
+        self._node = self._context.create_node(_NODE_NAME)
+        self._listener = TransformListener(self.buffer, self._node, context=self._context)
+        self._ends = [
+            self.buffer.add_change_listener(self._tell),
+            self._context.graph.add_listener(self._take_graph),
+        ]
+
+    def now_ns(self) -> int:
+        """System time; of a simulation, the newest stamp."""
+        newest = newest_stamp_ns(self.buffer)
+        return time.time_ns() if newest is None or newest >= _WALL_TIME_FROM_NS else newest
+
+    def new_timeline(self) -> LiveTimeline:
+        """A page's own time, which follows the wire until the page is paused."""
+        return LiveTimeline(self)
+
+    def topics(self) -> list[Topic]:
+        """All topics of the graph."""
+        endpoints = self._context.graph.endpoints()
+        counts: dict[str, int] = {}
+        for endpoint in endpoints:
+            if endpoint.kind == "publisher":
+                counts[endpoint.topic] = counts.get(endpoint.topic, 0) + 1
+        named = self._context.graph.topic_names_and_types()
+        return [
+            Topic(name, type_name, counts.get(name, 0))
+            for name, type_names in sorted(named.items())
+            for type_name in type_names
+        ]
+
+    def subscribe(
+        self, topic: str, type_name: str, on_message: Callable[[bytes], None]
+    ) -> Callable[[], None]:
+        """Subscribe with the QoS that fits all publishers, also those that come later."""
+        subscription = _FittedSubscription(self._context, self._node, topic, type_name, on_message)
+        with self._lock:
+            self._subscriptions.add(subscription)
+
+        def end() -> None:
+            with self._lock:
+                self._subscriptions.discard(subscription)
+            subscription.close()
+
+        return end
+
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
+        """Send a message; the publisher stays for the next one."""
+        with self._lock:
+            publisher = self._publishers.get((topic, type_name))
+            if publisher is None:
+                identity = TypeId(type_name, msg.type_hash(type_name))
+                publisher = self._node.create_publisher(topic, identity, QoS())
+                self._publishers[topic, type_name] = publisher
+        publisher.publish(cdr)
+
+    def on_change(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` on the wire's reader thread."""
+        self._changed = call
+
+    def forget_former_time(self) -> None:
+        """Clear the buffer when a simulation or a bag has started again."""
+        self._restarts.look()
+
+    def close(self) -> None:
+        """Leave the wire."""
+        for end in self._ends:
+            end()
+        self._listener.close()
+        self._context.close()
+
+    def _tell(self) -> None:
+        self._changed()
+
+    def _take_graph(self) -> None:
+        with self._lock:
+            subscriptions = list(self._subscriptions)
+        for subscription in subscriptions:
+            subscription.fit()
+        self._changed()
+
+
+class LiveTimeline:
+    """Follows the wire; while paused, a copy of the buffer stays as it was."""
+
+    def __init__(self, source: LiveSource) -> None:
+        self._source = source
+        self._lock = threading.Lock()
+        self._kept: Buffer | None = None
+        self._stamp_ns = 0
+
+    @property
+    def buffer(self) -> Buffer:
+        """What is shown: the source's buffer, or its copy."""
+        return self._kept or self._source.buffer
+
+    def stamp_ns(self) -> int:
+        """0 while it follows the wire."""
+        return self._stamp_ns
+
+    def state(self) -> TimelineState:
+        """The history that there is."""
+        with self._lock:
+            oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
+            live = self._kept is None
+            now = newest if live else self._stamp_ns
+        simulated = newest < _WALL_TIME_FROM_NS
+        return TimelineState(now / 1e9, oldest / 1e9, newest / 1e9, live, live, 1.0, simulated)
+
+    def pause(self) -> None:
+        """Keep what there is; new data does not change the picture."""
+        with self._lock:
+            if self._kept is None:
+                self._kept = inspection.loads(inspection.dumps(self._source.buffer))
+                self._stamp_ns = newest_stamp_ns(self._kept) or 0
+
+    def play(self) -> None:
+        """Follow the wire again."""
+        with self._lock:
+            self._kept, self._stamp_ns = None, 0
+
+    def seek(self, stamp_ns: int) -> None:
+        """Pause, and show this time."""
+        self.pause()
+        with self._lock:
+            oldest, newest = stamp_range_ns(self.buffer) or (0, 0)
+            self._stamp_ns = max(1, min(max(stamp_ns, oldest), newest))
+
+    def set_speed(self, factor: float) -> None:
+        """The wire has only one speed."""
+
+
+class _FittedSubscription:
+    """A subscription whose QoS follows the publishers."""
+
+    def __init__(
+        self,
+        context: base.Context,
+        node: base.Node,
+        topic: str,
+        type_name: str,
+        on_message: Callable[[bytes], None],
+    ) -> None:
+        self._graph, self._node = context.graph, node
+        self._topic, self._type = topic, TypeId(type_name, msg.type_hash(type_name))
+        self._on_message = on_message
+        self._lock = threading.Lock()
+        self._closed = False
+        self._qos = self._fitting()
+        self._subscription = self._subscribe()
+
+    def fit(self) -> None:
+        """Subscribe again if the publishers offer something else now."""
+        with self._lock:
+            qos = self._fitting()
+            if self._closed or qos == self._qos:
+                return
+            self._qos = qos
+            self._subscription.close()
+            self._subscription = self._subscribe()
+
+    def close(self) -> None:
+        with self._lock:
+            self._closed = True
+            self._subscription.close()
+
+    def _subscribe(self) -> base.Subscription:
+        return self._node.create_subscription(
+            self._topic, self._type, self._qos, lambda cdr, _: self._on_message(cdr)
+        )
+
+    def _fitting(self) -> QoS:
+        offered = [
+            endpoint.qos
+            for endpoint in self._graph.endpoints()
+            if endpoint.kind == "publisher" and endpoint.topic == self._topic
+        ]
+        wanted = QoS(
+            depth=_DEPTH,
+            reliability=Reliability.BEST_AVAILABLE,
+            durability=Durability.BEST_AVAILABLE,
+        )
+        # Without publishers the best of all would match none that is less.
+        return fit_subscription(wanted, offered or [QoS(reliability=Reliability.BEST_EFFORT)])
+
+
+def newest_stamp_ns(buffer: Buffer) -> int | None:
+    """The newest stamp of a link that is not static."""
+    found = stamp_range_ns(buffer)
+    return None if found is None else found[1]
+
+
+def stamp_range_ns(buffer: Buffer) -> tuple[int, int] | None:
+    """The oldest and the newest stamp of links that are not static."""
+    moving = [link for link in inspection.links(buffer) if link.samples and not link.static]
+    if not moving:
+        return None
+    return min(link.oldest_ns for link in moving), max(link.newest_ns for link in moving)
+
+
+def _nothing() -> None:
+    pass

@@ -1,0 +1,136 @@
+"""Where the view gets its frames and messages from: the wire, or a bag."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["Source", "Timeline", "TimelineState", "Topic"]
+
+
+class Topic(NamedTuple):
+    """A topic that a page may show."""
+
+    name: str
+    type_name: str
+    publishers: int
+
+
+class TimelineState(NamedTuple):
+    """What the time bar shows; times in seconds, None where there is none.
+
+    Attributes:
+        now: The time that is shown.
+        oldest: The first time that can be shown.
+        newest: The last one.
+        live: Whether the newest data is shown as it comes.
+        playing: Whether the time advances.
+        speed: Seconds of the data in a second.
+        simulated: Whether stamps are no system time.
+    """
+
+    now: float
+    oldest: float
+    newest: float
+    live: bool
+    playing: bool
+    speed: float
+    simulated: bool
+
+
+class Timeline(Protocol):
+    """The time that a page shows, and the frames then. Thread-safe."""
+
+    @property
+    def buffer(self) -> Buffer:
+        """Where the frames are looked up."""
+        ...
+
+    def stamp_ns(self) -> int:
+        """The time of the frames to show; 0 for the newest of each."""
+        ...
+
+    def state(self) -> TimelineState:
+        """What the time bar shows."""
+        ...
+
+    def pause(self) -> None:
+        """Hold the time."""
+        ...
+
+    def play(self) -> None:
+        """Let the time go on: a bag from where it is, the wire from now."""
+        ...
+
+    def seek(self, stamp_ns: int) -> None:
+        """Show this time, or the nearest that there is."""
+        ...
+
+    def set_speed(self, factor: float) -> None:
+        """Play so much faster than the clock; the wire has only one speed."""
+        ...
+
+
+class Source(Protocol):
+    """Frames and messages. Thread-safe.
+
+    Attributes:
+        kind: ``live`` or ``bag``.
+        name: What the page calls it.
+        problem: What is wrong with it, in one line; mostly empty.
+    """
+
+    kind: str
+    name: str
+    problem: str
+
+    @property
+    def buffer(self) -> Buffer:
+        """Its frames."""
+        ...
+
+    def now_ns(self) -> int:
+        """The time that ages refer to."""
+        ...
+
+    def new_timeline(self) -> Timeline:
+        """The time of one more page; pages of a bag share theirs."""
+        ...
+
+    def topics(self) -> list[Topic]:
+        """What there is, sorted by name."""
+        ...
+
+    def subscribe(
+        self, topic: str, type_name: str, on_message: Callable[[bytes], None]
+    ) -> Callable[[], None]:
+        """Call ``on_message(cdr)`` for each message from now on, latched ones at once.
+
+        Returns:
+            A function that ends it.
+        """
+        ...
+
+    def publish(self, topic: str, type_name: str, cdr: bytes) -> None:
+        """Send a message.
+
+        Raises:
+            TurtlewireError: The source cannot send.
+        """
+        ...
+
+    def forget_former_time(self) -> None:
+        """Drop frames of a time before the last restart of the simulation."""
+        ...
+
+    def on_change(self, call: Callable[[], None]) -> None:
+        """Call ``call()`` when frames, topics or the time of all pages change; on any thread."""
+        ...
+
+    def close(self) -> None:
+        """Leave the wire, close the file."""
+        ...

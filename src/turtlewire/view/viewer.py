@@ -1,0 +1,145 @@
+"""The view: a page for any number of browsers, fed from one source."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from turtlewire.view.display_feed import DisplayFeed
+from turtlewire.view.displays import display_types
+from turtlewire.view.packets import encode_packet
+from turtlewire.view.session import CommandError, Session
+from turtlewire.web import Server
+from turtlewire.web.desktop import wanted_port
+
+if TYPE_CHECKING:
+    from turtlewire.view.source import Source
+
+__all__ = ["Viewer"]
+
+_PAGE = Path(__file__).parent / "page"
+#: Pictures a second, at most, and one a second when nothing happens: ages go on.
+_FRAME_S, _IDLE_S = 1 / 30, 1.0
+
+
+class Viewer:
+    """Serves the page until it is closed.
+
+    Two threads beside the server's: one tells the pages at most thirty times a second that there is
+    something new, one makes geometry of messages.
+
+    Args:
+        source: Where frames and messages come from; closed with the view.
+        fixed_frame: What pages look from first; empty takes the root of the largest tree.
+        port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+
+    Attributes:
+        url: The page's address.
+
+    Raises:
+        OSError: No port can be had.
+    """
+
+    def __init__(self, source: Source, fixed_frame: str = "", *, port: int | None = None) -> None:
+        self.source = source
+        self.fixed_frame = fixed_frame
+        self._lock = threading.Lock()
+        self._sessions: list[Session] = []
+        self._changed, self._work = threading.Event(), threading.Event()
+        self._closing = threading.Event()
+        self._server = Server(_PAGE, self._connect, port=wanted_port() if port is None else port)
+        self.url = self._server.url
+        self._threads = [
+            threading.Thread(target=run, name=f"turtlewire-view-{name}", daemon=True)
+            for name, run in (("pace", self._pace), ("displays", self._make_displays))
+        ]
+        for thread in self._threads:
+            thread.start()
+        source.on_change(self._take_change)
+
+    def close(self) -> None:
+        """Close the pages' connections and the source."""
+        self._closing.set()
+        self._changed.set()
+        self._work.set()
+        for thread in self._threads:
+            thread.join()
+        self._server.close()
+        self.source.close()
+
+    def hello(self) -> bytes:
+        """The first packet of a page."""
+        return encode_packet(
+            {"type": "hello", "source": {"kind": self.source.kind, "name": self.source.name}}
+        )
+
+    def topics(self) -> list[dict[str, Any]]:
+        """What there is, each with the kind of display that shows it, or None."""
+        kinds = display_types()
+        return [
+            {**topic._asdict(), "kind": each.kind if (each := kinds.get(topic.type_name)) else None}
+            for topic in self.source.topics()
+        ]
+
+    def new_feed(self, name: str, kind: str, topic: str, options: dict[str, object]) -> DisplayFeed:
+        """Subscribe for a display.
+
+        Raises:
+            CommandError: There is no such display, or no such topic.
+            WireError: The topic cannot be subscribed.
+        """
+        types_there = {each.name: each.type_name for each in self.source.topics()}
+        of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
+        type_name = types_there.get(topic) or next(iter(of_kind), "")
+        if type_name not in of_kind:
+            raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
+        display_type = of_kind[type_name]
+        types = {topic: type_name}
+        types |= {topic + suffix: each for suffix, each in display_type.companions.items()}
+        feed = DisplayFeed(
+            name, display_type(options), types, lambda _: self._work.set(), self._changed.set
+        )
+        for each, its_type in types.items():
+            feed.ends.append(self.source.subscribe(each, its_type, _sink(feed, each)))
+        return feed
+
+    def work(self) -> None:
+        """Displays of a page must be placed anew; one thread serves all, and finds out which."""
+        self._work.set()
+
+    def forget(self, session: Session) -> None:
+        """A page is gone."""
+        with self._lock:
+            self._sessions.remove(session)
+
+    def _connect(self) -> Session:
+        session = Session(self)
+        with self._lock:
+            self._sessions.append(session)
+        return session
+
+    def _take_change(self) -> None:
+        self._changed.set()
+        self._work.set()
+
+    def _pace(self) -> None:
+        while not self._closing.is_set():
+            self._changed.wait(_IDLE_S)
+            self._changed.clear()
+            self._server.notify()
+            self._closing.wait(_FRAME_S)
+
+    def _make_displays(self) -> None:
+        while not self._closing.is_set():
+            self._work.wait()
+            self._work.clear()
+            with self._lock:
+                sessions = list(self._sessions)
+            for session in sessions:
+                for feed in session.feeds:
+                    feed.work(session.base)
+
+
+def _sink(feed: DisplayFeed, topic: str) -> Any:
+    return lambda cdr: feed.take_message(topic, cdr)

@@ -1,0 +1,70 @@
+"""Rows of the tree, and one frame as another sees it."""
+
+from __future__ import annotations
+
+import pytest
+
+from turtlewire import Buffer
+from turtlewire.view.tree import TreeTable, path_between, relation
+
+SECOND = 10**9
+IDENTITY = (0.0, 0.0, 0.0, 1.0)
+
+
+@pytest.fixture
+def buffer():
+    buffer = Buffer()
+    for step in range(11):
+        buffer.set_transform("map", "base", SECOND + step * SECOND // 10, (1, 2, 0), IDENTITY)
+    buffer.set_transform("base", "laser", 0, (0, 0, 1), IDENTITY, static=True, authority="/rsp")
+    return buffer
+
+
+def test_rows_say_who_sends_how_often_and_how_late(buffer):
+    table = TreeTable()
+    rows = {row["name"]: row for row in table.rows(buffer, 2 * SECOND + SECOND // 4)}
+    assert rows["base"]["rate"] == pytest.approx(10.0)
+    assert rows["base"]["age"] == pytest.approx(0.25)
+    assert rows["laser"] == {
+        "name": "laser",
+        "parent": "base",
+        "publisher": "/rsp",
+        "static": True,
+        "samples": 1,
+        "rate": None,
+        "age": None,
+        "delay": None,
+    }
+    rows = {row["name"]: row for row in table.rows(buffer, 3 * SECOND)}
+    assert (rows["base"]["age"], rows["base"]["delay"]) == (1.0, 0.25)
+
+
+def test_a_relation_has_numbers_and_a_sentence(buffer):
+    found = relation(buffer, "map", "laser", 0)
+    assert found["translation"] == [1.0, 2.0, 1.0]
+    assert found["matrix"][0] == [1.0, 0.0, 0.0, 1.0]
+    assert found["rpy"] == [0.0, 0.0, 0.0]
+    assert found["sentence"].startswith(
+        "laser is 1.00 m ahead, 2.00 m to the left and 1.00 m above"
+    )
+
+
+def test_a_relation_that_is_not_there_says_why(buffer):
+    buffer.set_transform("island", "palm", SECOND, (0, 0, 0), IDENTITY)
+    apart = relation(buffer, "map", "palm", 0)
+    assert "not part of the same tree" in apart["error"]
+    assert apart["hint"]
+    unknown = relation(buffer, "map", "lasre", 0)
+    assert unknown["error"] == "There is no frame 'lasre'."
+    assert "laser" in unknown["hint"]
+    early = relation(buffer, "map", "base", SECOND // 2)
+    assert "extrapolation into the past" in early["error"]
+
+
+def test_the_path_leads_over_the_common_ancestor():
+    names = ["map", "left", "hand", "right", "island"]
+    parents = [-1, 0, 1, 0, -1]
+    assert path_between(names, parents, "right", "hand") == ["hand", "left", "map", "right"]
+    assert path_between(names, parents, "map", "map") == ["map"]
+    assert path_between(names, parents, "island", "map") == []
+    assert path_between(names, parents, "nobody", "map") == []
