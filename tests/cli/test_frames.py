@@ -94,6 +94,7 @@ def test_simulated_time_is_counted_from_the_newest_stamp():
         ("robot", 0.0, False),
     ]
 
+
 def test_names_do_not_steer_the_terminal():
     buffer = turtlewire.Buffer()
     put(buffer, "a\nb", "turtle\x1b[2J", 0.0, sender="/x\x07")
