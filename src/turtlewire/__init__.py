@@ -14,6 +14,7 @@ module        what it holds
 `tf`          the transform buffer, the listener that fills it, and its pictures
 `trajectory`  poses over time: sampled, in files, compared
 `urdf`        robots: a parser of URDF and forward kinematics
+`view`        the 3D page: frames of the wire or of a bag, robots, sensor data
 `web`         a small HTTP and WebSocket server for this machine's browsers
 `wire`        the middleware: bytes, QoS, names and the graph
 ============  ==================================================================

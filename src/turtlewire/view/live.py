@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from turtlewire.wire import base
 
-__all__ = ["LiveSource"]
+__all__ = ["LiveSource", "LiveTimeline", "newest_stamp_ns", "stamp_range_ns"]
 
 #: How much history the page can go back to: longer than the ten seconds of tf2, for a lesson
 #: explains what happened before.
