@@ -39,6 +39,15 @@ NO_NETWORK = re.compile(
 )
 
 
+#: Prints the middleware and its library.
+MIDDLEWARE = """
+from turtlewire.wire.environment import is_installed, middleware_library, middleware_name
+name = middleware_name()
+if is_installed(name):
+    print(f"{name} stands on {middleware_library(name)}")
+"""
+
+
 class SetupError(Exception):
     """An error whose text names in one sentence what is missing."""
 
@@ -113,7 +122,13 @@ def bring_up_to_date(stamp: dict[str, Any], wanted: dict[str, Any]) -> None:
     ensure_pip()
     install(wanted["extras"], only_extras=only_extras)
     STAMP.write_text(json.dumps(wanted), encoding="utf-8")
-    say(f"ready after {time.monotonic() - started:.0f} s")
+    say(f"ready after {time.monotonic() - started:.0f} s; {middleware()}")
+
+
+def middleware() -> str:
+    """The middleware that .venv has, what it stands on and why."""
+    done = run_python("-c", MIDDLEWARE)
+    return done.stdout.strip() or "no middleware: only the transform buffer works here"
 
 
 def usable(stamp: dict[str, Any], wanted: dict[str, Any]) -> bool:

@@ -31,6 +31,7 @@ a waiting lookup sleeps 20 ms at a time, on the system clock
   wire/test_environment.py test_a_middleware_that_is_not_here_is_one_line_and_cyclone_is_taken
 the middleware is Fast DDS unless `RMW_IMPLEMENTATION` names another
   wire/test_environment.py test_what_is_not_installed_is_told_and_another_one_taken
+  wire/test_libddsc.py test_zenoh_is_taken_instead_of_an_unknown_version
 processes find each other through a router, `rmw_zenohd`
   wire/test_processes.py test_messages_go_both_ways
   wire/zenoh/test_sdk.py test_their_server test_their_client

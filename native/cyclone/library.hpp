@@ -1,4 +1,5 @@
-// What we call of Cyclone DDS 11. Python looks it up, in the very library that it uses itself.
+// What we call of Cyclone DDS, which is the same in 0.10 and 11. Python looks it up, in the very
+// library that it uses itself.
 #pragma once
 
 #include <array>

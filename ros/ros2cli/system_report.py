@@ -19,8 +19,9 @@ def system_report() -> str:
 
 def sections() -> list[tuple[str, list[tuple[str, object]]]]:
     """Titles and facts: pairs of name and value."""
-    from turtlewire.wire.environment import middleware_name
+    from turtlewire.wire.environment import middleware_library, middleware_name
 
+    middleware = middleware_name()
     found: dict[str, dict[str, object]] = {
         "PLATFORM INFORMATION": {
             "system": platform.system(),
@@ -29,7 +30,10 @@ def sections() -> list[tuple[str, list[tuple[str, object]]]]:
             "processor": platform.machine(),
             "python": f"{platform.python_version()} ({sys.executable})",
         },
-        "RMW MIDDLEWARE": {"middleware name": middleware_name()},
+        "RMW MIDDLEWARE": {
+            "middleware name": middleware,
+            "middleware library": middleware_library(middleware),
+        },
         "ROS 2 INFORMATION": _ros_information(),
     }
     listed = [(title, list(facts.items())) for title, facts in found.items()]

@@ -115,7 +115,8 @@ def test_what_is_not_installed_is_told_and_another_one_taken(asked, missing, tak
         "find_spec = importlib.util.find_spec\n"
         "importlib.util.find_spec = "
         f"lambda name: None if name == {missing!r} else find_spec(name)\n"
-        "from turtlewire.wire import open_context\n"
+        "from turtlewire.wire import libddsc, open_context\n"
+        "libddsc._SYSTEM = ()\n"
         "context = open_context(5)\n"
         "print(type(context).__name__)\n"
         "context.close()\n"
@@ -338,13 +339,16 @@ def test_the_last_domain_works():
 def test_a_platform_without_cyclone_gets_one_clear_line():
     code = (
         "import importlib.util\nimportlib.util.find_spec = lambda name: None\nfrom "
-        "turtlewire.wire import open_context\nopen_context()\n"
+        "turtlewire.wire import libddsc, open_context\nlibddsc._SYSTEM = ()\nopen_context()\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
     )
     assert "WireError: Cyclone DDS is not available for Python" in done.stderr
-    assert "pip install cyclonedds==11.0.1" in done.stderr or sys.version_info < (3, 11)
+    assert "take Zenoh: pip install 'turtlewire[zenoh]'" in done.stderr or sys.version_info < (
+        3,
+        11,
+    )
 
 
 @pytest.mark.parametrize("domain_id", [-1, 233])

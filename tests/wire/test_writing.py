@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import ctypes
 from array import array
 
 import pytest
 
 from turtlewire import wire
 from turtlewire.wire.base import TypeId
-from turtlewire.wire.cyclone import library as dds
 from turtlewire.wire.cyclone import writing
+from turtlewire.wire.cyclone.sertype import sertype_of
 from turtlewire.wire.qos import History, QoS
 
 STRING = TypeId(
@@ -20,10 +19,7 @@ LONG_NS = 30_000_000_000
 
 
 def with_ctypes(handle: int) -> writing.CtypesWriter:
-    sertype = ctypes.c_void_p()
-    dds.check(dds.get_sertype(handle, sertype), "read the type")
-    assert sertype.value is not None
-    return writing.CtypesWriter(handle, sertype.value)
+    return writing.CtypesWriter(handle, sertype_of(handle))
 
 
 WAYS = {"ctypes": with_ctypes}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from turtlewire.cli.finding import Finding, note, problem
 from turtlewire.cli.network import multicast_works
 from turtlewire.wire.environment import Range, discovery
+from turtlewire.wire.libddsc import find_libddsc
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -18,6 +19,8 @@ _PLAIN_CORE = "The plain-Python core is in use; lookups take many times as long.
 _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
 )
+_OTHER_LIBRARY = "Let CYCLONEDDS_HOME name the prefix of another one, or unset it."
+_NO_WHEEL = "Nothing has to be done: it speaks to the same robots."
 _OTHER_DISTRO = (
     "Use a shell in which no other ROS is sourced. From kilted on, turtlesim uses the interfaces "
     "of turtlesim_msgs."
@@ -44,6 +47,7 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
     if distro != "jazzy":
         text = f"ROS_DISTRO is '{distro}', but the names and texts here are those of jazzy."
         found.append(note(text, _OTHER_DISTRO))
+    found += _library_findings()
     homes = {
         os.path.realpath(folder)
         for folder in path
@@ -52,6 +56,15 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
     if len(homes) > 1:
         places = " and in ".join(sorted(homes))
         found.append(problem(f"Two ROS installations are mixed: rclpy is in {places}.", _MIXED))
+    return found
+
+
+def _library_findings() -> list[Finding]:
+    """Which libddsc is taken, if it is not the usual one."""
+    library, refused = find_libddsc()
+    found = [note(f"{sentence}.", _OTHER_LIBRARY) for sentence in refused]
+    if library is not None and library.origin != "the cyclonedds wheel":
+        found.append(note(f"{library} is in use: {library.reason}.", _NO_WHEEL))
     return found
 
 

@@ -10,6 +10,7 @@ module            what it holds
 `qos`             `QoS`, with the numbers of ROS 2's rmw
 `names`           rules and expansion of ROS names, and their spelling on the wire
 `environment`     the environment variables that decide whom a process talks to
+`libddsc`         where the library of Cyclone DDS is, and its binary interface
 `lingering`       whether the end waits for acknowledgements
 `graph`           what the graphs of all middlewares share; ``ros_discovery_info``
 `conflicts`       two types on one topic, two nodes of one name

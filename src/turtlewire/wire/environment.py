@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from turtlewire.errors import WireError
 
+from .libddsc import find_libddsc
 from .report import warn_once
 
 __all__ = [
@@ -20,15 +21,13 @@ __all__ = [
     "discovery",
     "domain_id",
     "is_installed",
+    "middleware_library",
     "middleware_name",
 ]
 
 #: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), Zenoh, and ``local``, which
 #: stays inside the process.
 MIDDLEWARES = ("rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local")
-
-#: What they stand on, the preferred one first.
-_PACKAGES = {"rmw_cyclonedds_cpp": "cyclonedds", "rmw_zenoh_cpp": "zenoh"}
 
 #: Above it, the ports of a domain would not fit.
 MAX_DOMAIN_ID = 232
@@ -83,7 +82,7 @@ def middleware_name() -> str:
     name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
     if name in MIDDLEWARES and is_installed(name):
         return name
-    default = next(filter(is_installed, _PACKAGES), MIDDLEWARES[0])
+    default = next(filter(is_installed, MIDDLEWARES[:2]), MIDDLEWARES[0])
     if name:
         remedy = " (pip install 'turtlewire[zenoh]')" if name == "rmw_zenoh_cpp" else ""
         warn_once(
@@ -92,10 +91,12 @@ def middleware_name() -> str:
             f"{default} is taken (valid: {', '.join(MIDDLEWARES)})",
         )
     elif default != MIDDLEWARES[0]:
+        refused = find_libddsc().refused or [
+            "Cyclone DDS is not installed (it has no wheel for every platform)"
+        ]
         warn_once(
             "no Cyclone DDS",
-            "Cyclone DDS is not installed (it has no wheel for every platform): Zenoh is taken, "
-            "which reaches robots that run rmw_zenoh_cpp",
+            f"{'; '.join(refused)}: Zenoh is taken, which reaches robots that run rmw_zenoh_cpp",
         )
     return default
 
@@ -109,8 +110,25 @@ def compares_qos() -> bool:
 
 
 def is_installed(middleware: str) -> bool:
-    """Whether the package that a middleware stands on is there."""
-    return middleware not in _PACKAGES or find_spec(_PACKAGES[middleware]) is not None
+    """Whether the library that a middleware stands on is there."""
+    if middleware == "rmw_cyclonedds_cpp":
+        return find_libddsc().library is not None
+    return middleware != "rmw_zenoh_cpp" or find_spec("zenoh") is not None
+
+
+def middleware_library(middleware: str) -> str:
+    """What a middleware stands on, and why it was taken, for people."""
+    if middleware == "local":
+        return "none: it stays inside the process"
+    if middleware == "rmw_cyclonedds_cpp":
+        library = find_libddsc().library
+        return f"{library}: {library.reason}" if library else "no libddsc was found"
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return f"eclipse-zenoh {version('eclipse-zenoh')}"
+    except PackageNotFoundError:
+        return "eclipse-zenoh is not installed"
 
 
 def discovery() -> Discovery:

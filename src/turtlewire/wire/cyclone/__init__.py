@@ -1,6 +1,7 @@
 """Cyclone DDS through a thin ctypes layer.
 
-``libddsc`` from the ``cyclonedds`` wheel, without the wheel's Python classes.
+``libddsc`` of the ``cyclonedds`` wheel (11.0), without the wheel's Python classes, or that of a
+ROS 2 installation or the system (0.10); :mod:`turtlewire.wire.libddsc` chooses.
 
 Every message is an opaque block of bytes to the middleware, as in rmw_cyclonedds. No Python
 function is ever called from a thread of Cyclone's: data and changes of the graph are waited for in
@@ -12,7 +13,8 @@ Cyclone's threads do not survive a fork.
 ========================  =======================================================
 module                    what it holds
 ========================  =======================================================
-`library`                 finds and loads ``libddsc``, and declares its functions
+`library`                 loads ``libddsc``, and declares its functions
+`sertype`                 the type of a topic, of which samples are made
 `configuration`           Cyclone's configuration for a domain
 `context`, `core`         one participant; what it shares with its nodes
 `participant`             the DDS participant and its topics

@@ -10,6 +10,7 @@ from turtlewire.wire.environment import Discovery, Range
 from turtlewire.wire.lingering import lingers
 from turtlewire.wire.report import warn_once
 
+from . import library as dds
 from .ports import max_processes
 
 __all__ = ["domain_configuration"]
@@ -28,6 +29,7 @@ _ANNOUNCEMENT_INTERVAL = "5s"
 #: Each holds one fragment. With Cyclone's fragments of 1.3 kB, a reader asks for the 48 of a lost
 #: datagram in several rounds, which held up one flood of images in four for more than a second.
 _LOOPBACK_DATAGRAM = "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>64000B</FragmentSize>"
+_FOR_EVER = ' PruneDelay="inf"'
 _PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
 _LAST_PORT = 65535
 
@@ -73,11 +75,8 @@ def _peers(discovery: Discovery) -> str:
     if discovery.range == Range.LOCALHOST:
         # With static peers it is never given up, because then we must find the processes of this
         # host (see _general). Not "localhost": Cyclone aborts where nothing resolves that name.
-        peers.append(
-            '<Peer address="127.0.0.1" PruneDelay="inf"/>'
-            if discovery.static_peers
-            else '<Peer address="127.0.0.1"/>'
-        )
+        for_ever = discovery.static_peers and dds.ABI.prunes_peers
+        peers.append(f'<Peer address="127.0.0.1"{_FOR_EVER if for_ever else ""}/>')
     if discovery.range != Range.SYSTEM_DEFAULT:
         peers += [
             f'<Peer address="{address}"/>'

@@ -1,21 +1,21 @@
-"""Finds and loads ``libddsc``, and declares what we call of it.
+"""Loads ``libddsc``, and declares what we call of it.
 
 A function is declared in one of two ways:
 
 - ``_waits``: it may block or take long; ctypes releases the GIL around it.
 - ``_short``: it never waits for anything but a short internal lock; it keeps the GIL, which is
-several times cheaper and cannot
-  deadlock, because no thread of Cyclone's ever needs the GIL.
+  several times cheaper and cannot deadlock, because no thread of Cyclone's ever needs the GIL.
 """
 
 from __future__ import annotations
 
 import ctypes
-import os
+import platform
 import sys
 from ctypes import (
     POINTER,
     c_bool,
+    c_char,
     c_char_p,
     c_int,
     c_int32,
@@ -26,10 +26,11 @@ from ctypes import (
     c_uint64,
     c_void_p,
 )
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
+from turtlewire.wire.libddsc import Abi, Libddsc, find_libddsc
+from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,41 +46,45 @@ SERDATA_KIND_DATA = 2
 RETCODE_PRECONDITION_NOT_MET = -4
 RETCODE_TIMEOUT = -10
 
-_FILE_PATTERNS = {
-    "linux": "../cyclonedds.libs/libddsc",
-    "darwin": ".dylibs/libddsc",
-    "win32": "../cyclonedds.libs/ddsc",
-}
 
-
-def _find() -> str:
-    spec = find_spec("cyclonedds")  # finds the package without running it, which would take 0.2 s
-    pattern = _FILE_PATTERNS.get(sys.platform)
-    if spec is not None and spec.origin is not None and pattern is not None:
-        folder, start = os.path.split(os.path.join(os.path.dirname(spec.origin), pattern))
-        if os.path.isdir(folder):
-            for name in sorted(os.listdir(folder)):
-                if name.startswith(start):
-                    return os.path.join(folder, name)
+def _find() -> tuple[Libddsc, Abi]:
+    library, refused = find_libddsc()
+    if library is not None and library.abi is not None:
+        for sentence in refused:
+            warn_once(sentence, f"{sentence}: {library} is taken")
+        return library, library.abi
     error = WireError(
         f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on "
-        f"{sys.platform}"
+        f"{sys.platform} {platform.machine()}"
     )
-    raise error.with_hint(
-        "pip install cyclonedds==11.0.1 (wheels exist for Python 3.10 to 3.13 on Linux x86-64, "
-        "macOS and Windows), "
-        "or RMW_IMPLEMENTATION=local inside one process."
+    raise error.with_hint(". ".join([*refused, _remedy()]))
+
+
+def _remedy() -> str:
+    """What to install; never what would have to be compiled."""
+    if sys.version_info < (3, 14) and (sys.platform != "linux" or platform.machine() == "x86_64"):
+        install = "pip install cyclonedds==11.0.1"
+    else:
+        install = "Install a libddsc 0.10 (Debian, Ubuntu, Raspberry Pi OS: libddsc0debian)"
+    return (
+        f"{install}; or take Zenoh: pip install 'turtlewire[zenoh]' and "
+        "RMW_IMPLEMENTATION=rmw_zenoh_cpp; or RMW_IMPLEMENTATION=local inside one process."
     )
 
 
 def _load() -> tuple[ctypes.CDLL, ctypes.PyDLL]:
-    path = _find()
     try:
-        return ctypes.CDLL(path), ctypes.PyDLL(path)
-    except OSError as error:
-        raise WireError(f"Cyclone DDS cannot be loaded: {error}") from error
+        return ctypes.CDLL(LIBRARY.path), ctypes.PyDLL(LIBRARY.path)
+    except OSError as reason:
+        error = WireError(f"{LIBRARY} cannot be loaded: {reason}")
+        raise error.with_hint(
+            "CYCLONEDDS_HOME may name the prefix of another one; RMW_IMPLEMENTATION=rmw_zenoh_cpp "
+            "takes Zenoh."
+        ) from reason
 
 
+#: The library of this process, and its binary interface.
+LIBRARY, ABI = _find()
 _waiting_library, _short_library = _load()
 
 
@@ -90,7 +95,7 @@ def _declare(
         function: Any = getattr(library, name)
     except AttributeError as error:
         raise WireError(
-            f"this version of Cyclone DDS has no {name}; turtlewire needs cyclonedds 11.0.1"
+            f"{LIBRARY} has no {name}, which versions {ABI.version} have elsewhere"
         ) from error
     function.restype = result
     function.argtypes = arguments
@@ -139,7 +144,7 @@ class _TypeMetaData(ctypes.Structure):
 
 
 class TopicDescriptor(ctypes.Structure):
-    """dds_topic_descriptor_t of Cyclone DDS 11."""
+    """dds_topic_descriptor_t."""
 
     _fields_ = [
         ("size", c_uint32),
@@ -284,7 +289,13 @@ assert_liveliness = _waits("dds_assert_liveliness", _retcode, _entity)
 
 get_guid = _short("dds_get_guid", _retcode, _entity, POINTER(Guid))
 get_instance_handle = _short("dds_get_instance_handle", _retcode, _entity, POINTER(c_uint64))
-get_sertype = _short("dds_get_entity_sertype", _retcode, _entity, POINTER(c_void_p))
+if ABI.tells_type:
+    get_sertype = _short("dds_get_entity_sertype", _retcode, _entity, POINTER(c_void_p))
+else:
+    get_topic = _short("dds_get_topic", _entity, _entity)
+    pin_entity = _short("dds_entity_pin", _retcode, _entity, POINTER(c_void_p))
+    unpin_entity = _short("dds_entity_unpin", None, c_void_p)
+    default_types = c_char.in_dll(_short_library, "ddsi_sertype_ops_default")
 return_code_text = _short("dds_strretcode", c_char_p, c_int32)
 free = _short("dds_free", None, c_void_p)
 

@@ -15,6 +15,7 @@ from . import library as dds
 from .configuration import domain_configuration
 from .log import CycloneLog
 from .ports import max_processes, processes_on_host
+from .sertype import sertype_of
 
 __all__ = ["Participant"]
 
@@ -166,8 +167,7 @@ class Participant:
         """
         # A build with another layout of its structures would not fail, but send wrong bytes.
         topic = self.topic("turtlewire/check", "turtlewire/msg/Check")
-        sertype = ctypes.c_void_p()
-        dds.check(dds.get_sertype(topic, sertype), "check the opaque type")
+        sertype = sertype_of(topic)
         probe = b"\x00\x01\x00\x00\x07turtle"
         serdata = dds.serdata_from_bytes(
             sertype, dds.SERDATA_KIND_DATA, 1, dds.IoVec(base=probe, size=len(probe)), len(probe)
@@ -177,10 +177,7 @@ class Participant:
             dds.serdata_to_bytes(serdata, 0, len(copy), copy)
             dds.serdata_unref(serdata)
         if copy != probe:
-            raise WireError(
-                "this build of Cyclone DDS lays out types in another way; turtlewire needs "
-                "cyclonedds 11.0.1"
-            )
+            raise WireError(f"{dds.LIBRARY} lays out types in another way than it should")
 
     def _create(self, enclave: str) -> int:
         qos = dds.create_qos()

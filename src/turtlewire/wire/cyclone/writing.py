@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import threading
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ from turtlewire.wire.encapsulation import is_message, joined
 
 from . import library as dds
 from .native import NATIVE
+from .sertype import sertype_of
 
 if TYPE_CHECKING:
     from typing import Protocol
@@ -74,9 +74,7 @@ def make_writer(handle: int) -> Writer:
     Raises:
         WireError: The writer has no type.
     """
-    sertype = ctypes.c_void_p()
-    dds.check(dds.get_sertype(handle, sertype), "read the type of a writer")
-    address = sertype.value or 0
+    address = sertype_of(handle)
     if NATIVE is None:
         return CtypesWriter(handle, address)
     from turtlewire._native import CycloneWriter

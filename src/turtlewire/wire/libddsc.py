@@ -1,0 +1,175 @@
+"""Where ``libddsc`` of Cyclone DDS is, and which of its binary interfaces it has.
+
+The ``cyclonedds`` wheel brings one for most platforms. Elsewhere, that of a ROS 2 installation or
+of the system does as well: Debian, Ubuntu and Raspberry Pi OS have it as ``libddsc0debian``.
+Nothing is loaded here.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["ABIS", "Abi", "Libddsc", "Search", "find_libddsc"]
+
+
+class Abi(NamedTuple):
+    """What differs between the versions of Cyclone DDS that are spoken here.
+
+    All that is not named here is the same in them: the topic descriptor, the sample info, the
+    statuses, built-in topics, opcodes and the functions of serdata.
+
+    Attributes:
+        version: The first two numbers of the version.
+        tells_type: Whether ``dds_get_entity_sertype`` tells the type of an entity. Without it, the
+            type is read from the structure of the topic.
+        prunes_peers: Whether ``<Peer>`` has the attribute ``PruneDelay``; without it, peers are
+            never given up.
+    """
+
+    version: str
+    tells_type: bool
+    prunes_peers: bool
+
+
+ABIS = (
+    Abi("11.0", tells_type=True, prunes_peers=True),
+    Abi("0.10", tells_type=False, prunes_peers=False),
+)
+
+
+class Libddsc(NamedTuple):
+    """A ``libddsc``.
+
+    Attributes:
+        path: The file.
+        version: As its name or the wheel tells it; empty if neither does.
+        origin: Who brought it, for people.
+    """
+
+    path: str
+    version: str
+    origin: str
+
+    @property
+    def abi(self) -> Abi | None:
+        """Its binary interface; None for a version that is not spoken here."""
+        numbers = ".".join(self.version.split(".")[:2])
+        return next((abi for abi in ABIS if abi.version == numbers), None)
+
+    def __str__(self) -> str:
+        """One phrase for people."""
+        return f"Cyclone DDS {self.version or 'of unknown version'} of {self.origin} ({self.path})"
+
+    @property
+    def reason(self) -> str:
+        """Why it is taken."""
+        return _REASONS[self.origin]
+
+
+#: In the folder of the ``cyclonedds`` package.
+_IN_WHEEL = {"linux": "../cyclonedds.libs", "darwin": ".dylibs", "win32": "../cyclonedds.libs"}
+_NAMES = {
+    "darwin": r"libddsc.*\.dylib",
+    "win32": r"(cyclone)?ddsc.*\.dll",
+}
+_NAME = r"libddsc(-\w+)?\.so.*"
+_VERSION = r"\.(\d+\.\d+\.\d+)(\.dylib)?$"
+_HOME, _WHEEL = "CYCLONEDDS_HOME", "the cyclonedds wheel"
+_ROS, _OF_SYSTEM = "the ROS 2 installation", "the system"
+_REASONS = {
+    _HOME: "that variable names it",
+    _WHEEL: "it comes with turtlewire",
+    _ROS: "there is no cyclonedds wheel, and this ROS 2 is sourced",
+    _OF_SYSTEM: "there is no cyclonedds wheel",
+}
+_FOLDERS = ("lib", "lib64", "bin")
+_SYSTEM = ("/usr/local", "/usr", "/opt/homebrew")
+
+
+class Search(NamedTuple):
+    """What a search for the library found.
+
+    Attributes:
+        library: The one to take; None if there is none.
+        refused: Sentences about those that come before it and are not taken.
+    """
+
+    library: Libddsc | None
+    refused: list[str]
+
+
+def find_libddsc() -> Search:
+    """Search where ``CYCLONEDDS_HOME`` points, in the wheel, the sourced ROS 2 and the system.
+
+    The first library whose version is spoken here is taken.
+    """
+    refused = []
+    home = os.environ.get("CYCLONEDDS_HOME", "").strip()
+    if home and next(_below(home, _HOME), None) is None:
+        refused.append(f"CYCLONEDDS_HOME is {home}, where there is no libddsc")
+    for library in _libraries(home):
+        if library.abi is not None:
+            return Search(library, refused)
+        known = " and ".join(abi.version for abi in ABIS)
+        refused.append(f"{library} is not taken: only {known} are known here")
+    return Search(None, refused)
+
+
+def _libraries(home: str) -> Iterator[Libddsc]:
+    if home:
+        yield from _below(home, _HOME)
+    yield from _of_wheel()
+    for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        if prefix:
+            yield from _below(prefix, _ROS)
+    for prefix in _SYSTEM:
+        yield from _below(prefix, _OF_SYSTEM)
+
+
+def _of_wheel() -> Iterator[Libddsc]:
+    spec = find_spec("cyclonedds")  # finds the package without running it, which would take 0.2 s
+    if spec is None or spec.origin is None or sys.platform not in _IN_WHEEL:
+        return
+    package = os.path.dirname(spec.origin)
+    folder = os.path.normpath(os.path.join(package, _IN_WHEEL[sys.platform]))
+    for library in _inside(folder, _WHEEL):
+        yield library if library.version else library._replace(version=_wheel_version(package))
+
+
+def _wheel_version(package: str) -> str:
+    for name in _listed(os.path.dirname(package)):
+        told = re.fullmatch(r"cyclonedds-(.*)\.dist-info", name)
+        if told:
+            return told[1]
+    return ""
+
+
+def _below(prefix: str, origin: str) -> Iterator[Libddsc]:
+    for folder in _FOLDERS:
+        yield from _inside(os.path.join(prefix, folder), origin)
+    multiarch = getattr(sys.implementation, "_multiarch", "")
+    if multiarch:
+        yield from _inside(os.path.join(prefix, "lib", multiarch), origin)
+
+
+def _inside(folder: str, origin: str) -> Iterator[Libddsc]:
+    """The libraries in a folder, each once, whatever links to it."""
+    pattern = re.compile(_NAMES.get(sys.platform, _NAME))
+    names = filter(pattern.fullmatch, _listed(folder))
+    for path in sorted({os.path.realpath(os.path.join(folder, name)) for name in names}):
+        told = re.search(_VERSION, path)
+        yield Libddsc(path, told[1] if told else "", origin)
+
+
+def _listed(folder: str) -> list[str]:
+    try:
+        return os.listdir(folder)
+    except OSError:  # it does not exist, or is none of ours to read
+        return []
