@@ -313,6 +313,7 @@ def checked(command: list[str]) -> None:
                     show_progress(f"[setup] {time.monotonic() - started:.0f} s ")
             except BaseException:
                 os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
                 raise
             finally:
                 show_progress("")

@@ -11,6 +11,7 @@ import contextlib
 import gc
 import os
 import re
+import select
 import shutil
 import signal
 import subprocess
@@ -38,6 +39,12 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers():
+    """How many processes share the tests (`-n auto`): two for each core, as many tests wait."""
+    return min(8, 2 * (os.cpu_count() or 1))
 
 
 def pytest_collection_finish():
@@ -128,7 +135,7 @@ class Program:
     def text(self):
         return "\n".join(line for _, line in self.lines)
 
-    def wait_for(self, pattern, count=1, timeout=60):
+    def wait_for(self, pattern, count=1, timeout=120):
         """The first `count` matches of a regular expression, as soon as they are there."""
 
         def found():
@@ -150,7 +157,7 @@ class Program:
         """Send a signal to all processes of its group, as a terminal does."""
         os.killpg(self.process.pid, signum)
 
-    def wait(self, timeout=60):
+    def wait(self, timeout=120):
         """Its exit status, after everything that it printed has been read."""
         status = self.process.wait(timeout)
         self._reader.join(timeout)
@@ -166,6 +173,20 @@ class Program:
             except (FileNotFoundError, ProcessLookupError, PermissionError):
                 continue
         return found
+
+    def wait_for_survivors(self, timeout=120):
+        """Wait until all processes that it started have ended."""
+        end = time.monotonic() + timeout
+        while survivors := self.survivors():
+            ended = select.poll()
+            try:
+                watched = os.pidfd_open(survivors[0])
+            except ProcessLookupError:
+                continue
+            ended.register(watched, select.POLLIN)
+            in_time = ended.poll(1000 * max(0.0, end - time.monotonic()))
+            os.close(watched)
+            assert in_time, (self.text, Path(f"/proc/{survivors[0]}/cmdline").read_bytes())
 
     def kill(self):
         for pid in self.survivors():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -90,30 +89,20 @@ def start(run, workspace):
     return start_ros2
 
 
-def wait_until_gone(program):
-    """Nothing tells when a process that is no child has ended."""
-    deadline = time.monotonic() + 60
-    while survivors := program.survivors():
-        assert time.monotonic() < deadline, [
-            Path(f"/proc/{pid}/cmdline").read_bytes() for pid in survivors
-        ]
-        time.sleep(0.02)
-
-
 @pytest.mark.parametrize("name", ["obedient", "shell"])
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGINT, signal.SIGTERM])
 def test_ros2_run_leaves_nothing(start, name, number):
     program = start("run", "p", name, ready=2)
     program.process.send_signal(number)
     assert program.wait() == (-number if number == signal.SIGKILL else 256 - number)
-    wait_until_gone(program)
+    program.wait_for_survivors()
 
 
 def test_ros2_run_killed_leaves_no_program_that_ignores_signals(start):
     program = start("run", "p", "stubborn", ready=2)
     program.process.kill()
     program.wait()
-    wait_until_gone(program)
+    program.wait_for_survivors()
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGINT, signal.SIGTERM])
@@ -121,7 +110,7 @@ def test_ros2_launch_leaves_nothing(start, number):
     launch = start("launch", "./all.launch.py", ready=8)
     launch.process.send_signal(number)
     status = launch.wait()
-    wait_until_gone(launch)
+    launch.wait_for_survivors()
     expected = {signal.SIGKILL: -signal.SIGKILL, signal.SIGINT: 0}
     assert status == expected.get(number, 1), launch.text
 
@@ -131,7 +120,7 @@ def test_a_signal_to_the_whole_group_leaves_nothing(start, number):
     launch = start("launch", "./all.launch.py", ready=8)
     launch.signal_group(number)
     launch.wait()
-    wait_until_gone(launch)
+    launch.wait_for_survivors()
 
 
 @pytest.mark.parametrize(
@@ -141,7 +130,7 @@ def test_a_terminal_that_closes_leaves_nothing(start, words):
     program = start(*words, ready=2 if words[0] == "run" else 8, terminal=True)
     program.process.kill()  # it holds the terminal
     program.process.wait()
-    wait_until_gone(program)
+    program.wait_for_survivors()
 
 
 def test_what_a_program_leaves_behind_ends_with_the_launch(start, workspace):

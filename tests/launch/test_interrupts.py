@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -123,18 +122,12 @@ def test_sigterm_stops_the_children_too(ros2_launch, signum):
     assert launch.survivors() == []
 
 
-def wait_until_gone(launch):
-    deadline = time.monotonic() + 60
-    while launch.survivors():  # nobody tells when a process of another process has ended
-        assert time.monotonic() < deadline, launch.text
-
-
 def test_not_even_sigkill_leaves_children(ros2_launch):
     launch = ros2_launch(TWO_CHILDREN)
     launch.wait_for(r"\[child-\d\] ready", count=2)
     os.kill(launch.process.pid, signal.SIGKILL)
     assert launch.wait() == -signal.SIGKILL
-    wait_until_gone(launch)
+    launch.wait_for_survivors()
 
 
 @pytest.mark.parametrize("moment", ["All log files", "process started"])
@@ -181,7 +174,7 @@ def test_a_reader_that_goes_away_ends_the_launch(run, tmp_path):
     assert shell.wait() == 0
     assert len(shell.lines) == 5
     assert "Error" not in shell.text
-    wait_until_gone(shell)
+    shell.wait_for_survivors()
 
 
 def test_keys_reach_the_process_that_asks_for_a_terminal(ros2_launch):

@@ -45,7 +45,7 @@ def ros2(*words):
         capture_output=True,
         text=True,
         check=False,
-        timeout=100,
+        timeout=280,
     )
     return result.returncode, result.stdout, result.stderr
 

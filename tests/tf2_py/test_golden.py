@@ -29,7 +29,7 @@ def test_all_answers_equal(core: str) -> None:
         env={**os.environ, "TURTLEWIRE_CORE": core},
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=280,
         check=False,
     )
     assert run.returncode == 0, run.stdout + run.stderr
