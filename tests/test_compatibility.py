@@ -116,6 +116,8 @@ an `async` callback that awaits a service of its own callback group hangs
   rclpy/test_signals.py test_one_shutdown_after_a_signal_is_tolerated_and_a_second_raises
 a Ctrl-C that is not caught prints a traceback
   rclpy/test_signals.py test_ctrl_c_that_is_not_caught_ends_without_a_traceback test_other_errors_keep_their_traceback
+Ctrl-C while an action server executes a goal prints the traceback of `publish_feedback`
+  demo_nodes/test_minimal_actions.py test_ctrl_c_in_the_middle_of_a_goal_is_one_line
 two SIGINT for one Ctrl-C (terminal and launch) interrupt the clean-up
   rclpy/test_signals.py test_ctrl_c_ends_the_tutorials_main_cleanly
 `rclpy.spin_once(node)` takes a node out of the executor it was in

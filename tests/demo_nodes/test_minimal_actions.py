@@ -168,6 +168,18 @@ def test_results_in_asyncio_and_in_one_function(start, run):
     end(server)
 
 
+@pytest.mark.parametrize("executable", ["server", "server_not_composable"])
+def test_ctrl_c_in_the_middle_of_a_goal_is_one_line(start, run, executable):
+    server = start("server", executable)
+    client = start("client", "client_not_composable")
+    server.wait_for(r"Publishing feedback: ", count=2)
+    end(server)
+    (line,) = [text for text in server.text.splitlines() if "[WARN]" in text or "[ERROR]" in text]
+    assert "Goal not finished: the context was shut down. Goal ID: [" in line
+    client.signal_group(signal.SIGINT)
+    client.wait()
+
+
 def test_a_server_of_functions_and_ctrl_c_in_asyncio(start):
     server = start("server", "server_not_composable")
     client = start("client", "client_asyncio")

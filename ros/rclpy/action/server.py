@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node.endpoints import endpoints_of
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import await_or_execute
 from rclpy.hints import described, with_hint
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -289,19 +290,18 @@ class ActionServer(Waitable):
         goal_handle: ServerGoalHandle,
         goal: Goal | None,
     ) -> None:
+        why = "Goal state not set, assuming aborted."
         try:
             result = await await_or_execute(execute_callback, goal_handle)
-        # The client has to get an answer; ROS 2 logs the error with this text.
+        # The client has to get an answer.
         except Exception as error:  # noqa: BLE001
             result = self._action_type.Result()
-            # A ROS logger.
-            self._logger.error(f"Error raised in execute callback: {error}")  # noqa: TRY400
-            import traceback
-
-            traceback.print_exc()
+            if isinstance(error, RCLError) and not self._node.context.is_open():
+                why = "Goal not finished: the context was shut down."
+            else:
+                self._report(error)
         if goal_handle.is_active:
-            goal_id = goal_handle.goal_id.uuid
-            self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_id}")
+            self._logger.warning(f"{why} Goal ID: {goal_handle.goal_id.uuid}")
             goal_handle.abort()
         if goal is None:  # destroyed before it was executed: no client can ask for its result
             return
@@ -309,6 +309,13 @@ class ActionServer(Waitable):
             status=goal_handle.status, result=result
         )
         goal.result.set_result(response)
+
+    def _report(self, error: Exception) -> None:
+        """Log an error of an execute callback with ROS 2's text, and show where it was raised."""
+        import traceback
+
+        self._logger.error(f"Error raised in execute callback: {error}")
+        traceback.print_exception(error)
 
     def notify_goal_done(self) -> None:
         """A goal has finished: see to it that its result is dropped in time."""
