@@ -39,6 +39,8 @@ processes find each other through a router, `rmw_zenohd`
   wire/zenoh/test_configuration.py test_the_range_of_discovery
 the router listens on all interfaces
   wire/zenoh/test_configuration.py test_the_router_stays_on_this_computer
+`rosidl_parser.parser` hands out the syntax tree of a grammar for lark, and lets enums and unions pass
+  rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_what_is_wrong_is_told
 an extension of another package may take the place of one of ROS 2's of the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
 Ctrl-C in `ros2 bag convert` leaves a bag that looks whole

@@ -5,5 +5,6 @@ module        what it holds
 ============  ===================================================================
 `definition`  types of fields, of which ``SLOT_TYPES`` consists; messages, services
 `idl_file`    files of interfaces in IDL
+`parser`      reads them
 ============  ===================================================================
 """
