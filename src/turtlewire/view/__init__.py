@@ -20,6 +20,8 @@ module           what it holds
 `words`          the same in a sentence
 `display_feed`   a display of a page: waits for transforms, makes packets
 `displays`       what to draw for each type of message
+`meshes`         meshes of packages: addresses to URLs, URLs to files
+`tools`          what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `packets`        a JSON header and arrays as bytes
 ===============  ===============================================================================
 """

@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -95,8 +96,11 @@ class DisplayFeed:
         self._base: Base | None = None
         self._ready: dict[str, bytes] = {}
         self._status: Status | None = None
+        self._own_status = Status("ok", "")
+        self._events = count()
         self._said: Status | None = None
         self.ends: list[Callable[[], None]] = []
+        self.on_packages: Callable[[tuple[str, ...]], None] = _nothing
 
     @property
     def waits(self) -> bool:
@@ -155,9 +159,12 @@ class DisplayFeed:
     def _take(self, outputs: list[Output]) -> None:
         for output in outputs:
             if isinstance(output, Status):
+                self._own_status = output
                 self._say(output)
             elif isinstance(output, Removal):
                 self._forget(output.part)
+            elif output.event:
+                self._waiting.append(output)
             elif output.frame_id is None or output.locked:
                 self._shown[output.part] = output
                 self._send(output, {"frame": output.frame_id, "anchor": list(output.anchor)})
@@ -176,6 +183,12 @@ class DisplayFeed:
     def _place_waiting(self, base: Base) -> None:
         still: deque[Content] = deque()
         for content in self._waiting:
+            if content.event:  # what it changes may wait before it
+                if still:
+                    still.append(content)
+                else:
+                    self._send(content, {}, f"event {next(self._events)}")
+                continue
             pose = self._pose(content, base)
             if isinstance(pose, TransformException):
                 if not _is_too_old(pose, content, base):
@@ -183,6 +196,7 @@ class DisplayFeed:
             else:
                 self._shown[content.part] = content
                 self._send(content, {"pose": pose})
+                self._say(self._own_status)
         self._waiting = still
 
     def _pose(self, content: Content, base: Base) -> list[float] | TransformException:
@@ -204,7 +218,8 @@ class DisplayFeed:
             with self._lock:  # beside the content, which may wait to be sent, too
                 self._ready[f"pose {part}"] = encode_packet({**header, "pose": known})
 
-    def _send(self, content: Content, place: dict[str, Any]) -> None:
+    def _send(self, content: Content, place: dict[str, Any], key: str | None = None) -> None:
+        self.on_packages(content.packages)
         header = {
             **content.header,
             "type": "display",
@@ -216,11 +231,15 @@ class DisplayFeed:
         packet = encode_packet(header, content.arrays)
         with self._lock:
             self._ready.pop(f"pose {content.part}", None)
-            self._ready[content.part] = packet
+            self._ready[content.part if key is None else key] = packet
 
     def _say(self, status: Status) -> None:
         with self._lock:
             self._status = status
+
+
+def _nothing(_: object) -> None:
+    pass
 
 
 def _is_too_old(error: TransformException, content: Content, base: Base) -> bool:

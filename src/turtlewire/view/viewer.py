@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.view.display_feed import DisplayFeed
-from turtlewire.view.displays import display_types
+from turtlewire.view.displays import display_for, display_types
+from turtlewire.view.meshes import MeshLibrary
 from turtlewire.view.packets import encode_packet
 from turtlewire.view.session import CommandError, Session
 from turtlewire.web import Server
@@ -48,7 +49,9 @@ class Viewer:
         self._sessions: list[Session] = []
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
-        self._server = Server(_PAGE, self._connect, port=wanted_port() if port is None else port)
+        self._meshes = MeshLibrary()
+        port = wanted_port() if port is None else port
+        self._server = Server(_PAGE, self._connect, port=port, answer=self._meshes.answer)
         self.url = self._server.url
         self._threads = [
             threading.Thread(target=run, name=f"turtlewire-view-{name}", daemon=True)
@@ -76,9 +79,8 @@ class Viewer:
 
     def topics(self) -> list[dict[str, Any]]:
         """What there is, each with the kind of display that shows it, or None."""
-        kinds = display_types()
         return [
-            {**topic._asdict(), "kind": each.kind if (each := kinds.get(topic.type_name)) else None}
+            {**topic._asdict(), "kind": each.kind if (each := display_for(*topic[:2])) else None}
             for topic in self.source.topics()
         ]
 
@@ -100,6 +102,7 @@ class Viewer:
         feed = DisplayFeed(
             name, display_type(options), types, lambda _: self._work.set(), self._changed.set
         )
+        feed.on_packages = self._meshes.permit
         for each, its_type in types.items():
             feed.ends.append(self.source.subscribe(each, its_type, _sink(feed, each)))
         return feed

@@ -51,6 +51,8 @@ class Content:
         anchor: Where the origin of the geometry lies in ``frame_id``: its coordinates are 32-bit
             numbers, which are too coarse far from the origin of a map.
         locked: The content follows the live frame instead of staying where it was at its stamp.
+        event: The content changes what came before it and replaces nothing: it is sent once, after
+            all that came before it and is not gone, and not kept.
         packages: Packages whose meshes and textures the page will ask for.
     """
 
@@ -61,6 +63,7 @@ class Content:
     part: str = ""
     anchor: Vector = (0.0, 0.0, 0.0)
     locked: bool = False
+    event: bool = False
     packages: tuple[str, ...] = ()
 
 

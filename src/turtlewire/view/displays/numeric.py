@@ -1,0 +1,115 @@
+"""Poses, points and colours of messages as arrays: finite, and exact far from the origin."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from turtlewire.view.displays.content import UnusableMessageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from turtlewire.view.displays.content import Vector
+
+__all__ = [
+    "anchored",
+    "colors_of",
+    "finite_pose",
+    "points_of",
+    "pose_rows",
+    "rgba_bytes",
+    "rows_within",
+    "spread",
+]
+
+#: 32-bit coordinates are exact to a millimetre up to here [m].
+_EXACT_BELOW = 8192.0
+#: Beyond this a length is nonsense, and 32-bit numbers overflow in the page's products.
+_LARGEST = 1e9
+_SHORTEST_QUATERNION = 1e-9
+
+
+def finite_pose(pose: Any) -> list[float]:
+    """x, y, z, qx, qy, qz, qw of a Pose message, the quaternion of unit length.
+
+    As in RViz a quaternion of zeros means no rotation.
+
+    Raises:
+        UnusableMessageError: A number is not finite, or absurdly large.
+    """
+    at, turn = pose.position, pose.orientation
+    rows, kept = pose_rows([(at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)])
+    if not kept[0]:
+        raise UnusableMessageError(
+            f"the pose holds a number that is not finite or too large: position ({at.x}, {at.y}, "
+            f"{at.z}), orientation ({turn.x}, {turn.y}, {turn.z}, {turn.w})"
+        )
+    return [float(value) for value in rows[0]]
+
+
+def pose_rows(
+    rows: Sequence[tuple[float, ...]],
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Poses as ``(n, 7)`` with unit quaternions (xyzw), without those that are not finite.
+
+    Returns:
+        The poses that are left, and for each given one whether it is.
+    """
+    poses = np.array(rows, dtype=np.float64).reshape(-1, 7)
+    kept = rows_within(poses)
+    poses = poses[kept]
+    lengths = np.linalg.norm(poses[:, 3:], axis=1)
+    none = lengths < _SHORTEST_QUATERNION
+    poses[none, 3:] = (0.0, 0.0, 0.0, 1.0)
+    poses[~none, 3:] /= lengths[~none, None]
+    return poses, kept
+
+
+def rows_within(rows: NDArray[np.float64], bound: float = _LARGEST) -> NDArray[np.bool_]:
+    """For each row whether all its numbers are finite and smaller than ``bound``."""
+    with np.errstate(invalid="ignore"):
+        within: NDArray[np.bool_] = np.all(np.abs(rows) < bound, axis=1)  # false for NaN, too
+    return within
+
+
+def points_of(points: Sequence[Any]) -> NDArray[np.float64]:
+    """x, y, z of Point messages as ``(n, 3)``; what is not finite or absurdly large is NaN."""
+    array = np.array([(point.x, point.y, point.z) for point in points], dtype=np.float64)
+    array = array.reshape(-1, 3)
+    with np.errstate(invalid="ignore"):
+        array[~(np.abs(array) < _LARGEST)] = math.nan
+    return array
+
+
+def anchored(points: NDArray[np.float64]) -> tuple[NDArray[np.float32], Vector]:
+    """Points ``(n, 3)`` as 32-bit numbers relative to an anchor, and the anchor.
+
+    The anchor is the origin unless 32-bit coordinates would be coarser than a millimetre there.
+    """
+    if not len(points) or np.abs(points).max() < _EXACT_BELOW:
+        return points.astype(np.float32), (0.0, 0.0, 0.0)
+    x, y, z = (float(value) for value in np.round((points.min(axis=0) + points.max(axis=0)) / 2))
+    return (points - (x, y, z)).astype(np.float32), (x, y, z)
+
+
+def spread(count: int, budget: int) -> NDArray[np.intp]:
+    """Which of ``count`` items are kept so that at most ``budget`` are, evenly spread."""
+    if count <= budget:
+        return np.arange(count)
+    return np.linspace(0, count - 1, max(1, budget)).astype(np.intp)
+
+
+def colors_of(colors: Sequence[Any]) -> NDArray[np.uint8]:
+    """ColorRGBA messages as bytes ``(n, 4)``."""
+    rows = np.array([(c.r, c.g, c.b, c.a) for c in colors], dtype=np.float64).reshape(-1, 4)
+    return np.rint(np.clip(np.nan_to_num(rows, nan=0.0), 0.0, 1.0) * 255).astype(np.uint8)
+
+
+def rgba_bytes(color: Any) -> list[int]:
+    """One ColorRGBA message as four bytes."""
+    return [int(value) for value in colors_of([color])[0]]

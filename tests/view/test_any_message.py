@@ -1,0 +1,109 @@
+"""Whatever a message holds, each display answers with what can be sent, and one line."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from turtlewire import msg
+from turtlewire.view.displays import display_for, display_types
+from turtlewire.view.displays.content import Content, Removal, Status
+
+SEQUENCE = re.compile(r"sequence<([^,>]+)(?:, *\d+)?>|([^\[]+)\[(\d+)\]")
+INTEGERS = re.compile(r"(u?)int(8|16|32|64)")
+TEXTS = st.sampled_from(
+    ["", "map", "<img src=x onerror=alert(1)>", "\x1b[2J", "a/b", "\ud800x"[1:]]
+)
+NUMBERS = st.one_of(
+    st.sampled_from([float("nan"), float("inf"), -float("inf"), 0.0, -1.0, 1e300, 1e-300, 5e6]),
+    st.floats(-10, 10),
+)
+
+
+def numbers_of_32_bits():
+    return st.one_of(
+        st.sampled_from([float("nan"), float("inf"), -float("inf"), 0.0, -1.0, 3e38]),
+        st.floats(-10, 10, width=32),
+    )
+
+
+def value(kind: str):
+    """A strategy for one field."""
+    listed = SEQUENCE.fullmatch(kind)
+    if listed is not None:
+        element, fixed, size = listed.groups()
+        if fixed is not None:
+            return st.lists(value(fixed), min_size=int(size), max_size=int(size))
+        return st.lists(value(element), max_size=8)
+    whole = INTEGERS.fullmatch(kind)
+    if kind in {"octet", "byte", "char"} or whole is not None:
+        bits = int(whole[2]) if whole else 8
+        low = -(2 ** (bits - 1)) if whole and not whole[1] else 0
+        high = 2**bits - 1 + low if low else 2**bits - 1
+        return st.one_of(st.integers(max(low, -1), min(high, 12)), st.integers(low, high))
+    if kind == "boolean":
+        return st.booleans()
+    if kind.startswith("string"):
+        return TEXTS
+    if kind in {"float", "double"}:
+        return numbers_of_32_bits() if kind == "float" else NUMBERS
+    package, _, name = kind.partition("/")
+    return messages(f"{package}/msg/{name}")
+
+
+def messages(type_name: str):
+    """A strategy for messages of a type, as they come out of the decoder."""
+    cls = msg.get_message(type_name)
+    fields = {name: value(kind) for name, kind in cls.get_fields_and_field_types().items()}
+    return st.builds(cls, **fields).map(lambda each: msg.deserialize(cls, msg.serialize(each)))
+
+
+DISPLAYS = display_types()
+SENT = {"f4", "u1", "u2", "u4", "i4", "i1"}
+ANY_OPTION = st.one_of(
+    st.none(), st.booleans(), st.floats(), st.integers(), st.text(max_size=3), st.just([1e999, "x"])
+)
+NAMES = ["buffer_length", "pose_style", "keep", "color", "channel", "axis", "min", "max", "rainbow"]
+OPTIONS = st.dictionaries(st.sampled_from(NAMES), ANY_OPTION)
+
+
+def check(outputs) -> None:
+    assert isinstance(outputs[-1], Status)
+    assert "\n" not in outputs[-1].text
+    assert outputs[-1].text.isprintable()
+    for output in outputs[:-1]:
+        assert isinstance(output, (Content, Removal))
+        if isinstance(output, Content):
+            json.dumps([output.header, output.anchor], allow_nan=False)
+            for array in output.arrays.values():
+                assert array.dtype.str.lstrip("<|") in SENT
+                assert np.isfinite(array).all()
+            assert output.frame_id != ""
+
+
+@pytest.mark.parametrize("type_name", [*DISPLAYS, "map_msgs/msg/OccupancyGridUpdate"])
+def test_any_message_gets_an_answer(type_name):
+    shown_by = DISPLAYS.get(type_name, DISPLAYS["nav_msgs/msg/OccupancyGrid"])
+
+    @settings(deadline=None, max_examples=40)
+    @given(st.lists(messages(type_name), min_size=1, max_size=3), OPTIONS)
+    def law(sent, options):
+        display = shown_by(options)
+        display.budget = 5
+        for message in sent:
+            check(display.content(message))
+
+    law()
+
+
+def test_only_descriptions_among_strings_are_robots():
+    assert display_for("/robot_description", "std_msgs/msg/String").kind == "robot_model"
+    assert display_for("/arm/robot_description", "std_msgs/msg/String") is not None
+    assert display_for("/chatter", "std_msgs/msg/String") is None
+    assert display_for("/scan", "sensor_msgs/msg/LaserScan").kind == "laser_scan"
+    assert display_for("/x", "std_msgs/msg/Bool") is None

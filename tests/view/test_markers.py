@@ -1,0 +1,193 @@
+"""Markers: all types and actions, lifetimes, and one line for what is wrong."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from turtlewire import msg
+from turtlewire.view.displays.content import Content, Removal
+from turtlewire.view.displays.marker import MarkerDisplay
+from turtlewire.view.displays.marker_shapes import MARKER_TYPES
+
+Point = msg.get_message("geometry_msgs/msg/Point")
+Color = msg.get_message("std_msgs/msg/ColorRGBA")
+Array = msg.get_message("visualization_msgs/msg/MarkerArray")
+SEVERAL = {"line_strip", "line_list", "cube_list", "sphere_list", "points", "triangle_list"}
+
+
+def marker(shape="cube", *, key=("robot", 1), action=0, frame="map", points=0, colors=0, **values):
+    message = msg.get_message("visualization_msgs/msg/Marker")()
+    message.header.frame_id = frame
+    message.type = MARKER_TYPES.index(shape) if isinstance(shape, str) else shape
+    message.action = action
+    message.ns, message.id = key
+    message.pose.orientation.w = 1.0
+    message.scale.x = message.scale.y = message.scale.z = 0.5
+    message.color.r = message.color.a = 1.0
+    message.points = [Point(x=float(k)) for k in range(points)]
+    message.colors = [Color(g=1.0, a=0.5)] * colors
+    for name, value in values.items():
+        setattr(message, name, value)
+    return message
+
+
+def shown(outputs):
+    return [each for output in outputs if isinstance(output, Content)
+            for each in output.header.get("markers", [])]  # fmt: skip
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A prefix with the package ``arm``, which has a mesh."""
+    markers = tmp_path / "share/ament_index/resource_index/packages"
+    for folder in (markers, tmp_path / "share/arm/meshes"):
+        folder.mkdir(parents=True)
+    (markers / "arm").touch()
+    (tmp_path / "share/arm/meshes/a.stl").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+
+
+@pytest.mark.usefixtures("package")
+@pytest.mark.parametrize("shape", MARKER_TYPES)
+def test_every_type_is_sent(shape):
+    several = shape in SEVERAL or shape == "arrow_strip"
+    message = marker(shape, points=6 if several else 0, text="hello",
+                     mesh_resource="package://arm/meshes/a.stl")  # fmt: skip
+    content, status = MarkerDisplay().content(message)
+    assert status.level == "ok"
+    (sent,) = shown([content])
+    assert sent["shape"] == shape
+    assert sent["key"] == ["robot", 1]
+    assert sent["pose"] == [0, 0, 0, 0, 0, 0, 1]
+    assert sent["color"] == [255, 0, 0, 255]
+    assert sent["points"] == [0, 6 if several else 0]
+    assert sent.get("text") == ("hello" if shape == "text" else None)
+    if shape == "mesh":
+        assert sent["mesh"]["url"] == "/mesh/arm/meshes/a.stl"
+        assert content.packages == ("arm",)
+
+
+def test_an_array_travels_as_one_part_for_each_frame():
+    message = Array(markers=[
+        marker("points", key=("a", 1), points=2, colors=2),
+        marker("line_strip", key=("a", 2), points=3),
+        marker(key=("b", 1), frame="odom", frame_locked=True),
+    ])  # fmt: skip
+    first, second, status = MarkerDisplay().content(message)
+    assert status.level == "ok"
+    assert [each["points"] for each in first.header["markers"]] == [[0, 2], [2, 3]]
+    assert [each["colors"] for each in first.header["markers"]] == [[0, 2], [2, 0]]
+    assert first.arrays["points"][:, 0].tolist() == [0, 1, 0, 1, 2]
+    assert first.arrays["colors"].tolist() == [[0, 255, 0, 128]] * 2
+    assert (second.frame_id, second.locked) == ("odom", True)
+    assert not first.locked
+
+
+def test_a_replaced_marker_empties_its_part():
+    display = MarkerDisplay()
+    first = display.content(marker())[0]
+    outputs = display.content(marker())
+    assert outputs[1] == Removal(first.part)
+    assert outputs[0].part != first.part
+
+
+def test_delete_and_deleteall():
+    display = MarkerDisplay()
+    part = display.content(Array(markers=[marker(key=("a", k)) for k in range(3)]))[0].part
+    delete, status = display.content(marker(action=2, key=("a", 1)))
+    assert (delete.header, delete.event) == ({"delete": [["a", 1]]}, True)
+    assert status.level == "ok"
+    assert len(display.content(marker(action=2, key=("a", 1)))) == 1  # it is gone already
+    clear, new, removal, _ = display.content(
+        Array(markers=[marker(key=("c", 1)), marker(action=3), marker(key=("d", 1))])
+    )
+    assert clear.header == {"clear": True}
+    assert [each["key"] for each in new.header["markers"]] == [["d", 1]]
+    assert removal == Removal(part)
+
+
+def test_the_last_marker_of_a_key_in_a_message_counts():
+    outputs = MarkerDisplay().content(
+        Array(
+            markers=[marker("cube"), marker("sphere", frame="odom"), marker(action=2, key=("x", 1))]
+        )
+    )
+    assert [each["shape"] for each in shown(outputs)] == ["sphere"]
+
+
+def test_expired_markers_are_forgotten():
+    now = 0
+    display = MarkerDisplay(clock=lambda: now)
+    message = marker()
+    message.lifetime.sec = 2
+    first = display.content(message)[0]
+    assert first.header["markers"][0]["lifetime"] == 2
+    now = 3 * 10**9
+    assert Removal(first.part) in display.content(marker(key=("other", 1)))
+
+
+def test_too_many_points_are_thinned():
+    display = MarkerDisplay()
+    display.budget = 9
+    for shape in ("points", "triangle_list", "line_list", "line_strip"):
+        content, *_, status = display.content(marker(shape, points=3000, colors=3000))
+        assert len(content.arrays["points"]) <= 9
+        assert len(content.arrays["colors"]) == len(content.arrays["points"])
+        assert "of 3000 points are drawn" in status.text
+        assert status.level == "warn"
+
+
+def wrong(**values):
+    return MarkerDisplay().content(marker(**values))
+
+
+@pytest.mark.parametrize(
+    ("values", "line"),
+    [
+        ({"shape": 13}, "the type 13 is unknown (0 to 12 are known)"),
+        ({"shape": "line_strip", "points": 1}, "1 points; a line_strip needs 2 at least"),
+        ({"shape": "arrow", "points": 1}, "1 points; a arrow needs 2 at least"),
+        ({"shape": "line_list", "points": 3}, "a line_list needs a multiple of 2"),
+        ({"shape": "points", "points": 3, "colors": 2}, "2 colors for 3 points"),
+        ({"frame": ""}, "header.frame_id is empty"),
+        ({"action": 7}, "the action 7 is unknown"),
+        ({"shape": "mesh"}, "mesh_resource is empty"),
+        ({"shape": "text"}, "the text is empty"),
+        ({"color": Color(r=1.0)}, "the marker is invisible: color.a is 0"),
+        (
+            {"shape": "mesh", "mesh_resource": "package://../../etc/passwd"},
+            "'package://../../etc/passwd' is not loaded: '..' is no name of a package",
+        ),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(values, line):
+    status = wrong(**values)[-1]
+    assert line in status.text
+    assert status.level == "warn"
+    assert status.text.startswith("marker robot/1: ")
+
+
+def test_scales_poses_and_points_that_are_no_numbers():
+    message = marker()
+    message.scale.y = math.nan
+    assert "not finite" in MarkerDisplay().content(message)[-1].text
+    message = marker()
+    message.pose.position.x = math.inf
+    assert "the pose holds" in MarkerDisplay().content(message)[-1].text
+    message = marker("triangle_list", points=6)
+    message.points[1].y = math.nan
+    content, status = MarkerDisplay().content(message)
+    assert content.arrays["points"][:, 0].tolist() == [3, 4, 5]
+    assert "3 of 6 points are left out" in status.text
+
+
+def test_an_embedded_mesh_travels_with_the_marker():
+    message = marker("mesh", mesh_resource="embedded://a.stl")
+    message.mesh_file.filename = "a.stl"
+    message.mesh_file.data = b"solid"
+    content, status = MarkerDisplay().content(message)
+    assert status.level == "ok"
+    assert bytes(content.arrays["files"]) == b"solid"
+    assert content.header["markers"][0]["file"] == [0, 5]

@@ -1,0 +1,213 @@
+"""RobotModel, meshes and tools."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlewire import msg
+from turtlewire.urdf import load_urdf
+from turtlewire.view.displays.robot_model import RobotModelDisplay
+from turtlewire.view.meshes import MeshFile, MeshLibrary, mesh_address
+from turtlewire.view.tools import TOOLS, tool_message
+
+ROBOTS = sorted((Path(__file__).parent.parent / "golden" / "robots" / "urdf").glob("*.urdf"))
+URDF = """<robot name="arm">
+  <material name="blue"><color rgba="0 0 1 0.5"/></material>
+  <link name="base">
+    <visual><geometry><box size="1 2 3"/></geometry><material name="blue"/>
+      <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/></visual>
+    <collision><geometry><sphere radius="0.5"/></geometry></collision>
+  </link>
+  <link name="tip">
+    <visual><geometry><mesh filename="{mesh}" scale="1 -1 1"/></geometry></visual>
+    <visual><geometry><cylinder radius="0.1" length="2"/></geometry></visual>
+  </link>
+  <joint name="j" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</robot>"""
+
+
+def described(text, **options):
+    String = msg.get_message("std_msgs/msg/String")  # noqa: N806
+    return RobotModelDisplay(options).content(String(data=text))
+
+
+@pytest.fixture
+def prefix(tmp_path, monkeypatch):
+    """A prefix with the package ``arm``, which has a mesh, a texture and a secret."""
+    markers = tmp_path / "share/ament_index/resource_index/packages"
+    markers.mkdir(parents=True)
+    (markers / "arm").touch()
+    (markers / "leg").touch()
+    meshes = tmp_path / "share/arm/meshes"
+    meshes.mkdir(parents=True)
+    for name in ("tip one.stl", "skin.png", "notes.txt"):
+        (meshes / name).write_text(name)
+    (tmp_path / "share/secret.stl").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path}")
+    return tmp_path
+
+
+def test_shapes_hang_on_the_frames_of_their_links(prefix):
+    (prefix / "share/arm/meshes/tip.dae").touch()
+    content, status = described(URDF.format(mesh="package://arm/meshes/tip.dae"))
+    assert status.level == "ok"
+    assert content.frame_id is None
+    assert content.packages == ("arm",)
+    base, tip = content.header["links"]
+    assert (content.header["robot"], base["frame"], tip["frame"]) == ("arm", "base", "tip")
+    (box,) = base["visuals"]
+    assert (box["shape"], box["size"], box["color"]) == ("box", [1, 2, 3], [0, 0, 255, 128])
+    assert box["origin"] == pytest.approx([1, 0, 0, 0, 0, math.sqrt(0.5), math.sqrt(0.5)])
+    assert base["collisions"][0]["size"] == [0.5]
+    mesh, cylinder = tip["visuals"]
+    assert mesh["mesh"] == {
+        "name": "package://arm/meshes/tip.dae", "url": "/mesh/arm/meshes/tip.dae"
+    }  # fmt: skip
+    assert (mesh["size"], mesh["color"]) == ([1, -1, 1], None)
+    assert cylinder["size"] == [0.1, 2]
+
+
+def test_a_prefix_of_frames():
+    content, _ = described(URDF.format(mesh="package://a/b.stl"), tf_prefix="left/")
+    assert content.header["links"][0]["frame"] == "left/base"
+
+
+@pytest.mark.parametrize("path", ROBOTS, ids=lambda path: path.stem)
+def test_each_golden_robot_is_drawn(path):
+    content, status = described(path.read_text())
+    assert len(content.header["links"]) == len(load_urdf(path).links)
+    assert status.level in {"ok", "warn"}
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("", "the description is refused: The description is empty"),
+        ("<robot name='x'/>", "the description is refused: No link elements found in urdf file"),
+        ("<robot", "the description is refused: "),
+        ("hello", "the description is refused: "),
+    ],
+)
+def test_a_description_that_is_none(text, line):
+    (status,) = described(text)
+    assert (status.level, status.text[: len(line)]) == ("error", line)
+
+
+@pytest.mark.parametrize(
+    ("uri", "why"),
+    [
+        ("package://../../etc/passwd", "'..' is no name of a package"),
+        ("package://arm/../../etc/passwd.stl", "does not stay below the package"),
+        ("package://arm/%2e%2e/%2e%2e/etc/a.stl", "does not stay below the package"),
+        ("package://arm//etc/a.stl", "does not stay below the package"),
+        ("package://arm/.ssh/a.stl", "holds a name that is not served"),
+        ("package://arm/a\\b.stl", "holds a name that is not served"),
+        ("package://nowhere/a.stl", "there is no package 'nowhere' in AMENT_PREFIX_PATH"),
+        ("package://arm/a.stl", "the package 'arm' has no file 'a.stl'"),
+        ("package://arm/id_rsa", "is no mesh that the page reads"),
+        ("package://arm/a.png", "is no mesh that the page reads"),
+        ("file:///etc/passwd", "is not below the share folder of a package"),
+        ("/etc/a.stl", "is not below the share folder of a package"),
+        ("http://example.com/a.stl", "only package:// addresses are"),
+        ("model://arm/a.stl", "only package:// addresses are"),
+        ("a.stl", "only package:// addresses are"),
+        ("", "only package:// addresses are"),
+    ],
+)
+@pytest.mark.usefixtures("prefix")
+def test_addresses_that_are_refused(uri, why):
+    address = mesh_address(uri)
+    assert address.url is None
+    assert why in address.problem
+    content, status = described(URDF.format(mesh=uri))
+    assert status.level == "warn"
+    assert why in status.text
+    assert content.header["links"][1]["visuals"][0]["mesh"]["problem"] == address.problem
+
+
+def test_meshes_of_named_packages_are_served(prefix):
+    library = MeshLibrary()
+    asked = "/mesh/arm/meshes/tip one.stl"
+    address = mesh_address("package://arm/meshes/tip one.stl")
+    assert address.url == "/mesh/arm/meshes/tip%20one.stl"
+    assert library.find(asked) == "no robot or marker names a mesh of the package 'arm'"
+    assert library.answer("/mesh/arm/meshes/tip one.stl") is None
+    library.permit(address.packages)
+    file = str(prefix / "share/arm/meshes/tip one.stl")
+    assert library.find(asked) == MeshFile(file, "model/stl")
+    assert library.answer(asked) == (b"tip one.stl", "model/stl")
+    assert library.answer("/other") is None
+    assert library.find("/mesh/arm/meshes/skin.png").media_type == "image/png"
+    assert mesh_address(f"file://{file}").url == address.url
+    assert mesh_address(f"{prefix}/share/secret.stl").url is None
+
+
+@pytest.mark.parametrize(
+    ("path", "why"),
+    [
+        ("/mesh/arm/meshes/notes.txt", "neither a mesh nor a texture"),
+        ("/mesh/arm/meshes/none.stl", "has no file 'meshes/none.stl'"),
+        ("/mesh/arm/meshes", "neither a mesh nor a texture"),
+        ("/mesh/arm/../secret.stl", "does not stay below"),
+        ("/mesh/arm/a\0.stl", "not served"),
+        ("/mesh/leg/a.stl", "no robot or marker names"),
+        ("/mesh/", "is no name of a package"),
+        ("/mesh/../../etc/passwd", "is no name of a package"),
+    ],
+)
+@pytest.mark.usefixtures("prefix")
+def test_urls_that_are_refused(path, why):
+    library = MeshLibrary()
+    library.permit(["arm", ".."])
+    answer = library.find(path)
+    assert isinstance(answer, str)
+    assert why in answer
+
+
+@given(st.text(st.sampled_from("ab./\\%2e:\0 ~"), max_size=20))
+def test_no_path_leads_out_of_a_package(tail):
+    library = MeshLibrary()
+    library.permit(["arm"])
+    for address in (mesh_address("package://arm/" + tail + ".stl"), mesh_address(tail)):
+        assert address.url is None or "/../" not in address.url
+    assert isinstance(library.find("/mesh/arm/" + tail + ".stl"), (str, MeshFile))
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_tools_publish_as_rviz_does(tool):
+    sent = tool_message(tool, [1.0, 2.0, 3.0], math.pi / 2, "map", 1_500_000_000)
+    assert sent.topic == {"point": "/clicked_point", "pose_estimate": "/initialpose"}.get(
+        tool, "/goal_pose"
+    )
+    message = msg.deserialize(msg.get_message(sent.type_name), sent.cdr)
+    assert message.header.frame_id == "map"
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == (1, 500_000_000)
+    if tool == "point":
+        assert (message.point.x, message.point.y, message.point.z) == (1, 2, 3)
+        return
+    pose = message.pose.pose if tool == "pose_estimate" else message.pose
+    assert (pose.position.x, pose.position.y, pose.position.z) == (1, 2, 0)
+    assert (pose.orientation.z, pose.orientation.w) == pytest.approx((math.sqrt(0.5),) * 2)
+    if tool == "pose_estimate":
+        covariance = message.pose.covariance
+        assert {k: covariance[k] for k in range(36) if covariance[k]} == pytest.approx(
+            {0: 0.25, 7: 0.25, 35: 0.06853891945200942}
+        )
+
+
+def test_a_topic_of_ones_own_and_nonsense():
+    assert tool_message("goal", [0, 0, 0], 0, "map", 0, "/mine").topic == "/mine"
+    wrong = [
+        ("x", [0, 0, 0], 0, "m", 0),
+        ("goal", [0, 0], 0, "m", 0),
+        ("goal", [0, math.nan, 0], 0, "m", 0),
+        ("goal", [0, 0, 0], 0, "", 0),
+    ]
+    for arguments in wrong:
+        with pytest.raises(ValueError):
+            tool_message(*arguments)
