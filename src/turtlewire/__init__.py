@@ -6,6 +6,7 @@ module        what it holds
 `bag`         rosbag2 folders, MCAP and sqlite3, read and written
 `cli`         the ``turtlewire`` command and its verbs
 `errors`      every error that turtlewire raises on purpose
+`foxglove`    the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `keyboard`    keys of a terminal, as teleop and ``ros2 bag`` read them
 `msg`         interface definitions, message classes, CDR and type hashes
 `printable`   text from other processes, made safe for a terminal

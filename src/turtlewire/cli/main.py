@@ -9,6 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, complete_bags, reporting_errors
+from turtlewire.cli.foxglove_command import add_foxglove_command
 from turtlewire.cli.parser import Parser, add_tf_topics, seconds, tf_topics
 from turtlewire.cli.pipes import leave_pipe
 from turtlewire.cli.view_command import add_view_command
@@ -60,6 +61,7 @@ def _parser() -> Parser:
     _add_doctor(commands)
     _add_frames(commands)
     add_view_command(commands)
+    add_foxglove_command(commands)
     add_bag_commands(commands)
     return parser
 

@@ -1,0 +1,160 @@
+"""The frames of Foxglove's WebSocket protocol, version 1.
+
+Text frames are JSON objects with an ``op``; binary ones begin with an operation code and are little
+endian. Nothing here knows a connection.
+"""
+
+from __future__ import annotations
+
+import json
+from struct import Struct
+from typing import Any, NamedTuple
+
+__all__ = [
+    "CAPABILITIES",
+    "ENCODINGS",
+    "ERROR",
+    "SUBPROTOCOLS",
+    "WARNING",
+    "ClientMessage",
+    "ProtocolError",
+    "ServiceRequest",
+    "asset",
+    "asset_error",
+    "message_data",
+    "parse_binary",
+    "parse_text",
+    "service_response",
+    "status",
+    "text",
+    "time_data",
+]
+
+#: Names of the protocol, which are one and the same on the wire.
+SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
+#: What a server may offer; ``time`` only with simulated time.
+CAPABILITIES = (
+    "clientPublish",
+    "parameters",
+    "parametersSubscribe",
+    "services",
+    "connectionGraph",
+    "assets",
+    "time",
+)
+#: How clients may encode what they publish, and requests of services.
+ENCODINGS = ("cdr", "json")
+
+#: Levels of a status.
+WARNING, ERROR = 1, 2
+
+_MESSAGE_DATA = Struct("<BIQ")
+_TIME = Struct("<BQ")
+_SERVICE = Struct("<BIII")
+_ASSET = Struct("<BIBI")
+_CLIENT_MESSAGE = Struct("<BI")
+#: Longest text frame of a client [characters]; parsing one blocks all others.
+_LONGEST_TEXT = 1 << 20
+
+
+class ProtocolError(ValueError):
+    """A client's frame is not of this protocol; the text says what is wrong."""
+
+
+class ClientMessage(NamedTuple):
+    """A message that a client publishes on one of its channels."""
+
+    channel_id: int
+    payload: bytes
+
+
+class ServiceRequest(NamedTuple):
+    """A call of a service."""
+
+    service_id: int
+    call_id: int
+    encoding: str
+    payload: bytes
+
+
+def text(op: str, **fields: Any) -> str:
+    """A text frame; fields that are None are left out."""
+    return json.dumps(
+        {"op": op, **{name: value for name, value in fields.items() if value is not None}},
+        separators=(",", ":"),
+        allow_nan=False,
+    )
+
+
+def status(level: int, message: str, *, status_id: str | None = None) -> str:
+    """A line for the client's user; one with an id replaces the former of that id."""
+    return text("status", level=level, message=message, id=status_id)
+
+
+def message_data(subscription_id: int, time_ns: int, cdr: bytes) -> bytes:
+    """A message of a subscription, with the time at which it was received."""
+    return _MESSAGE_DATA.pack(1, subscription_id, time_ns) + cdr
+
+
+def time_data(time_ns: int) -> bytes:
+    """The time of the simulation."""
+    return _TIME.pack(2, time_ns)
+
+
+def service_response(service_id: int, call_id: int, encoding: str, payload: bytes) -> bytes:
+    """The response of a service."""
+    encoded = encoding.encode(errors="replace")
+    return _SERVICE.pack(3, service_id, call_id, len(encoded)) + encoded + payload
+
+
+def asset(request_id: int, data: bytes) -> bytes:
+    """A file that a client asked for."""
+    return _ASSET.pack(4, request_id, 0, 0) + data
+
+
+def asset_error(request_id: int, message: str) -> bytes:
+    """Why a client does not get a file."""
+    encoded = message.encode(errors="replace")
+    return _ASSET.pack(4, request_id, 1, len(encoded)) + encoded
+
+
+def parse_text(frame: str) -> dict[str, Any]:
+    """The object of a client's text frame; its ``op`` is a string.
+
+    Raises:
+        ProtocolError: The frame is no such object, or too long.
+    """
+    if len(frame) > _LONGEST_TEXT:
+        raise ProtocolError(
+            f"a text frame of {len(frame)} characters is too long (at most {_LONGEST_TEXT})"
+        )
+    try:
+        parsed = json.loads(frame)
+    except (ValueError, RecursionError) as error:
+        raise ProtocolError(f"a text frame is not JSON: {error}") from error
+    if not isinstance(parsed, dict) or not isinstance(parsed.get("op"), str):
+        raise ProtocolError('a text frame is a JSON object with a string "op"')
+    return parsed
+
+
+def parse_binary(frame: bytes) -> ClientMessage | ServiceRequest:
+    """What a client's binary frame holds.
+
+    Raises:
+        ProtocolError: The frame is none, or ends too early.
+    """
+    if not frame:
+        raise ProtocolError("a binary frame is empty")
+    if frame[0] == 1 and len(frame) >= _CLIENT_MESSAGE.size:
+        return ClientMessage(_CLIENT_MESSAGE.unpack_from(frame)[1], frame[_CLIENT_MESSAGE.size :])
+    if frame[0] == 2 and len(frame) >= _SERVICE.size:
+        _, service_id, call_id, length = _SERVICE.unpack_from(frame)
+        end = _SERVICE.size + length
+        if end <= len(frame):
+            encoding = frame[_SERVICE.size : end].decode("utf-8", "replace")
+            return ServiceRequest(service_id, call_id, encoding, frame[end:])
+    if frame[0] in {1, 2}:
+        raise ProtocolError(
+            f"a binary frame of operation {frame[0]} ends after {len(frame)} bytes, too early"
+        )
+    raise ProtocolError(f"there is no binary operation {frame[0]}; clients send 1 and 2")

@@ -1,0 +1,83 @@
+"""`turtlewire foxglove`: its words, its address, and its end."""
+
+import signal
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+from websockets.sync.client import connect
+
+TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
+
+
+@pytest.fixture
+def foxglove(run):
+    def start(*words, **options):
+        return run(TURTLEWIRE, "foxglove", *words, **options)
+
+    return start
+
+
+def test_it_tells_its_address_serves_and_ends_at_ctrl_c(foxglove):
+    program = foxglove("--port", "0", terminal=True)
+    url = program.wait_for(r"connect to (ws://127\.0\.0\.1:\d+) \(Ctrl-C ends\)")[0][1]
+    with connect(url, subprotocols=["foxglove.websocket.v1"]) as client:
+        assert '"serverInfo"' in client.recv()
+        program.wait_for(r"client 127\.0\.0\.1:\d+ connected \(foxglove\.websocket\.v1\)")
+        program.type("\x03")
+        assert program.wait() == 130
+    assert "Traceback" not in program.text
+
+
+def test_a_port_in_use_is_named_with_the_way_out(foxglove):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        program = foxglove("--port", port)
+        assert program.wait() == 2
+    assert program.text == (
+        f"turtlewire foxglove: port {port} of 127.0.0.1 is in use, perhaps by another Foxglove "
+        "server. Another one is chosen by --port N, a free one by --port 0."
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        (["--port", "99999"], "port 99999 does not exist: ports are 0 (a free one) to 65535"),
+        (["--port", "x"], "argument --port: invalid int value: 'x'"),
+        (["--topic", "("], "topic_whitelist '(' is no regular expression: missing )"),
+        (["--send-buffer-limit", "0"], "send_buffer_limit is at least 1 byte, got 0"),
+        (["--topics", "x"], "Did you mean: --topic"),
+        (
+            ["--address", "no.such.host.invalid"],
+            "cannot listen on no.such.host.invalid, port 8765: ",
+        ),
+        (["--address", "192.0.2.1"], "cannot listen on 192.0.2.1, port 8765: "),
+        (["extra"], "unrecognized arguments: extra"),
+    ],
+)
+def test_wrong_words(foxglove, words, answer):
+    program = foxglove(*words)
+    assert program.wait() == 2
+    assert answer in program.text
+    assert "Traceback" not in program.text
+
+
+def test_an_address_for_others_is_said_plainly(foxglove):
+    program = foxglove("--port", "0", "--address", "0.0.0.0", "--read-only")
+    program.wait_for(r"^Everybody who reaches 0\.0\.0\.0 can read all topics\.$")
+    program.signal_group(signal.SIGINT)
+    assert program.wait() == 130
+    program = foxglove("--port", "0", "--address", "::")
+    program.wait_for(r"connect to ws://\[::\]:\d+ ")
+    program.wait_for(
+        r"^Everybody who reaches :: can read all topics, publish, and call services\.$"
+    )
+
+
+def test_without_a_network_it_says_so(foxglove):
+    program = foxglove("--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
+    assert program.wait() == 2
+    assert "turtlewire foxglove: " in program.text
+    assert "Traceback" not in program.text

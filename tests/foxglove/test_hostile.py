@@ -1,0 +1,270 @@
+"""Clients that are wrong, foreign, slow or gone: a line, and the server goes on."""
+
+import contextlib
+import json
+import os
+import socket
+import threading
+import urllib.error
+import urllib.request
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from turtlewire import msg
+from turtlewire.foxglove.origins import refusal
+from turtlewire.foxglove.protocol import (
+    ClientMessage,
+    ProtocolError,
+    ServiceRequest,
+    parse_binary,
+    parse_text,
+)
+
+
+@pytest.mark.parametrize(
+    ("frame", "answer"),
+    [
+        ("nonsense", "a text frame is not JSON: "),
+        ("[1]", 'a text frame is a JSON object with a string "op"'),
+        ('{"op": 1}', 'a text frame is a JSON object with a string "op"'),
+        ('{"op": "dance"}', "there is no operation 'dance'"),
+        ("[" * 100_000, "a text frame is not JSON: "),
+        ('{"op": "' + "x" * 2_000_000 + '"}', "a text frame of 2000010 characters is too long"),
+        ('{"op": "subscribe"}', '"subscriptions" is a list of objects'),
+        ('{"op": "subscribe", "subscriptions": {}}', '"subscriptions" is a list of objects'),
+        ('{"op": "subscribe", "subscriptions": [1]}', '"subscriptions" is a list of objects'),
+        ('{"op": "subscribe", "subscriptions": [{"id": 1}]}', '"channelId" is an integer from 0'),
+        (
+            '{"op": "subscribe", "subscriptions": [{"id": 4294967296, "channelId": 1}]}',
+            '"id" is an integer from 0 to 4294967295',
+        ),
+        ('{"op": "unsubscribe", "subscriptionIds": [true]}', '"subscriptionIds" is a list of num'),
+        ('{"op": "unsubscribe", "subscriptionIds": [1e400]}', '"subscriptionIds" is a list of num'),
+        ('{"op": "getParameters", "parameterNames": "x"}', '"parameterNames" is a list of texts'),
+        ('{"op": "getParameters", "parameterNames": ["\\ud800.x"]}', "there is no "),
+        ('{"op": "setParameters", "parameters": [{"value": 1}]}', '"name" is missing'),
+        (
+            '{"op": "setParameters", "parameters": [{"name": "/a.b", "type": 1}]}',
+            '"type" is a text',
+        ),
+        ('{"op": "fetchAsset", "uri": "x"}', '"requestId" is an integer from 0 to'),
+        ('{"op": "fetchAsset", "uri": 5, "requestId": 1}', '"uri" is a text'),
+        (
+            '{"op": "subscribeParameterUpdates", "parameterNames": [[]]}',
+            '"parameterNames" is a list',
+        ),
+        (b"", "a binary frame is empty"),
+        (b"\x07abc", "there is no binary operation 7; clients send 1 and 2"),
+        (b"\x01ab", "a binary frame of operation 1 ends after 3 bytes, too early"),
+        (b"\x02" + 8 * b"\0" + b"\xff\xff\xff\xff", "a binary frame of operation 2 ends after 13"),
+    ],
+)
+def test_wrong_frames_get_a_status_and_the_client_stays(client, frame, answer):
+    one = client()
+    one.socket.send(frame)
+    level, message = one.status()
+    assert level in {1, 2}
+    assert message.startswith(answer)
+    one.sync()
+
+
+def test_a_message_beyond_all_bounds_ends_only_its_connection(client, log):
+    one, two = client(), client()
+    with contextlib.suppress(ConnectionClosed, OSError):
+        one.socket.send(bytes((64 << 20) + 1))
+    with pytest.raises(ConnectionClosed):
+        one.next("never")
+    two.sync()
+
+
+@pytest.mark.parametrize(
+    "origin",
+    ["https://app.foxglove.dev", "http://localhost:8080", "http://127.0.0.1", "https://[::1]:1"],
+)
+def test_pages_of_foxglove_and_of_this_machine_connect(client, origin):
+    client(origin=origin).sync()
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "https://evil.example",
+        "https://app.foxglove.dev.evil.example",
+        "http://app.foxglove.dev",
+        "http://localhost.evil.example",
+        "http://127.0.0.1.evil.example",
+        "null",
+        "file://",
+    ],
+)
+def test_other_pages_are_refused_with_one_line(serve, client, log, origin):
+    server = serve()
+    for _ in range(2):
+        with pytest.raises(InvalidStatus) as refused:
+            client(server, origin=origin)
+        assert refused.value.response.status_code == 403
+    assert log.warnings() == [
+        (
+            f"warning: refused a connection: pages of '{origin}' may not connect; "
+            f"--origin {origin} (parameter origins) lets them"
+        )
+    ]
+    client(serve(origins=(origin,)), origin=origin).sync()
+
+
+def test_two_origins_are_none():
+    assert refusal(["http://localhost", "http://localhost"], ())
+    assert refusal([], ()) is None
+    assert refusal(["https://x.y"], ["*"]) is None
+    assert refusal(["https://X.y"], ["https://x.Y/"]) is None
+
+
+@pytest.mark.parametrize("offered", [None, ["foxglove.other"], ["mqtt", "soap"]])
+def test_clients_of_other_protocols_are_refused(client, offered):
+    with pytest.raises(InvalidStatus) as refused:
+        client(subprotocols=offered)
+    assert refused.value.response.status_code == 400
+    assert refused.value.response.body == b"Missing expected sec-websocket-protocol header\n"
+
+
+@pytest.mark.parametrize(
+    ("offered", "chosen"),
+    [
+        (["foxglove.websocket.v1"], "foxglove.websocket.v1"),
+        (["foxglove.sdk.v1"], "foxglove.sdk.v1"),
+        (["foxglove.sdk.v1", "foxglove.websocket.v1"], "foxglove.sdk.v1"),
+        (["foxglove.sdk.v9", "foxglove.websocket.v1"], "foxglove.websocket.v1"),
+    ],
+)
+def test_the_first_protocol_that_is_known_is_chosen(client, offered, chosen):
+    one = client(subprotocols=offered)
+    assert one.socket.subprotocol == chosen
+    one.sync()
+
+
+def test_a_browser_that_opens_the_address_is_told_what_it_is(serve):
+    server = serve()
+    with pytest.raises(urllib.error.HTTPError) as answer:
+        urllib.request.urlopen(server.url.replace("ws:", "http:"))
+    assert answer.value.code == 426
+    assert f"open a connection to {server.url} there" in answer.value.read().decode()
+    answer.value.close()
+
+
+def test_garbage_on_the_socket_and_half_a_request_do_not_matter(serve, client):
+    server = serve()
+    port = int(server.url.rpartition(":")[2])
+    with socket.create_connection(("127.0.0.1", port)) as half:
+        half.sendall(b"GET / HTTP/1.1\r\nHost: x\r\n")
+        with socket.create_connection(("127.0.0.1", port)) as garbage:
+            garbage.sendall(os.urandom(4096))
+        client(server).sync()
+        server.close()  # returns although a client says nothing
+
+
+def test_too_many_requests_at_once_are_refused(serve, client, robot):
+    """A client that calls a service that never answers does not fill the memory."""
+    from turtlewire.wire.base import ServiceTypes, TypeId
+    from turtlewire.wire.qos import QoS
+
+    name = "std_srvs/srv/Empty"
+    parts = [TypeId(f"{name}_{part}", msg.type_hash(f"{name}_{part}")) for part in PARTS]
+    service = robot.node.create_service("/never", ServiceTypes(name, *parts, msg.type_hash), QoS())
+    one = client()
+    number = one.service("/never")["id"]
+    for call_id in range(101):
+        one.call(number, call_id, b"{}")
+    failure = one.next("serviceCallFailure")
+    assert failure["callId"] == 100
+    assert failure["message"] == "100 requests wait for their answers already"
+    service.close()
+    for _ in range(100):
+        assert one.next("serviceCallFailure")["message"] == "service /never went away"
+
+
+PARTS = ("Request", "Response")
+
+
+def test_a_slow_client_loses_old_messages_and_others_lose_none(serve, client, robot, log):
+    publisher = robot.publisher("/points", depth=1000)
+    quiet = robot.publisher("/quiet")
+    server = serve(send_buffer_limit=2_000_000)
+    slow = client(server, max_queue=1)  # reads nothing until it is asked
+    fast = client(server)
+    for each in (slow, fast):
+        each.subscribe("/points", 1)
+        each.subscribe("/quiet", 2)
+        each.sync()
+    robot.wait_until(lambda: publisher.subscription_count() + quiet.subscription_count() == 2)
+    robot.say(quiet, "still there")
+    count = 40
+    for number in range(count):
+        robot.say(publisher, f"{number} " + 1_000_000 * "x")
+        assert fast.text(1).startswith(f"{number} ")
+    assert fast.text(2) == "still there"
+    got = []
+    while not got or got[-1] != count - 1:
+        got.append(int(slow.text(1).partition(" ")[0]))
+    assert len(got) < count
+    assert got == sorted(got)
+    assert slow.text(2) == "still there"
+    (warning,) = log.warnings()
+    assert "messages of /points are lost: this connection is too slow for it" in warning
+    assert slow.status()[1] in warning
+    slow.sync()
+    assert not [
+        frame for frame in slow.frames if isinstance(frame, dict) and frame["op"] == "status"
+    ]
+
+
+def test_a_client_that_reads_nothing_is_asked_for_no_more(serve, client):
+    """Its requests wait, and the server's memory does not grow."""
+    server = serve()
+    one, two = client(server, max_queue=1), client(server)
+    stopped = threading.Event()
+
+    def flood():
+        with contextlib.suppress(ConnectionClosed, OSError):
+            while not stopped.is_set():
+                one.socket.send(json.dumps({"op": "x" * 1000}))
+
+    thread = threading.Thread(target=flood)
+    thread.start()
+    for _ in range(100):
+        two.sync()
+    stopped.set()
+    one.socket.socket.shutdown(socket.SHUT_RDWR)
+    thread.join()
+    two.sync()
+
+
+def test_a_server_is_closed_twice_and_with_clients(serve, client):
+    server = serve()
+    one = client(server)
+    one.sync()
+    server.close()
+    server.close()
+    with pytest.raises(ConnectionClosed):
+        one.next("never")
+
+
+@given(st.binary(max_size=40))
+def test_no_binary_frame_is_misread(frame):
+    try:
+        parsed = parse_binary(frame)
+    except ProtocolError:
+        return
+    if isinstance(parsed, ClientMessage):
+        assert frame == b"\x01" + parsed.channel_id.to_bytes(4, "little") + parsed.payload
+    else:
+        assert isinstance(parsed, ServiceRequest)
+        assert frame.endswith(parsed.payload)
+
+
+@given(st.text(max_size=40) | st.from_regex(r"\{.{0,30}\}"))
+def test_no_text_frame_raises_anything_else(frame):
+    with contextlib.suppress(ProtocolError):
+        assert isinstance(parse_text(frame)["op"], str)

@@ -1,0 +1,115 @@
+"""What a client has yet to receive: order, bounds, and one notice of a loss."""
+
+import struct
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlewire.foxglove.outbox import Outbox
+
+
+class Notes:
+    """An outbox, and what it called."""
+
+    def __init__(self, limit=100):
+        self.wakes, self.lost, self.floods = 0, [], 0
+        self.outbox = Outbox(limit, self.wake, self.lost.append, self.flood)
+
+    def wake(self):
+        self.wakes += 1
+
+    def flood(self):
+        self.floods += 1
+
+    def taken(self):
+        frames = []
+        while (frame := self.outbox.take()) is not None:
+            frames.append(frame)
+        return frames
+
+
+def test_other_frames_go_first_then_the_newest_time_then_messages_in_order():
+    notes = Notes()
+    notes.outbox.put(1, 10, b"a")
+    notes.outbox.set_time(b"old")
+    notes.outbox.put(2, 11, b"b")
+    notes.outbox.set_time(b"new")
+    notes.outbox.send("first")
+    notes.outbox.send(b"second")
+    notes.outbox.put(1, 12, b"c")
+    head = struct.Struct("<BIQ")
+    assert notes.taken() == [
+        "first",
+        b"second",
+        b"new",
+        head.pack(1, 1, 10) + b"a",
+        head.pack(1, 2, 11) + b"b",
+        head.pack(1, 1, 12) + b"c",
+    ]
+    assert notes.wakes == 1
+    notes.outbox.put(1, 13, b"d")
+    notes.outbox.put(1, 14, b"e")
+    assert notes.wakes == 2
+
+
+def test_the_largest_topic_loses_its_oldest_messages_and_says_so_once():
+    notes = Notes(limit=100)
+    notes.outbox.put(1, 0, b"map")
+    for number in range(10):
+        notes.outbox.put(2, number, bytes([number]) * 40)
+    notes.outbox.put(3, 0, bytes(500))  # larger than the limit, and its only message
+    assert [frame[13:][:1] for frame in notes.taken()] == [b"m", b"\x09", b"\0"]
+    assert notes.lost == [2]
+
+
+def test_an_ended_subscription_leaves_nothing():
+    notes = Notes()
+    notes.outbox.put(1, 0, bytes(90))
+    notes.outbox.forget(1)
+    assert notes.taken() == []
+    notes.outbox.put(2, 0, bytes(60))
+    notes.outbox.put(2, 0, bytes(30))
+    assert not notes.lost
+    notes.outbox.close()
+    notes.outbox.put(2, 0, b"")
+    notes.outbox.send("late")
+    assert notes.taken() == []
+
+
+def test_a_client_that_reads_nothing_is_given_up():
+    notes = Notes()
+    for _ in range(500):
+        notes.outbox.send("{}")
+    assert notes.outbox.is_crowded
+    for _ in range(10_000):
+        notes.outbox.send("{}")
+    assert notes.floods == 1
+    assert notes.taken() == []
+
+
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(["put", "take", "forget"]), st.integers(0, 3), st.integers(0, 60))
+    ),
+    st.integers(1, 150),
+)
+def test_it_holds_at_most_the_limit_and_one_message_of_each_topic(steps, limit):
+    notes = Notes(limit)
+    model = {}
+    newest = {}
+    for number, (step, topic, size) in enumerate(steps):
+        if step == "put":
+            notes.outbox.put(topic, number, bytes(size))
+            model.setdefault(topic, []).append(number)
+            newest[topic] = size
+        elif step == "forget":
+            notes.outbox.forget(topic)
+            model.pop(topic, None)
+        else:
+            notes.outbox.take()
+    frames = [(*struct.unpack_from("<BIQ", frame), len(frame) - 13) for frame in notes.taken()]
+    for topic in {topic for _, topic, _, _ in frames}:
+        kept = [time for _, each, time, _ in frames if each == topic]
+        assert kept == model[topic][-len(kept) :]  # the newest ones, in order
+    held = sum(size for *_, size in frames)
+    assert held <= limit or len({topic for _, topic, _, _ in frames}) == len(frames)

@@ -1,0 +1,183 @@
+"""Messages and parameters as JSON, definitions, and differences of connections."""
+
+import json
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlewire import msg
+from turtlewire.errors import CdrError, InterfaceError
+from turtlewire.foxglove.connections import Connections, difference
+from turtlewire.foxglove.json_messages import cdr_from_json, json_from_message
+from turtlewire.foxglove.parameter_values import from_json, to_json
+from turtlewire.foxglove.schemas import full_name, schema
+from turtlewire.msg.parser import parse_message
+
+TF = "geometry_msgs/msg/TransformStamped"
+floats = st.floats(allow_nan=True, allow_infinity=True)
+
+
+def back(type_name, payload):
+    return msg.deserialize(msg.get_message(type_name), cdr_from_json(type_name, payload))
+
+
+@given(
+    st.tuples(*[floats] * 7),
+    st.text(st.characters(exclude_categories=["Cs"])),
+    st.integers(0, 2**31 - 1),
+)
+def test_a_message_comes_back_from_json_as_it_was(numbers, name, seconds):
+    message = msg.get_message(TF)(child_frame_id=name.replace("\0", ""))
+    message.header.stamp.sec = seconds
+    move, turn = message.transform.translation, message.transform.rotation
+    move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w = numbers
+    payload = json_from_message(message)
+    json.loads(payload, parse_constant=pytest.fail)  # JavaScript reads no NaN
+    assert json_from_message(back(TF, payload)) == payload
+
+
+@pytest.mark.parametrize(
+    "type_name", ["sensor_msgs/msg/Imu", "sensor_msgs/msg/PointCloud2", "shape_msgs/msg/Mesh"]
+)
+def test_arrays_and_sequences_come_back(type_name):
+    message = msg.get_message(type_name)()
+    for name, value in {"data": [1, 255], "angular_velocity_covariance": [0.5] * 9}.items():
+        if hasattr(message, name):
+            setattr(message, name, value)
+    if hasattr(message, "triangles"):
+        message.triangles = [
+            msg.get_message("shape_msgs/msg/MeshTriangle")(vertex_indices=[1, 2, 3])
+        ]
+    again = back(type_name, json_from_message(message))
+    assert msg.serialize(again) == msg.serialize(message)
+
+
+def test_json_of_other_programs_is_understood():
+    assert list(back("sensor_msgs/msg/Image", b'{"data": "AAEC"}').data) == [0, 1, 2]
+    assert back("std_msgs/msg/Int64", b'{"data": "-9007199254740993"}').data == -9007199254740993
+    assert back("std_msgs/msg/Int32", b'{"data": 3.0}').data == 3
+    assert back("std_msgs/msg/Float64", b'{"data": "-Infinity"}').data == -math.inf
+    assert back("std_msgs/msg/Byte", b'{"data": 7}').data == b"\x07"
+    assert back("std_msgs/msg/Empty", b"{}") is not None
+
+
+@pytest.mark.parametrize(
+    ("type_name", "payload", "reason"),
+    [
+        ("std_msgs/msg/Int8", '{"data": 200}', "data"),
+        (
+            "std_msgs/msg/Int32",
+            '{"data": 1.5}',
+            "std_msgs/msg/Int32.data: expected an integer, got 1.5",
+        ),
+        ("std_msgs/msg/UInt64", '{"data": "12x"}', 'data: expected an integer, got "12x"'),
+        ("std_msgs/msg/UInt64", '{"data": "' + "9" * 5000 + '"}', "data"),
+        ("std_msgs/msg/Byte", '{"data": 256}', "data: expected a byte, got 256"),
+        ("std_msgs/msg/Float64", '{"data": true}', "data: expected a number, got true"),
+        ("std_msgs/msg/Float64", '{"data": null}', "data: expected a number, got null"),
+        ("sensor_msgs/msg/Imu", '{"orientation_covariance": [1]}', "orientation_covariance"),
+        ("sensor_msgs/msg/Image", '{"data": [256]}', "data"),
+        ("sensor_msgs/msg/Image", '{"data": "*"}', "data: no base64: "),
+        ("sensor_msgs/msg/Image", '{"data": {}}', "data: expected a list, got {}"),
+        (
+            "geometry_msgs/msg/Twist",
+            '{"linear": {"w": 1}}',
+            "Twist.linear has no field 'w', it has x, y, z",
+        ),
+        ("geometry_msgs/msg/Twist", '{"linear": 1}', "linear: expected an object, got 1"),
+        ("std_msgs/msg/String", '{"data": "\\ud800"}', ""),
+        ("std_msgs/msg/String", "[" * 100_000, "no JSON: "),
+        ("std_msgs/msg/String", "[]", "std_msgs/msg/String: expected an object, got []"),
+    ],
+)
+def test_wrong_json_names_the_field(type_name, payload, reason):
+    with pytest.raises(CdrError) as error:
+        cdr_from_json(type_name, payload.encode())
+    assert reason in str(error.value)
+
+
+values = st.one_of(
+    st.booleans(),
+    st.integers(-(2**63), 2**63 - 1),
+    st.text(),
+    floats,
+    st.lists(st.booleans(), min_size=1),
+    st.lists(st.integers(-(2**63), 2**63 - 1), min_size=1),
+    st.lists(st.text(), min_size=1),
+    st.lists(floats, min_size=1),
+)
+
+
+@given(values)
+def test_a_parameter_comes_back_from_json_as_it_was(value):
+    before = from_json(value, None, 0)
+    shown = json.loads(json.dumps(to_json("/n.p", before), allow_nan=False))
+    after = from_json(shown["value"], shown.get("type"), before.type)
+    assert to_json("/n.p", after) == shown
+    assert after.type == before.type
+
+
+def test_numbers_of_javascript_take_the_type_that_the_parameter_has():
+    assert from_json(2, None, 3).double_value == 2.0
+    assert from_json(2, None, 2).integer_value == 2
+    assert from_json(2, "float64", 0).type == 3
+    assert list(from_json([1, 2.5], None, 7).double_array_value) == [1.0, 2.5]
+    assert from_json([], None, 7).type == 7
+    assert from_json([], "float64_array", 0).type == 8
+    assert from_json(None, None, 3).type == 0
+    assert to_json("/n.p", from_json(None, None, 3)) == {"name": "/n.p"}
+    for wrong in ({"a": 1}, [[1]], [1, "a"], 2**63):
+        with pytest.raises(ValueError, match=r"."):
+            from_json(wrong, None, 0)
+    with pytest.raises(ValueError, match="base64"):
+        from_json("*", "byte_array", 0)
+    with pytest.raises(ValueError, match="base64"):
+        from_json(7, "byte_array", 0)
+
+
+def test_parts_of_services_and_actions_are_written_as_a_file_would_be():
+    text = schema("rcl_interfaces/srv/ListParameters_Request")
+    assert text == "uint64 DEPTH_RECURSIVE=0\nstring[] prefixes\nuint64 depth\n"
+    text = schema("example_interfaces/action/Fibonacci_FeedbackMessage")
+    head, *rest = text.split("\n" + 80 * "=" + "\n")
+    assert head.startswith(
+        "unique_identifier_msgs/UUID goal_id\nexample_interfaces/Fibonacci_Feedback"
+    )
+    assert any(
+        part.startswith("MSG: example_interfaces/Fibonacci_Feedback\nint32[]") for part in rest
+    )
+
+
+def test_a_written_definition_means_what_was_parsed():
+    """The text of a request is read back by the parser of .msg files."""
+    names = msg.interface_names()
+    for package, kinds in names.items():
+        for name in kinds["srv"]:
+            request = msg.get_service(f"{package}/srv/{name}").Request
+            body = schema(f"{package}/srv/{name}_Request").split("\n" + 80 * "=")[0]
+            parsed = parse_message(f"{package}/msg/X", body)
+            wanted = [(field.name, str(field.type)) for field in request._DEFINITION.fields]
+            assert [(field.name, str(field.type)) for field in parsed.fields] == wanted
+
+
+def test_names_of_types():
+    assert full_name("std_msgs/String") == full_name("std_msgs/msg/String") == "std_msgs/msg/String"
+    for wrong in ("x", "", "a/b/c/d", "std_msgs/msg/Nothing", "a::b", "../x/y"):
+        with pytest.raises(InterfaceError):
+            schema(wrong)
+
+
+def test_only_what_has_changed_is_told():
+    empty = Connections({}, {}, {})
+    now = Connections({"/a": ["/n"]}, {"/a": ["/m"], "/b": ["/m"]}, {"/s": ["/n"]})
+    told = difference(empty, now)
+    assert told["publishedTopics"] == [{"name": "/a", "publisherIds": ["/n"]}]
+    assert [each["name"] for each in told["subscribedTopics"]] == ["/a", "/b"]
+    assert told["advertisedServices"] == [{"name": "/s", "providerIds": ["/n"]}]
+    assert not any(difference(now, now).values())
+    later = Connections({}, {"/a": ["/m"]}, {})
+    told = difference(now, later)
+    assert told["publishedTopics"] == [{"name": "/a", "publisherIds": []}]
+    assert (told["removedTopics"], told["removedServices"]) == (["/b"], ["/s"])
