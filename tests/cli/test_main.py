@@ -62,7 +62,10 @@ def offered(line, answers):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("turtlewire ", ["--version", "bag", "compare", "doctor", "frames", "trajectory"]),
+        (
+            "turtlewire ",
+            ["--version", "bag", "compare", "doctor", "foxglove", "frames", "trajectory", "view"],
+        ),
         ("turtlewire d", ["doctor"]),
         ("turtlewire doctor --", ["--json", "--listen", "--static-topic", "--topic"]),
         ("turtlewire doctor --l", ["--listen"]),

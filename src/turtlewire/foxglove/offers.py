@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Offers"]
 
-Change = dict[str, list[Any]]
+_Change = dict[str, list[Any]]
 """The fields of the frames ``advertise``, ``unadvertise`` and the same of services, by their op."""
 
 
@@ -62,7 +62,7 @@ class Offers:
         self.services: dict[int, OfferedService] = {}
         self.service_names: set[str] = set()
 
-    def refresh(self, endpoints: list[EndpointInfo]) -> Change:
+    def refresh(self, endpoints: list[EndpointInfo]) -> _Change:
         """Take over the graph's present state; what clients have to learn."""
         topics = self._topics(endpoints)
         services = _servers(endpoints)

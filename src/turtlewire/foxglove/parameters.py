@@ -28,9 +28,6 @@ _LIMIT = 5.0
 _LIST = "/list_parameters"
 _EVENTS, _EVENT_TYPE = "/parameter_events", "rcl_interfaces/msg/ParameterEvent"
 
-Problem = str
-"""Why a parameter was not read or set, for the client's user."""
-
 
 class Parameters:
     """Reads and sets parameters by calling the nodes' services.
@@ -48,8 +45,10 @@ class Parameters:
         self._allowed = allowed
         self._services = services
 
-    async def read(self, names: list[str]) -> tuple[list[dict[str, Any]], list[Problem]]:
-        """The values of parameters, in JSON; those that are not set are left out.
+    async def read(self, names: list[str]) -> tuple[list[dict[str, Any]], list[str]]:
+        """The values of parameters, in JSON, and the reasons why others were not read.
+
+        Those that are not set are left out.
 
         Args:
             names: Their names, ``/node.name``; none stands for all parameters of all nodes.
@@ -61,8 +60,8 @@ class Parameters:
         shown = [to_json(name, value) for name, value in values.items()]
         return [parameter for parameter in shown if "value" in parameter], problems
 
-    async def write(self, wanted: list[dict[str, Any]]) -> list[Problem]:
-        """Set parameters as JSON has them; one without a value is unset."""
+    async def write(self, wanted: list[dict[str, Any]]) -> list[str]:
+        """Set parameters as JSON has them, or unset those without a value; what was refused."""
         by_name = {each["name"]: each for each in wanted}  # of several values the last one counts
         names_of_node, problems = self._by_node(by_name)
         # Of which types they are now; a node may take parameters that it does not have yet.
@@ -83,7 +82,7 @@ class Parameters:
             problems += found
         return problems
 
-    async def _write_node(self, node: str, parameters: list[Any]) -> tuple[None, list[Problem]]:
+    async def _write_node(self, node: str, parameters: list[Any]) -> tuple[None, list[str]]:
         response = await self._ask(node, "SetParameters", parameters=parameters)
         return None, [
             f"parameter {node}.{parameter.name} was not set: {result.reason or 'refused'}"
@@ -91,16 +90,16 @@ class Parameters:
             if not result.successful
         ]
 
-    async def _all_values(self) -> tuple[dict[str, Any], list[Problem]]:
+    async def _all_values(self) -> tuple[dict[str, Any], list[str]]:
         nodes = [name.removesuffix(_LIST) for name in self._services() if name.endswith(_LIST)]
         values: dict[str, Any] = {}
-        problems: list[Problem] = []
+        problems: list[str] = []
         for found, faults in await _each(self._node_values(node, None) for node in nodes):
             values.update(found or {})
             problems += faults
         return values, problems
 
-    async def _values(self, names: Iterable[str]) -> tuple[dict[str, Any], list[Problem]]:
+    async def _values(self, names: Iterable[str]) -> tuple[dict[str, Any], list[str]]:
         of_node, problems = self._by_node(names)
         values: dict[str, Any] = {}
         for found, faults in await _each(self._node_values(*item) for item in of_node.items()):
@@ -108,7 +107,7 @@ class Parameters:
             problems += faults
         return values, problems
 
-    def _by_node(self, names: Iterable[str]) -> tuple[dict[str, list[str]], list[Problem]]:
+    def _by_node(self, names: Iterable[str]) -> tuple[dict[str, list[str]], list[str]]:
         """Parameters by the nodes that have them."""
         services = set(self._services())
         problems, of_node = [], dict[str, list[str]]()
@@ -124,7 +123,7 @@ class Parameters:
 
     async def _node_values(
         self, node: str, names: list[str] | None
-    ) -> tuple[dict[str, Any], list[Problem]]:
+    ) -> tuple[dict[str, Any], list[str]]:
         if names is None:
             listed = await self._ask(node, "ListParameters")
             names = [name for name in listed.result.names if self._allowed.match(f"{node}.{name}")]
@@ -138,10 +137,8 @@ class Parameters:
         missing = [] if response.values else [f"node {node} has no parameter {names[0]}"]
         return values, missing
 
-    async def _one_by_one(
-        self, node: str, names: list[str]
-    ) -> tuple[dict[str, Any], list[Problem]]:
-        values, problems = dict[str, Any](), list[Problem]()
+    async def _one_by_one(self, node: str, names: list[str]) -> tuple[dict[str, Any], list[str]]:
+        values, problems = dict[str, Any](), list[str]()
         for name in names:
             found, faults = await self._node_values(node, [name])
             values.update(found)
@@ -160,11 +157,11 @@ class Parameters:
 
 
 async def _each(
-    works: Iterable[Awaitable[tuple[Any, list[Problem]]]],
-) -> list[tuple[Any, list[Problem]]]:
+    works: Iterable[Awaitable[tuple[Any, list[str]]]],
+) -> list[tuple[Any, list[str]]]:
     """The results of several nodes, side by side; a node that does not answer is a problem."""
 
-    async def guarded(work: Awaitable[tuple[Any, list[Problem]]]) -> tuple[Any, list[Problem]]:
+    async def guarded(work: Awaitable[tuple[Any, list[str]]]) -> tuple[Any, list[str]]:
         try:
             return await work
         except (CdrError, ServiceCallError, WireError) as error:
