@@ -346,7 +346,7 @@ joint_state_publisher reads COLLADA robots, too
   joint_state_publisher/test_description.py test_errors
 joint_state_publisher_gui opens a Qt window
   joint_state_publisher_gui/test_page.py test_a_slider_moves_its_joint_and_those_that_follow
-`rviz2` shows a robot
+`rviz2` opens a window
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 `ament_cmake` packages need CMake
   robots/test_urdf_tutorial.py test_the_workspace_is_known

@@ -1,4 +1,4 @@
-"""Stands in for RViz in launch files: turtlewire has no 3D view yet.
+"""The 3D view under RViz's name, for launch files and habits.
 
 =======  ========
 module   what it holds

@@ -1,4 +1,4 @@
-"""A node in RViz's place, so that launch files that start RViz run; it shows nothing."""
+"""`rviz2`: the 3D view in the browser, under the name that launch files start."""
 
 from __future__ import annotations
 
@@ -10,27 +10,50 @@ import sys
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
+from turtlewire.view import LiveSource, Viewer
+from turtlewire.web.desktop import open_browser, wanted_lan
+from turtlewire.web.lan import invite
 
 __all__ = ["main"]
 
-_NOTICE = (
-    "turtlewire has no 3D view yet: this node shows nothing. `turtlewire frames` shows the tree of "
-    "frames, `ros2 run tf2_ros tf2_echo SOURCE TARGET` where a link is; RViz on a machine with "
-    "ROS 2, with the same ROS_DOMAIN_ID, shows the robot."
+_DESCRIPTION = (
+    "Shows frames, robots and sensor data in the browser. It takes RViz's options as far as they "
+    "mean something in a browser; `turtlewire view` is the same without a node."
 )
 
 
 def main(args: list[str] | None = None) -> None:
-    """Take RViz's arguments, say that nothing is shown, and spin until Ctrl-C."""
-    parser = argparse.ArgumentParser(prog="rviz2", description=_NOTICE)
-    parser.add_argument("-d", "--display-config", help="RViz's settings")
-    options, _ = parser.parse_known_args(
-        remove_ros_args(sys.argv if args is None else ["", *args])[1:]
-    )
+    """Serve the page until Ctrl-C or the end of the context."""
+    options = _parse(remove_ros_args(sys.argv if args is None else ["", *args])[1:])
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("rviz2")
+        log = node.get_logger()
         config = options.display_config
-        if config is not None and not os.path.isfile(config):
-            node.get_logger().warning(f"There is no file {config}")
-        node.get_logger().info(_NOTICE)
-        rclpy.spin(node)
+        if config and not os.path.isfile(config):
+            log.warning(f"There is no file {config}")
+        lan = options.lan or wanted_lan()
+        viewer = Viewer(LiveSource(node.context.wire), options.fixed_frame, lan=lan)
+        try:
+            log.info(f"The view is at {viewer.url}")
+            if lan:
+                invite(viewer.url, log.info)
+            open_browser(viewer.url)
+            rclpy.spin(node)
+        finally:
+            viewer.close()
+
+
+def _parse(words: list[str]) -> argparse.Namespace:
+    """RViz's options; those about its window are taken and mean nothing."""
+    parser = argparse.ArgumentParser(prog="rviz2", description=_DESCRIPTION)
+    parser.add_argument("-d", "--display-config", default="", help="A .rviz file to show")
+    parser.add_argument("-f", "--fixed-frame", default="", help="Look from this frame first")
+    parser.add_argument("--lan", action="store_true", help="Serve other devices, too")
+    for names in (
+        ("-t", "--display-title-format"),
+        ("-s", "--splash-screen"),
+        ("-l", "--ogre-log"),
+    ):
+        parser.add_argument(*names, nargs="?", help=argparse.SUPPRESS)
+    parser.add_argument("--fullscreen", action="store_true", help=argparse.SUPPRESS)
+    return parser.parse_known_args(words)[0]

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from turtlewire.view.source import Source
 
-__all__ = ["add_view_command", "show_view"]
+__all__ = ["add_view_command"]
 
 
 def add_view_command(commands: Any) -> None:
@@ -33,32 +33,33 @@ def add_view_command(commands: Any) -> None:
     parser.add_argument(
         "--port", type=_port, metavar="N", help="Serve the page at this port (default: 7070)"
     )
+    parser.add_argument(
+        "--lan",
+        action="store_true",
+        help="Serve other devices of the network, too, at an address with a random token",
+    )
     parser.set_defaults(run=reporting_errors("view", _view), parser=parser)
 
 
 def _view(args: argparse.Namespace) -> int:
-    return show_view(args.bag, args.fixed_frame, args.port)
-
-
-def show_view(bag: str | None, fixed_frame: str, port: int | None) -> int:
-    """Serve the page until Ctrl-C or SIGTERM.
-
-    Args:
-        bag: A bag to show; None shows the wire.
-        fixed_frame: What pages look from first; empty takes the root of the largest tree.
-        port: Preferred TCP port; None takes `TURTLEWIRE_PORT` or 7070.
-
-    Returns:
-        The exit status.
-    """
+    """Serve the page until Ctrl-C or SIGTERM."""
     from turtlewire.view.viewer import Viewer
-    from turtlewire.web.desktop import open_browser
+    from turtlewire.web.desktop import open_browser, wanted_lan
+    from turtlewire.web.lan import invite
 
     ended = threading.Event()
     former = signal.signal(signal.SIGTERM, lambda *_: ended.set())
-    viewer = Viewer(_source(bag), fixed_frame, port=port)
+    lan = args.lan or wanted_lan()
+    source = _source(args.bag)
+    try:
+        viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan)
+    except BaseException:
+        source.close()
+        raise
     try:
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)
+        if lan:
+            invite(viewer.url, print)
         open_browser(viewer.url)
         ended.wait()
     except KeyboardInterrupt:

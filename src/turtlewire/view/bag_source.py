@@ -52,6 +52,7 @@ class BagSource:
         self._clock = PlayClock(self._start_ns)
         self._sinks: dict[str, list[Callable[[bytes], None]]] = {}
         self._wanted = 0  # counts changes of what is to be read, or from when
+        self._from_ns = self._start_ns
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="turtlewire-view-bag", daemon=True)
         self._thread.start()
@@ -157,6 +158,7 @@ class BagSource:
     def _read_again(self) -> None:
         """Let the thread start anew from the time that is shown; with the lock held."""
         self._wanted += 1
+        self._from_ns = self._clock.now_ns()
         self._news.notify_all()
 
     def _run(self) -> None:
@@ -164,7 +166,7 @@ class BagSource:
             with self._news:
                 if self._closed:
                     return
-                wanted, start_ns = self._wanted, self._clock.now_ns()
+                wanted, start_ns = self._wanted, self._from_ns
                 sinks = {topic: list(calls) for topic, calls in self._sinks.items()}
             try:
                 self._deliver_last(sinks, start_ns)

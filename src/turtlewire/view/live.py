@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from turtlewire import msg, wire
 from turtlewire.tf import inspection
@@ -35,6 +35,7 @@ class LiveSource:
     """What is on the wire of this process's domain.
 
     Args:
+        context: The participant to use; None joins the domain of the environment.
         history_ns: How long samples of frames are kept.
 
     Raises:
@@ -44,8 +45,11 @@ class LiveSource:
     kind = "live"
     problem = ""
 
-    def __init__(self, history_ns: int = _HISTORY_NS) -> None:
-        self._context = wire.open_context()
+    def __init__(
+        self, context: base.Context | None = None, *, history_ns: int = _HISTORY_NS
+    ) -> None:
+        self._own_context = wire.open_context() if context is None else None
+        self._context = context or cast("base.Context", self._own_context)
         self.name = f"ROS_DOMAIN_ID {self._context.domain_id}"
         self.buffer = Buffer(history_ns)
         self._restarts = RestartWatch(self.buffer)
@@ -121,7 +125,9 @@ class LiveSource:
         for end in self._ends:
             end()
         self._listener.close()
-        self._context.close()
+        self._node.close()
+        if self._own_context is not None:
+            self._own_context.close()
 
     def _tell(self) -> None:
         self._changed()

@@ -34,6 +34,7 @@ class Viewer:
         source: Where frames and messages come from; closed with the view.
         fixed_frame: What pages look from first; empty takes the root of the largest tree.
         port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
 
     Attributes:
         url: The page's address.
@@ -42,7 +43,9 @@ class Viewer:
         OSError: No port can be had.
     """
 
-    def __init__(self, source: Source, fixed_frame: str = "", *, port: int | None = None) -> None:
+    def __init__(
+        self, source: Source, fixed_frame: str = "", *, port: int | None = None, lan: bool = False
+    ) -> None:
         self.source = source
         self.fixed_frame = fixed_frame
         self._lock = threading.Lock()
@@ -50,8 +53,14 @@ class Viewer:
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
-        port = wanted_port() if port is None else port
-        self._server = Server(_PAGE, self._connect, port=port, answer=self._meshes.answer)
+        self._server = Server(
+            _PAGE,
+            self._connect,
+            port=wanted_port() if port is None else port,
+            lan=lan,
+            answer=self._meshes.answer,
+            immutable="/vendor/",
+        )
         self.url = self._server.url
         self._threads = [
             threading.Thread(target=run, name=f"turtlewire-view-{name}", daemon=True)

@@ -1,0 +1,147 @@
+"""A view of what a test publishes, and a page that is no browser."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import threading
+
+import pytest
+from tests.view.packets import decode_packet
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from turtlewire import msg, wire
+from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME
+from turtlewire.view import LiveSource, Viewer
+from turtlewire.wire.base import TypeId
+
+TF = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
+LIMIT_S = 60
+
+
+class Page:
+    """Collects packets, as a browser's page does."""
+
+    def __init__(self, url):
+        self._stack = contextlib.ExitStack()
+        address = f"{url.replace('http', 'ws', 1)}live"
+        self._socket = self._stack.enter_context(connect(address, max_size=None))
+        self._news = threading.Condition()
+        self._packets = []
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def send(self, kind, **fields):
+        self._socket.send(json.dumps({"type": kind, **fields}))
+
+    def send_raw(self, message):
+        self._socket.send(message)
+
+    def wait_for(self, kind, accept=lambda packet: True, *, after=0):
+        """The first packet of a kind that is accepted, of those after the first ``after``."""
+
+        def find():
+            return next((p for p in self._packets[after:] if p["type"] == kind and accept(p)), None)
+
+        with self._news:
+            assert self._news.wait_for(find, LIMIT_S), (kind, self.kinds(), self._packets[-3:])
+            return find()
+
+    def kinds(self):
+        return [packet["type"] for packet in self._packets]
+
+    def count(self):
+        with self._news:
+            return len(self._packets)
+
+    def places(self, packet):
+        """Name to place or None, of a packet with frames."""
+        names = self.wait_for("names", lambda p: p["version"] == packet["version"])["names"]
+        arrays = packet["arrays"]
+        return {
+            name: tuple(round(float(value), 5) for value in pose[:3]) if known else None
+            for name, pose, known in zip(names, arrays["poses"], arrays["known"], strict=True)
+        }
+
+    def wait_for_places(self, expected, *, after=0):
+        return self.wait_for("frames", lambda p: self.places(p) == expected, after=after)
+
+    def close(self):
+        self._stack.close()
+        self._thread.join()
+
+    def _run(self):
+        try:
+            for message in self._socket:
+                with self._news:
+                    self._packets.append(decode_packet(message))
+                    self._news.notify_all()
+        except ConnectionClosed:
+            pass
+
+
+class Robot:
+    """Publishes frames and messages."""
+
+    def __init__(self):
+        self._context = wire.open_context()
+        self._node = self._context.create_node("robot")
+        self._tf = self._node.create_publisher("/tf", TF, QOS)
+        self._tf_static = self._node.create_publisher("/tf_static", TF, STATIC_QOS)
+
+    def send(self, parent, child, place, stamp_s, *, static=False):
+        """Publish a transform when the view is there to hear it."""
+        publisher = self._tf_static if static else self._tf
+        heard = self._context.graph.wait_for(publisher.is_heard, LIMIT_S * 10**9)
+        assert heard, self._context.graph.endpoints()
+        publisher.publish(msg.serialize(transform_message(parent, child, place, stamp_s)))
+
+    def publisher(self, topic, type_name, qos):
+        identity = TypeId(type_name, msg.type_hash(type_name))
+        return self._node.create_publisher(topic, identity, qos)
+
+    def close(self):
+        self._context.close()
+
+
+def transform_message(parent, child, place, stamp_s):
+    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp.sec = int(stamp_s)
+    transform.header.stamp.nanosec = round(stamp_s % 1 * 1e9)
+    translation = transform.transform.translation
+    translation.x, translation.y, translation.z = map(float, place)
+    return msg.get_message(TYPE_NAME)(transforms=[transform])
+
+
+@pytest.fixture
+def robot():
+    robot = Robot()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def viewer():
+    viewer = Viewer(LiveSource(), port=0)
+    yield viewer
+    viewer.close()
+
+
+@pytest.fixture
+def open_view_page():
+    pages = []
+
+    def open_view_page(viewer):
+        pages.append(Page(viewer.url))
+        return pages[-1]
+
+    yield open_view_page
+    for page in pages:
+        page.close()
+
+
+@pytest.fixture
+def page(viewer, open_view_page):
+    return open_view_page(viewer)

@@ -1,0 +1,113 @@
+"""The view over a real wire: what a page is told, and what it may ask for."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from turtlewire.view import LiveSource, Viewer
+
+NOW_S = 1_800_000_000
+
+
+def test_frames_come_with_their_names_and_move(robot, page):
+    assert page.wait_for("hello")["source"]["kind"] == "live"
+    robot.send("map", "base", (1, 0, 0), NOW_S)
+    page.wait_for_places({"map": (0, 0, 0), "base": (1, 0, 0)})
+    robot.send("map", "base", (2, 0, 0), NOW_S + 1)
+    page.wait_for_places({"map": (0, 0, 0), "base": (2, 0, 0)})
+    robot.send("base", "laser", (0, 0, 1), 0, static=True)
+    page.wait_for_places({"map": (0, 0, 0), "base": (2, 0, 0), "laser": (2, 0, 1)})
+    rows = {
+        row["name"]: row for row in page.wait_for("tree", lambda p: len(p["rows"]) == 2)["rows"]
+    }
+    assert (rows["base"]["publisher"], rows["laser"]["static"]) == ("/robot", True)
+
+
+def test_nothing_is_sent_again_while_nothing_changes(robot, page):
+    robot.send("map", "base", (1, 0, 0), NOW_S)
+    page.wait_for_places({"map": (0, 0, 0), "base": (1, 0, 0)})
+    seen = page.count()
+    page.wait_for("tree", after=seen)
+    seen = page.count()
+    page.wait_for("tree", after=seen)
+    assert "frames" not in page.kinds()[seen:]
+
+
+def test_the_fixed_frame_is_the_pages_own(robot, viewer, page, open_view_page):
+    robot.send("map", "base", (1, 0, 0), NOW_S)
+    page.wait_for_places({"map": (0, 0, 0), "base": (1, 0, 0)})
+    other = open_view_page(viewer)
+    other.send("fixed", frame="base")
+    other.wait_for_places({"map": (-1, 0, 0), "base": (0, 0, 0)})
+    assert other.wait_for("names", lambda p: p["chosen"] == "base")["fixed"] == "base"
+    robot.send("map", "base", (3, 0, 0), NOW_S + 1)
+    page.wait_for_places({"map": (0, 0, 0), "base": (3, 0, 0)})
+    other.wait_for_places({"map": (-3, 0, 0), "base": (0, 0, 0)})
+
+
+def test_one_frame_as_another_sees_it(robot, page):
+    robot.send("map", "base", (1, 0, 0), NOW_S)
+    robot.send("base", "laser", (0, 0, 1), NOW_S)
+    page.send("relation", target="map", source="laser")
+    answer = page.wait_for("relation", lambda p: p.get("path") == ["laser", "base", "map"])
+    assert answer["translation"] == [1, 0, 1]
+    page.send("relation", target="map", source="lasre")
+    assert "laser" in page.wait_for("relation", lambda p: "error" in p and p["hint"])["hint"]
+
+
+def test_a_paused_page_goes_back_in_time(robot, page):
+    for second in range(4):
+        robot.send("map", "base", (second, 0, 0), NOW_S + second)
+    page.wait_for_places({"map": (0, 0, 0), "base": (3, 0, 0)})
+    page.send("seek", stamp=NOW_S + 1.5)
+    page.wait_for_places({"map": (0, 0, 0), "base": (1.5, 0, 0)})
+    assert not page.wait_for("time", lambda p: not p["live"])["playing"]
+    robot.send("map", "base", (9, 0, 0), NOW_S + 4)
+    seen = page.count()
+    page.wait_for("tree", after=seen)
+    page.send("seek", stamp=NOW_S + 100)
+    page.wait_for_places({"map": (0, 0, 0), "base": (3, 0, 0)}, after=seen)
+    page.send("play")
+    page.wait_for_places({"map": (0, 0, 0), "base": (9, 0, 0)}, after=seen)
+
+
+@pytest.mark.parametrize(
+    ("message", "answer"),
+    [
+        ("{", "no JSON"),
+        ("[" * 10_000, "no JSON"),
+        ("[]", "no command None"),
+        (b"\x00\xff", "no JSON"),
+        ('{"type": "fly"}', "no command 'fly'"),
+        ('{"type": "fixed", "frame": 3}', "'frame' must be a text"),
+        (json.dumps({"type": "fixed", "frame": "x" * 2000}), "at most 1000 characters"),
+        ('{"type": "seek", "stamp": "now"}', "'stamp' must be a number"),
+        ('{"type": "seek", "stamp": NaN}', "'stamp' must be a number from 0"),
+        ('{"type": "seek", "stamp": 1e400}', "'stamp' must be a number from 0"),
+        ('{"type": "speed", "factor": -1}', "'factor' must be a number from"),
+        ('{"type": "add", "id": "1", "kind": "nothing", "topic": "/x"}', "No display 'nothing'"),
+        ('{"type": "options", "id": "1", "options": {}}', "no display '1'"),
+        ('{"type": "budget", "points": true}', "'points' must be a number"),
+    ],
+)
+def test_wrong_commands_are_answered_and_the_page_lives(page, message, answer):
+    page.send_raw(message)
+    page.wait_for("error", lambda p: answer in p["text"])
+    page.send("fixed", frame="elsewhere")
+    page.wait_for("names", lambda p: p["chosen"] == "elsewhere")
+
+
+def test_pages_that_leave_are_forgotten(viewer, open_view_page):
+    for _ in range(3):
+        page = open_view_page(viewer)
+        page.wait_for("hello")
+        page.close()
+    viewer.close()  # returns
+    with pytest.raises(ConnectionRefusedError):
+        open_view_page(viewer)
+
+
+def test_a_source_without_anything_closes_at_once():
+    Viewer(LiveSource(), port=0).close()
