@@ -218,9 +218,10 @@ class BagSource:
     def _wait(self, wanted: int) -> None:
         """Until the next picture; while nothing moves, until something is asked for."""
         with self._news:
-            if self._clock.now_ns() >= self._end_ns:
-                self._clock.jump(self._end_ns)
+            if self._clock.now_ns() >= self._end_ns and not self._clock.is_paused:
                 self._clock.pause()
+                self._clock.jump(self._end_ns)
+                return  # the end is shown before anything is waited for
             held = self._clock.is_paused
 
             def is_time() -> bool:
