@@ -213,6 +213,7 @@ class AmentPackageTest(TaskExtensionPoint):
             "--result", str(folder / f"{test['name']}.xunit.xml"),
             "--folder", test["folder"],
             "--timeout", str(test["timeout"]),
+            *(["--isolated"] if test["isolated"] else []),
             "--", *test["words"],
         ]  # fmt: skip
         extra = getattr(args, "pytest_args", None) or []

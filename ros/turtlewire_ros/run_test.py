@@ -11,9 +11,16 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
+
+from turtlewire.testing import reserved_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
 #: A launch test needs this module, which comes with ROS 2's launch_testing.
@@ -36,6 +43,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--result", type=Path, required=True)
     parser.add_argument("--folder", required=True, help="where it runs; made if it is missing")
     parser.add_argument("--timeout", type=float, required=True)
+    parser.add_argument("--isolated", action="store_true", help="in a ROS domain of its own")
     parser.add_argument("words", nargs="+")
     options = parser.parse_args(argv)
     result: Path = options.result
@@ -46,7 +54,9 @@ def main(argv: list[str] | None = None) -> int:
     if options.kind == "launch" and find_spec(_LAUNCH_MODULE) is None:
         _write_result(result, options.name, skipped=f"there is no {_LAUNCH_MODULE} here")
         return 0
-    status = _run(_command(options.kind, options.words, result, options.name), options.timeout)
+    command = _command(options.kind, options.words, result, options.name)
+    with _own_domain() if options.isolated else nullcontext():
+        status = _run(command, options.timeout)
     if status is None:
         _write_result(result, options.name, f"no end after {options.timeout:g} s")
         return 1
@@ -55,6 +65,18 @@ def main(argv: list[str] | None = None) -> int:
     if options.kind == "command":
         _write_result(result, options.name, f"exit status {status}" if status else "")
     return status
+
+
+@contextmanager
+def _own_domain() -> Iterator[None]:
+    """Keep other tests of this computer apart; the variable that prevents it is ROS 2's."""
+    if "DISABLE_ROS_ISOLATION" in os.environ:
+        yield
+        return
+    with reserved_domain() as domain:
+        os.environ["ROS_DOMAIN_ID"] = str(domain)
+        print(f"Running with ROS_DOMAIN_ID {domain}", flush=True)  # noqa: T201 -- as ROS 2's does
+        yield
 
 
 def _pytest_status(status: int, words: list[str], result: Path, name: str) -> int:

@@ -216,6 +216,20 @@ def test_what_is_installed(evaluate, tmp_path):
     assert (file.destination, file.optional) == ("share/x", True)
 
 
+def test_descriptions_of_plugins_are_installed_and_registered(evaluate, tmp_path):
+    plan, _ = evaluate(
+        "pluginlib_export_plugin_description_file(rqt_gui plugin.xml)\n"
+        "pluginlib_export_plugin_description_file(rqt_gui more/other.xml)\n"
+    )
+    source = tmp_path / "robot"
+    assert [(install.sources, install.destination) for install in plan.installs] == [
+        ((f"{source}/plugin.xml",), "share/robot"),
+        ((f"{source}/more/other.xml",), "share/robot/more"),
+    ]
+    content = "share/robot/plugin.xml\nshare/robot/more/other.xml\n"
+    assert plan.resources == [("rqt_gui__pluginlib__plugin", "robot", content)]
+
+
 def test_globs(evaluate, tmp_path):
     _, variables = evaluate(
         'file(GLOB a RELATIVE ${CMAKE_CURRENT_LIST_DIR} "msg/*.msg")\n'
@@ -349,7 +363,10 @@ def test_tests(evaluate, tmp_path):
         "  add_launch_test(test/two.py ARGS a:=b)\n"
         "  ament_add_test(three COMMAND echo hello WORKING_DIRECTORY test)\n"
         "  add_test(NAME four COMMAND compiled)\n"
-        "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\nendif()",
+        "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\n"
+        '  add_launch_test(test/two.py TARGET six RUNNER "${x_DIR}/run_test_isolated.py")\n'
+        "  ament_add_ros_isolated_pytest_test(seven test/test_one.py)\n"
+        "  ament_add_ros_isolated_gtest(eight a.cpp)\nendif()",
         **{"test/test_one.py": "", "test/two.py": ""},
     )
     folder = tmp_path / "robot"
@@ -357,9 +374,12 @@ def test_tests(evaluate, tmp_path):
         ("one", "pytest", (f"{folder}/test/test_one.py",)),
         ("test_two.py", "launch", (f"{folder}/test/two.py", "a:=b")),
         ("three", "command", ("echo", "hello")),
+        ("six", "launch", (f"{folder}/test/two.py",)),
+        ("seven", "pytest", (f"{folder}/test/test_one.py",)),
     ]
+    assert [test.name for test in plan.tests if test.isolated] == ["six", "seven"]
     assert plan.tests[0].environment == {"A": "1", "B": "2"}
-    assert [test.timeout for test in plan.tests] == [90, 60, 60]
+    assert [test.timeout for test in plan.tests] == [90, 60, 60, 60, 60]
     assert plan.tests[2].folder == os.path.join(folder, "test")
 
 

@@ -95,3 +95,18 @@ def test_a_launch_test_without_launch_testing_is_skipped(tmp_path, monkeypatch):
         0,
         "skipped: there is no launch_testing here",
     )
+
+
+@pytest.mark.parametrize("wanted", [True, False])
+def test_a_domain_of_its_own(tmp_path, monkeypatch, wanted):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "231")
+    monkeypatch.delenv("DISABLE_ROS_ISOLATION", raising=False)
+    if not wanted:
+        monkeypatch.setenv("DISABLE_ROS_ISOLATION", "")
+    source = "import os, sys; sys.exit(int(os.environ['ROS_DOMAIN_ID'] == '231'))"
+    status = main(
+        ["--kind", "command", "--name", "pkg.a", "--result", str(tmp_path / "a.xunit.xml"),
+         "--timeout", "60", "--folder", str(tmp_path), "--isolated",
+         "--", sys.executable, "-c", source]
+    )  # fmt: skip
+    assert status == (0 if wanted else 1)

@@ -31,6 +31,7 @@ _WITHOUT_EFFECT = (
     "ament_export_link_flags", "ament_package_xml", "ament_lint_auto_find_test_dependencies",
     "rosidl_export_typesupport_libraries", "rosidl_export_typesupport_targets",
     "rosidl_default_generators", "ament_add_gtest", "ament_add_gmock",
+    "ament_add_ros_isolated_gtest", "ament_add_ros_isolated_gmock",
     "ament_auto_find_test_dependencies", "ament_add_default_options",
 )  # fmt: skip
 _TEST_OPTIONS = ("SKIP_TEST", "GENERATE_RESULT_FOR_RETURN_CODE_ZERO")
@@ -137,6 +138,21 @@ def _register_resource(run: Interpreter, call: Call) -> None:
     run.plan.resources.append(Resource(parsed.rest[0], package, content))
 
 
+def _export_plugins(run: Interpreter, call: Call) -> None:
+    """Install and register a description of plugins, as rqt's, which may be in Python."""
+    category, relative = call.words[:2]
+    package = run.variables["PROJECT_NAME"]
+    share = f"share/{package}"
+    folder = os.path.normpath(os.path.join(share, os.path.dirname(relative)))
+    run.plan.installs.append(Install("FILES", (run.source_path(relative),), folder, call.place))
+    kind, content = f"{category}__pluginlib__plugin", f"{share}/{relative}\n"
+    earlier = [each for each in run.plan.resources if each[:2] == (kind, package)]
+    for each in earlier:
+        run.plan.resources.remove(each)
+        content = each.content + content
+    run.plan.resources.append(Resource(kind, package, content))
+
+
 def _environment_hooks(run: Interpreter, call: Call) -> None:
     # Empty words are hooks that ament's variables name, which are for C++ libraries.
     for word in filter(None, call.words):
@@ -226,7 +242,12 @@ def _add_test(run: Interpreter, call: Call, kind: str, name: str, words: tuple[s
     folder = parsed.values.get("WORKING_DIRECTORY", run.variables[default])
     environment = dict(line.split("=", 1) for line in lines)
     timeout = float(parsed.values.get("TIMEOUT", _CMAKE_TIMEOUT if plain else _TIMEOUT))
-    run.plan.tests.append(TestRun(name, kind, words, environment, run.source_path(folder), timeout))
+    # The runner, and the commands that use it, are those of ament_cmake_ros.
+    runner = parsed.values.get("RUNNER", "")
+    isolated = runner.endswith("run_test_isolated.py") or "_ros_isolated_" in call.name
+    run.plan.tests.append(
+        TestRun(name, kind, words, environment, run.source_path(folder), timeout, isolated)
+    )
 
 
 def _test_arguments(call: Call) -> Parsed:
@@ -247,10 +268,13 @@ AMENT: dict[str, Handler] = {
     "ament_python_install_module": _python_module,
     "ament_index_register_resource": _register_resource,
     "ament_environment_hooks": _environment_hooks,
+    "pluginlib_export_plugin_description_file": _export_plugins,
     "rosidl_generate_interfaces": _generate_interfaces,
     "ament_add_pytest_test": _add_pytest_test,
+    "ament_add_ros_isolated_pytest_test": _add_pytest_test,
     "add_launch_test": _add_launch_test,
     "add_ros_test": _add_launch_test,
     "ament_add_test": _add_command_test,
+    "ament_add_ros_isolated_test": _add_command_test,
     "add_test": _add_command_test,
 }

@@ -131,6 +131,7 @@ class TestRun(NamedTuple):
         environment: Variables set for it.
         folder: Where it runs.
         timeout: Seconds.
+        isolated: Whether it runs in a ROS domain of its own.
     """
 
     name: str
@@ -139,6 +140,7 @@ class TestRun(NamedTuple):
     environment: dict[str, str]
     folder: str
     timeout: float
+    isolated: bool = False
 
 
 @dataclass

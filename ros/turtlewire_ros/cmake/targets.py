@@ -41,8 +41,7 @@ _WITHOUT_EFFECT = (
     "generate_export_header", "export", "configure_package_config_file",
     "write_basic_package_version_file", "check_cxx_compiler_flag", "pkg_check_modules",
     "pkg_search_module", "find_library", "find_path", "find_program", "find_file", "source_group",
-    "ament_target_dependencies", "pluginlib_export_plugin_description_file",
-    "pluginlib_enable_plugin_testing", "rosidl_target_interfaces",
+    "ament_target_dependencies", "pluginlib_enable_plugin_testing", "rosidl_target_interfaces",
     "rosidl_get_typesupport_target", "qt5_wrap_cpp", "qt5_wrap_ui", "qt5_add_resources",
 )  # fmt: skip
 
