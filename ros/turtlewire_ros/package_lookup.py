@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from turtlewire.suggestion import did_you_mean
 from turtlewire_ros.prefix import MARKERS, editable_source, own_prefix
 
 if TYPE_CHECKING:
@@ -58,6 +59,13 @@ class PackageLookup:
         generates anything here.
         """
         return _BUILD_ONLY.fullmatch(name) is not None or self.is_installed(name)
+
+    def suggestion(self, name: str) -> str:
+        """The nearest names of installed packages in parentheses; empty if none is near."""
+        folders = [os.path.join(prefix, MARKERS) for prefix in self._prefixes]
+        known = {each for folder in folders if os.path.isdir(folder) for each in os.listdir(folder)}
+        near = did_you_mean(name, sorted(known))
+        return f" ({near})" if near else ""
 
     def config(self, name: str) -> Path | None:
         """The file with the CMake extras of a package that turtlewire has built, or None."""

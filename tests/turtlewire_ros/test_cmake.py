@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from turtlewire_ros.cmake.evaluate import evaluate_package
 from turtlewire_ros.cmake.syntax import CMakeError, parse_commands
 from turtlewire_ros.cmake.tool import main as tool
+from turtlewire_ros.package_lookup import PackageLookup
 
 MANIFEST = "<package><name>robot</name><version>1.2.3</version><depend>std_msgs</depend></package>"
 HEAD = "cmake_minimum_required(VERSION 3.8)\nproject(robot)\nfind_package(ament_cmake REQUIRED)\n"
@@ -178,6 +179,9 @@ def test_elseif(evaluate):
         ("rosidl_generate_interfaces(robot)", 4, "names no files"),
         ("xacro_add_files(a.xacro)", 4, "xacro_add_files(): there is no file"),
         ("xacro_add_files(package.xml)", 4, "name the output, or the file .xacro"),
+        ("include(nope)", 4, "include(): there is no module in CMAKE_MODULE_PATH and no file"),
+        ("include(nope.cmake)", 4, "include(): there is no file"),
+        ("project(other)\nament_package()", 5, "package.xml is of 'robot', and project() of 'other'"),
         ("catkin_package()", 4, "is of ROS 1, whose packages do not run here"),
     ],
 )  # fmt: skip
@@ -270,6 +274,15 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
     assert [":5: there is no package 'urdf_of_nobody'" in line for line in plan.missing] == [True]
     plan, _ = evaluate("if(BUILD_TESTING)\n  find_package(nobody_has_this_msgs REQUIRED)\nendif()")
     assert plan.missing == []
+
+
+def test_the_nearest_package_is_named(tmp_path):
+    markers = tmp_path / "share/ament_index/resource_index/packages"
+    markers.mkdir(parents=True)
+    (markers / "walker_msgs").touch()
+    lookup = PackageLookup({"AMENT_PREFIX_PATH": f"{tmp_path}{os.pathsep}{tmp_path}/none"})
+    assert lookup.suggestion("walke_mgs").startswith(" (Did you mean: walker_msgs")
+    assert lookup.suggestion("x") == ""
 
 
 @pytest.mark.parametrize(

@@ -53,8 +53,8 @@ def _find_package(run: Interpreter, call: Call) -> None:
         run.run_file(config)
     if not known and "REQUIRED" in call.words and not run.testing:
         run.plan.missing.append(
-            f"{call.place}: there is no package '{name}'; add it to the workspace, or source or "
-            "install what has it"
+            f"{call.place}: there is no package '{name}'{run.packages.suggestion(name)}; add it to "
+            "the workspace, or source or install what has it"
         )
 
 
@@ -65,6 +65,11 @@ def _find_build_dependencies(run: Interpreter, _call: Call) -> None:
 
 
 def _package(run: Interpreter, call: Call) -> None:
+    project, name = run.variables.get("PROJECT_NAME", ""), run.variables["AMENT_PACKAGE_NAME"]
+    if project != name:
+        raise CMakeError(
+            call.place, f"{call.name}(): package.xml is of '{name}', and project() of '{project}'"
+        )
     parsed = parse_keywords(
         call.words,
         options=("USE_SCOPED_HEADER_INSTALL_DIR",),
@@ -76,7 +81,7 @@ def _package(run: Interpreter, call: Call) -> None:
             if not path.is_file():
                 raise CMakeError(call.place, f"{call.name}({keyword}): there is no file {path}")
             run.plan.extras.append(path)
-    share = f"share/{run.variables['PROJECT_NAME']}"
+    share = f"share/{project}"
     folders = parsed.lists.get("INSTALL_TO_SHARE", [])
     if folders:
         sources = tuple(run.source_path(word) for word in folders)

@@ -59,6 +59,7 @@ def evaluate_package(
     plan = Plan(version=manifest.version)
     variables = _variables(source, build, prefix)
     variables["PYTHON_INSTALL_DIR"] = python_folder
+    variables["AMENT_PACKAGE_NAME"] = manifest.name
     variables["AMENT_BUILD_DEPENDENCIES"] = ";".join(manifest.build_dependencies)
     for argument in cmake_arguments:
         match = _DEFINITION.match(argument)

@@ -163,9 +163,11 @@ def _include(run: Interpreter, call: Call) -> None:
         if folder and os.path.isfile(module):
             run.run_file(module)
             return
-    # Modules of CMake itself have no extension; what matters of them here is defined beforehand.
-    if name.endswith(".cmake") and "OPTIONAL" not in call.words:
-        raise CMakeError(call.place, f"include(): there is no file {path}")
+    # Modules of CMake itself begin with a capital letter, and what matters of them here is defined
+    # beforehand.
+    if (name.endswith(".cmake") or not name[0].isupper()) and "OPTIONAL" not in call.words:
+        kind = "file" if name.endswith(".cmake") else "module in CMAKE_MODULE_PATH and no file"
+        raise CMakeError(call.place, f"include(): there is no {kind} {path}")
 
 
 def _add_subdirectory(run: Interpreter, call: Call) -> None:
