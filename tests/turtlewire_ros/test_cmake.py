@@ -181,7 +181,7 @@ def test_elseif(evaluate):
         ("xacro_add_files(package.xml)", 4, "name the output, or the file .xacro"),
         ("include(nope)", 4, "include(): there is no module in CMAKE_MODULE_PATH and no file"),
         ("include(nope.cmake)", 4, "include(): there is no file"),
-        ("project(other)\nament_package()", 5, "package.xml is of 'robot', and project() of 'other'"),
+        ("project(other)\nament_package()", 5, "is of 'robot', and project() of 'other'"),
         ("catkin_package()", 4, "is of ROS 1, whose packages do not run here"),
     ],
 )  # fmt: skip
