@@ -19,6 +19,8 @@ import weakref
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from turtlewire.platforms import in_browser
+
 from . import excepthooks
 
 if TYPE_CHECKING:
@@ -167,13 +169,14 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
     """Handle the signals of ``options``; nothing happens when handlers are installed already.
 
     Python allows this in the main thread only: elsewhere nothing is installed, and signals stay the
-    main program's business.
+    main program's business. In a browser tab no signal comes, and no thread could wait for one.
     """
     global _watcher, _options  # noqa: PLW0603 - signal handlers belong to the process
     with _lock:
         if (
             _watcher is not None
             or options == SignalHandlerOptions.NO
+            or in_browser()
             or threading.current_thread() is not threading.main_thread()
         ):
             return

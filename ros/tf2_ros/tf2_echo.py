@@ -164,12 +164,18 @@ def describe(transform: TransformStamped, options: argparse.Namespace) -> str:
 
 
 def _matrix(t: Any, q: Any) -> list[list[float]]:
-    from tf_transformations import quaternion_matrix
-
-    matrix: list[list[float]] = quaternion_matrix((q.x, q.y, q.z, q.w)).tolist()
-    for row, offset in zip(matrix, (t.x, t.y, t.z), strict=False):
-        row[3] = offset
-    return matrix
+    """The transform as a 4x4 matrix, on plain floats: a browser tab has no NumPy."""
+    squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
+    root = (
+        math.sqrt(2.0 / squared) if squared > 0.0 else 0.0
+    )  # no rotation: as in quaternion_matrix
+    x, y, z, w = q.x * root, q.y * root, q.z * root, q.w * root
+    return [
+        [1.0 - y * y - z * z, x * y - z * w, x * z + y * w, t.x],
+        [x * y + z * w, 1.0 - x * x - z * z, y * z - x * w, t.y],
+        [x * z - y * w, y * z + x * w, 1.0 - x * x - y * y, t.z],
+        [0.0, 0.0, 0.0, 1.0],
+    ]
 
 
 def in_words(transform: TransformStamped, digits: int = 2) -> str:

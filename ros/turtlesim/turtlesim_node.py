@@ -288,6 +288,11 @@ class TurtlesimNode(CppNode):
             invite(self._screen.url, self.get_logger().info)
         open_browser(self._screen.url)
 
+    def show_on(self, screen: Any) -> None:
+        """Show the turtles on a screen with the methods of `Screen`, without serving a page."""
+        self._screen = screen
+        self._show_scene()
+
     def _scene(self) -> Any:
         from turtlesim.screen import Scene
 

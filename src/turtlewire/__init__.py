@@ -9,6 +9,7 @@ module        what it holds
 `foxglove`    the server of Foxglove's protocol: topics for Foxglove and Lichtblick
 `keyboard`    keys of a terminal, as teleop and ``ros2 bag`` read them
 `msg`         interface definitions, message classes, CDR and type hashes
+`platforms`   what this platform can do
 `printable`   text from other processes, made safe for a terminal
 `suggestion`  the nearest names to one that does not exist
 `testing`     a domain, a filled buffer and waiting, for users' tests

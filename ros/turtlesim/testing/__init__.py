@@ -11,6 +11,15 @@
 
 For pytest, ``pytest_plugins = ["turtlesim.testing.fixtures"]`` in ``conftest.py`` gives a fixture
 ``simulation``.
+
+============  ===================================================================
+module        what it holds
+============  ===================================================================
+`simulation`  the simulator and the nodes of a test, in lock-step
+`programs`    runs the ``main`` of a node's file up to where it spins
+`faults`      delay, loss, wrong frames and times …, to practise on
+`fixtures`    the fixture for pytest
+============  ===================================================================
 """
 
 from __future__ import annotations

@@ -16,6 +16,8 @@ from rclpy.executors import SingleThreadedExecutor, TimeoutException
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from turtlesim.model import TICK_NS
+from turtlesim.testing.faults import FaultyTransforms
+from turtlesim.testing.programs import nodes_of, rclpy_in_step
 from turtlesim.turtlesim_node import TurtlesimNode
 from turtlewire.wire.local.context import LocalContext
 
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 
     from rclpy.publisher import Publisher
     from turtlesim.model import Pose
+    from turtlesim.testing.faults import Fault
 
 __all__ = ["Simulation"]
 
@@ -41,19 +44,25 @@ class Simulation:
     callback of the tick before has run. All nodes made while it is open follow its clock
     (``use_sim_time``). Use it as a context manager; one at a time in a process.
 
+    Args:
+        begin: Simulated time at the start [s].
+
     Attributes:
         node: The simulator's node.
         now: Simulated time [s].
     """
 
-    def __init__(self) -> None:
-        self.now = 0.0
-        self._ticks = 0
+    def __init__(self, *, begin: float = 0.0) -> None:
+        self._ticks = round(begin * 1e9 / TICK_NS)
+        self.now = self._ticks * TICK_NS / 1e9
         self._nodes: list[Node] = []
         self._commands: dict[str, Publisher] = {}
         self._reader = _ReaderInStep()
         with _middleware_of_this_process():
             rclpy.init(args=["--ros-args", *_as_arguments({})])
+        wire = rclpy.get_default_context().wire
+        assert isinstance(wire, LocalContext)
+        self._wire, self._faulty = wire, FaultyTransforms(wire.bus)
         self._executor = SingleThreadedExecutor()
         try:
             self._begin()
@@ -62,9 +71,8 @@ class Simulation:
             raise
 
     def _begin(self) -> None:
-        wire = rclpy.get_default_context().wire
-        assert isinstance(wire, LocalContext)
-        wire.replace_reader(self._reader)
+        self._wire.replace_reader(self._reader)
+        self._faulty.listen()
         self.node = TurtlesimNode(headless=True)
         self.add(self.node)
         self._driver = Node("simulation", parameter_overrides=[])
@@ -77,6 +85,7 @@ class Simulation:
         """Destroy all nodes, those that were added too, and leave the domain."""
         for node in reversed(self._nodes):
             node.destroy_node()
+        self._faulty.close()
         self._executor.shutdown()
         rclpy.try_shutdown()
 
@@ -100,15 +109,50 @@ class Simulation:
             parameters: Initial values of the node's parameters; ``name`` gives the node another
                 name.
         """
+        with self._arguments(parameters):
+            return self.add(make_node())
+
+    def start_program(
+        self, main: Callable[[], object], *arguments: str, **parameters: object
+    ) -> list[Node]:
+        """Run the ``main`` of a node's file as a launch file would, and let its nodes take part.
+
+        It runs up to ``rclpy.spin``. From then on the simulation spins.
+
+        Args:
+            main: The program's entry point.
+            arguments: Its command line.
+            parameters: As in :meth:`start`.
+
+        Returns:
+            Its nodes.
+
+        Raises:
+            ProgramError: It ended without spinning, or called a function that blocks.
+        """
+        with self._arguments(parameters), rclpy_in_step():
+            nodes = [self.add(node) for node in nodes_of(main, arguments)]
+        self._come_to_rest()
+        return nodes
+
+    @contextlib.contextmanager
+    def _arguments(self, parameters: dict[str, object]) -> Iterator[None]:
+        """Give nodes that are made inside these parameters."""
         context = self._driver.context
         outer, context._arguments = (
             context.arguments,
             Arguments.parse_global(["--ros-args", *_as_arguments(parameters)]),
         )
         try:
-            return self.add(make_node())
+            yield
         finally:
             context._arguments = outer
+
+    def remove(self, node: Node) -> None:
+        """End a node before the simulation ends."""
+        self._nodes.remove(node)
+        node.destroy_node()
+        self._come_to_rest()
 
     # Turtles
 
@@ -157,6 +201,19 @@ class Simulation:
         a, b = self.pose(one), self.pose(other)
         return math.hypot(a.x - b.x, a.y - b.y)
 
+    # Faults
+
+    def inject(self, fault: Fault) -> None:
+        """Switch a fault of :mod:`turtlesim.testing.faults` on, beside those that are on."""
+        self._faulty.faults.append(fault)
+        fault.begin(self)
+
+    def mend(self) -> None:
+        """Switch all faults off; transforms that are delayed still arrive."""
+        faults, self._faulty.faults = self._faulty.faults, []
+        for fault in faults:
+            fault.end(self)
+
     # Time
 
     def step(self, ticks: int = 1) -> None:
@@ -165,6 +222,7 @@ class Simulation:
             self._ticks += 1
             self.now = self._ticks * TICK_NS / 1e9
             self._publish_time()
+            self._faulty.advance(self.now)
             self._come_to_rest()
 
     def run(self, seconds: float) -> None:

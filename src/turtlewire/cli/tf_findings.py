@@ -35,6 +35,13 @@ _ENDED = (
     "it has no later poses."
 )
 _SLOW = "Its publisher is slow, or the clocks of two hosts differ (chrony or NTP sets them)."
+_AHEAD = (
+    "Lookups at the present time fail. Its publisher does not stamp with its node's clock, or that "
+    "clock is ahead of this host's (chrony or NTP sets them)."
+)
+_SILENT = (
+    "Its transforms are not sent yet or get lost on the way; frames that hang on them are unknown."
+)
 _JUMPS = (
     "Two sources publish it, a bag starts again, or a clock was set: listeners drop such "
     "transforms, or clear their buffers."
@@ -76,6 +83,11 @@ def _publisher_findings(graph: Graph, traffic: TfTraffic) -> list[Finding]:
         if len(gids) > 1:
             nodes = " and ".join(sorted(owners.get(gid, "an unknown node") for gid in gids))
             found.append(problem(f"The frame '{child}' is published by {nodes}.", _ONE_PUBLISHER))
+    heard = {gid for gids in traffic.publishers.values() for gid in gids}
+    for publisher in tf_publishers(graph):
+        if publisher.topic == "/tf_static" and publisher.gid not in heard:
+            text = f"Nothing was heard of the static transforms of {owner_of(publisher)}."
+            found.append(note(text, _SILENT))
     return found
 
 
@@ -106,9 +118,15 @@ def _clock_findings(traffic: TfTraffic, *, recorded: bool = False) -> list[Findi
     if wall and simulated:
         text = f"Wall time and simulated time are mixed: {min(wall)} and {min(simulated)}."
         found.append(problem(text, _ONE_CLOCK))
-    for child in sorted(wall):
-        age_ns = traffic.ended_ns - traffic.newest_ns[child]
-        if age_ns > _STALE_NS:
+    for child, newest_ns in sorted(traffic.newest_ns.items()):
+        now_ns = traffic.ended_ns if child in wall else traffic.clock_ns
+        if now_ns is None:
+            continue
+        age_ns = now_ns - newest_ns
+        if age_ns < -_STALE_NS and not recorded:
+            text = f"The newest transform of '{child}' is {-age_ns / 1e9:.1f} s in the future."
+            found.append(note(text, _AHEAD))
+        elif age_ns > _STALE_NS:
             text = f"The newest transform of '{child}' is {age_ns / 1e9:.1f} s old"
             if recorded:
                 found.append(note(f"{text} at the end of the bag.", _ENDED))

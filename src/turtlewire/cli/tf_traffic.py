@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire import msg
 from turtlewire.errors import CdrError
 from turtlewire.wire.base import TypeId
-from turtlewire.wire.qos import Durability, QoS
+from turtlewire.wire.qos import Durability, QoS, Reliability
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,6 +29,7 @@ __all__ = [
 ]
 
 _TYPE = "tf2_msgs/msg/TFMessage"
+_CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 #: How long completion listens: transforms are published at 10 Hz and more, static ones are kept for
 #: late joiners, and a user does not wait longer for a TAB.
 _COMPLETION_NS = 150_000_000
@@ -52,6 +53,7 @@ class TfTraffic:
             do not count.
         leaps_m: Frame to its largest step within its parent that was faster than any robot.
         ended_ns: When the listening ended, system time.
+        clock_ns: The newest time of ``/clock``; None if nobody publishes it.
     """
 
     def __init__(self) -> None:
@@ -61,6 +63,7 @@ class TfTraffic:
         self.back_ns: dict[str, int] = {}
         self.leaps_m: dict[str, float] = {}
         self.ended_ns = 0
+        self.clock_ns: int | None = None
         self._last: dict[str, tuple[str, int, Any]] = {}
 
     def note(self, message: Any, publisher: bytes, *, static: bool) -> None:
@@ -100,6 +103,8 @@ class TfListener:
         self._heard: Counter[bytes] = Counter()
         self._news = threading.Condition()
         self._node = context.create_node("_turtlewire_doctor_listener")
+        self._clock: bytes | None = None
+        self._subscribe_clock()
         self._subscribe("/tf", Durability.VOLATILE, static=False)
         self._subscribe("/tf_static", Durability.TRANSIENT_LOCAL, static=True)
 
@@ -112,6 +117,15 @@ class TfListener:
 
         kind = TypeId(_TYPE, msg.type_hash(_TYPE))
         self._node.create_subscription(topic, kind, QoS(depth=100, durability=durability), keep)
+
+    def _subscribe_clock(self) -> None:
+        def keep(cdr: bytes, _: MessageInfo) -> None:
+            with self._news:
+                self._clock = cdr
+
+        kind = TypeId(_CLOCK_TYPE, msg.type_hash(_CLOCK_TYPE))
+        qos = QoS(depth=1, reliability=Reliability.BEST_EFFORT)
+        self._node.create_subscription("/clock", kind, qos, keep)
 
     def wait(self, seconds: float, wanted: Mapping[bytes, int] | None = None) -> None:
         """Listen for so many seconds, or until so many messages of each publisher (gid) came."""
@@ -152,7 +166,8 @@ class TfListener:
         traffic = TfTraffic()
         traffic.ended_ns = time.time_ns()
         with self._news:
-            messages = list(self._messages)
+            messages, clock = list(self._messages), self._clock
+        traffic.clock_ns = None if clock is None else _time_of(clock)
         for cdr, publisher, static in messages:
             try:
                 message = msg.deserialize(msg.get_message(_TYPE), cdr)
@@ -160,6 +175,15 @@ class TfListener:
                 continue  # a foreign publisher on the topic; the check of types names it
             traffic.note(message, publisher, static=static)
         return traffic
+
+
+def _time_of(cdr: bytes) -> int | None:
+    """The time of a Clock message [ns]; None if a foreign publisher sent something else."""
+    try:
+        clock: Any = msg.deserialize(msg.get_message(_CLOCK_TYPE), cdr)
+    except CdrError:
+        return None
+    return int(clock.clock.sec * 1_000_000_000 + clock.clock.nanosec)
 
 
 def tf_publishers(graph: Graph) -> list[EndpointInfo]:

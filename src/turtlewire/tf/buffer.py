@@ -5,7 +5,7 @@ The environment decides when this module is first imported:
 - ``TURTLEWIRE_CORE=python`` takes the twin, ``TURTLEWIRE_CORE=native`` insists on the compiled
   core; any other value is ignored with one line on stderr;
 - without it the compiled core is taken if it is there; if not, one line on stderr says how to
-  get it;
+  get it, except in a browser tab, where there is none;
 - ``TURTLEWIRE_REQUIRE_NATIVE=1`` makes a missing compiled core an ImportError.
 """
 
@@ -15,6 +15,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from turtlewire.platforms import in_browser
 from turtlewire.tf.surface import equip
 
 __all__ = ["CORE", "Buffer", "RecordWalk", "Transform"]
@@ -31,7 +32,7 @@ def _choose() -> str:
     wanted = os.environ.get("TURTLEWIRE_CORE", "")
     if wanted not in {"", "native", "python"}:
         print(_UNKNOWN.format(wanted), file=sys.stderr)  # noqa: T201
-    if wanted == "python":
+    if wanted == "python" or (wanted != "native" and in_browser()):
         return "python"
     try:
         import turtlewire._native  # noqa: F401

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from typing import NamedTuple
 
 from turtlewire.errors import WireError
+from turtlewire.platforms import in_browser
 
 from .libddsc import find_libddsc
 from .report import warn_once
@@ -77,11 +78,14 @@ def middleware_name() -> str:
     """``RMW_IMPLEMENTATION``; Cyclone DDS if it is not set or, after a warning, names another one.
 
     A shell that sourced a real ROS 2 often has a middleware set that only exists there. Where there
-    is no Cyclone DDS but Zenoh, that is taken, after a warning as well.
+    is no Cyclone DDS but Zenoh, that is taken, after a warning as well. In a browser tab there is
+    only ``local``.
     """
     name = os.environ.get("RMW_IMPLEMENTATION", "").strip()
     if name in MIDDLEWARES and is_installed(name):
         return name
+    if in_browser():
+        return "local"
     default = next(filter(is_installed, MIDDLEWARES[:2]), MIDDLEWARES[0])
     if name:
         remedy = " (pip install 'turtlewire[zenoh]')" if name == "rmw_zenoh_cpp" else ""

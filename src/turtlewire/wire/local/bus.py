@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from turtlewire.wire import names
 from turtlewire.wire.conflicts import TopicTypes
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import NodeInfo
 
-    from .endpoint import LocalEndpoint
+    from .endpoint import LocalEndpoint, Message
 
-__all__ = ["Bus", "bus_of"]
+__all__ = ["Bus", "Sender", "bus_of"]
 
 _POLICY_DURABILITY, _POLICY_RELIABILITY = 2, 16
 
@@ -28,6 +28,19 @@ def bus_of(domain_id: int) -> Bus:
     """The one bus of a domain."""
     with _buses_lock:
         return _buses.setdefault(domain_id, Bus())
+
+
+class Sender(Protocol):
+    """A publisher, as :attr:`Bus.tamper` sees it.
+
+    Attributes:
+        topic: ROS name of its topic.
+    """
+
+    topic: str
+
+    def deliver(self, message: Message) -> None:
+        """Hand a message to the matching subscriptions; nothing happens after the end."""
 
 
 class _Topic(NamedTuple):
@@ -44,12 +57,15 @@ class Bus:
         lock: Guards the state of all of them.
         nodes: The open nodes, in the order of their creation.
         listeners: Called when the graph has changed.
+        tamper: For tests of faults: called with each message instead of delivering it; calls
+            :meth:`Sender.deliver` with what is to arrive. None delivers all.
     """
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.nodes: list[NodeInfo] = []
         self.listeners: list[Callable[[], None]] = []
+        self.tamper: Callable[[Sender, Message], None] | None = None
         self._types = TopicTypes()
         self._topics: dict[tuple[str, str], _Topic] = {}
 

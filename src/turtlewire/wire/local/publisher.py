@@ -41,6 +41,16 @@ class LocalPublisher(LocalEndpoint, Publisher):
         with self._lock:
             if self._closed:
                 raise WireError(f"publish on {self.topic}: the publisher is closed")
+            if self._core.bus.tamper is None:
+                self.deliver(message)
+            else:
+                self._core.bus.tamper(self, message)
+
+    def deliver(self, message: Message) -> None:
+        """Hand a message to the matching subscriptions; nothing happens after the end."""
+        with self._lock:
+            if self._closed:
+                return
             if self.qos.durability == Durability.TRANSIENT_LOCAL:
                 self._queue.append(message)
             for subscription in self.matched:

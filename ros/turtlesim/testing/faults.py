@@ -1,0 +1,281 @@
+"""Faults of transforms, to practise on: what goes wrong with TF on robots, switched on in a test.
+
+::
+
+    with Simulation() as simulation:
+        ...
+        simulation.inject(Delay(1.5, frame="turtle1"))
+        simulation.run(5.0)  # turtle2 follows where turtle1 was
+        simulation.mend()
+
+Every fault acts on the way between the broadcasters and the listeners: no node is changed, and each
+run is the same.
+"""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import random
+from typing import TYPE_CHECKING, Any, Protocol
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from tf2_ros import TransformBroadcaster
+from turtlewire import msg
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from turtlewire.wire.local.bus import Bus, Sender
+    from turtlewire.wire.local.endpoint import Message
+
+__all__ = [
+    "Delay",
+    "Fault",
+    "FaultyTransforms",
+    "Loss",
+    "MissingStatic",
+    "Nodes",
+    "TwoPublishers",
+    "WrongFrame",
+    "WrongTime",
+]
+
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
+_STATIC = "/tf_static"
+_TOPICS = {"/tf", _STATIC}
+
+
+class Nodes(Protocol):
+    """What a fault uses of :class:`.Simulation`."""
+
+    def start(self, make_node: Callable[[], Node], **parameters: object) -> Node:
+        """Make a node with parameters, and let it take part."""
+
+    def remove(self, node: Node) -> None:
+        """End a node."""
+
+
+class Fault:
+    """What happens to each transform on its way. Subclasses change one thing.
+
+    Args:
+        frame: The child frame that it is about; None takes all.
+    """
+
+    def __init__(self, frame: str | None = None) -> None:
+        self.frame = frame
+
+    def begin(self, nodes: Nodes) -> None:
+        """The fault is switched on."""
+
+    def end(self, nodes: Nodes) -> None:
+        """The fault is switched off."""
+
+    def concerns(self, transform: Any, topic: str) -> bool:
+        """Whether it is about this transform."""
+        return topic == "/tf" and self.frame in {None, transform.child_frame_id}
+
+    def delay_s(self, transform: Any) -> float | None:
+        """Change the transform; how much later it arrives [s], or None if it never does."""
+        raise NotImplementedError
+
+
+class Delay(Fault):
+    """Transforms arrive late, as over a slow radio link.
+
+    Args:
+        seconds: How late, in simulated time.
+        frame: The child frame; None takes all.
+    """
+
+    def __init__(self, seconds: float, frame: str | None = None) -> None:
+        super().__init__(frame)
+        self._seconds = seconds
+
+    def delay_s(self, transform: Any) -> float:  # noqa: ARG002 - all alike
+        """See :meth:`Fault.delay_s`."""
+        return self._seconds
+
+
+class Loss(Fault):
+    """Transforms get lost at random, the same ones in each run.
+
+    Args:
+        share: The part that is lost, 0 to 1.
+        frame: The child frame; None takes all.
+        seed: Another number loses others.
+    """
+
+    def __init__(self, share: float, frame: str | None = None, *, seed: int = 1) -> None:
+        super().__init__(frame)
+        if not 0.0 <= share <= 1.0:
+            raise ValueError(f"the share that is lost must be from 0 to 1, not {share}")
+        self._share = share
+        self._random = random.Random(seed)  # noqa: S311 - a test's
+
+    def delay_s(self, transform: Any) -> float | None:  # noqa: ARG002 - all alike
+        """See :meth:`Fault.delay_s`."""
+        return None if self._random.random() < self._share else 0.0
+
+
+class WrongFrame(Fault):
+    """Transforms name another parent, as after a typing error.
+
+    Args:
+        frame: The child frame.
+        parent: The parent that they name.
+    """
+
+    def __init__(self, frame: str, parent: str) -> None:
+        super().__init__(frame)
+        self._parent = parent
+
+    def delay_s(self, transform: Any) -> float:
+        """See :meth:`Fault.delay_s`."""
+        transform.header.frame_id = self._parent
+        return 0.0
+
+
+class WrongTime(Fault):
+    """Stamps are off, as between two hosts whose clocks differ.
+
+    Args:
+        seconds: How far the stamps are in the future; below zero: in the past, where they end at
+            zero.
+        frame: The child frame; None takes all.
+    """
+
+    def __init__(self, seconds: float, frame: str | None = None) -> None:
+        super().__init__(frame)
+        self._offset_ns = round(seconds * 1e9)
+
+    def delay_s(self, transform: Any) -> float:
+        """See :meth:`Fault.delay_s`."""
+        stamp = transform.header.stamp
+        total = stamp.sec * 1_000_000_000 + stamp.nanosec + self._offset_ns
+        stamp.sec, stamp.nanosec = divmod(max(0, total), 1_000_000_000)
+        return 0.0
+
+
+class MissingStatic(Fault):
+    """Static transforms do not arrive, as when their broadcaster was not started.
+
+    Listeners that have heard them before still know them: switch it on before the broadcaster
+    starts.
+
+    Args:
+        frame: The child frame; None takes all.
+    """
+
+    def concerns(self, transform: Any, topic: str) -> bool:
+        """See :meth:`Fault.concerns`."""
+        return topic == _STATIC and self.frame in {None, transform.child_frame_id}
+
+    def delay_s(self, transform: Any) -> None:
+        """See :meth:`Fault.delay_s`."""
+
+
+class TwoPublishers(Fault):
+    """A second node publishes the same frame, at another place.
+
+    Args:
+        frame: The child frame.
+        parent: Its parent.
+        x: Where the second node says it is [m].
+        y: Likewise [m].
+    """
+
+    def __init__(
+        self, frame: str, parent: str = "world", *, x: float = 1.0, y: float = 1.0
+    ) -> None:
+        super().__init__(frame)
+        self._parent, self._x, self._y = parent, x, y
+        self._node: Node | None = None
+
+    def begin(self, nodes: Nodes) -> None:
+        """Start the second node."""
+        node = self._node = nodes.start(lambda: Node("second"), name="second_broadcaster")
+        broadcaster = TransformBroadcaster(node)
+
+        def send() -> None:
+            transform = TransformStamped()
+            transform.header.stamp = node.get_clock().now().to_msg()
+            transform.header.frame_id, transform.child_frame_id = self._parent, str(self.frame)
+            transform.transform.translation.x = self._x
+            transform.transform.translation.y = self._y
+            transform.transform.rotation.w = 1.0
+            broadcaster.sendTransform(transform)
+
+        node.create_timer(0.1, send)
+
+    def end(self, nodes: Nodes) -> None:
+        """End the second node."""
+        if self._node is not None:
+            nodes.remove(self._node)
+            self._node = None
+
+    def concerns(self, transform: Any, topic: str) -> bool:  # noqa: ARG002 - of none
+        """See :meth:`Fault.concerns`; the transforms of others stay as they are."""
+        return False
+
+
+class FaultyTransforms:
+    """Applies the faults that are switched on to the messages of a bus.
+
+    Args:
+        bus: Of the simulation's domain.
+    """
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self._held: list[tuple[float, int, Sender, Message]] = []
+        self._numbers = itertools.count()
+        self._now = 0.0
+        self.faults: list[Fault] = []
+
+    def listen(self) -> None:
+        """Stand between publishers and subscriptions from now on."""
+        self._bus.tamper = self._tamper
+
+    def close(self) -> None:
+        """Let messages pass again; drop those that are held."""
+        self._bus.tamper = None
+        self._held.clear()
+
+    def advance(self, now: float) -> None:
+        """Deliver what is due at this simulated time [s]."""
+        self._now = now
+        while self._held and self._held[0][0] <= now + 1e-9:
+            _, _, sender, message = heapq.heappop(self._held)
+            sender.deliver(message)
+
+    def _tamper(self, sender: Sender, message: Message) -> None:
+        if sender.topic not in _TOPICS or not self.faults:
+            sender.deliver(message)
+            return
+        kind = msg.get_message(_TF_TYPE)
+        cdr, info = message
+        heard: Any = msg.deserialize(kind, cdr)
+        for transform in heard.transforms:
+            delay = self._delay(transform, sender.topic)
+            if delay is None:
+                continue
+            changed = (msg.serialize(kind(transforms=[transform])), info)
+            if delay > 0.0:
+                item = (self._now + delay, next(self._numbers), sender, changed)
+                heapq.heappush(self._held, item)
+            else:
+                sender.deliver(changed)
+
+    def _delay(self, transform: Any, topic: str) -> float | None:
+        """How much later a transform arrives, after all faults [s]; None if it never does."""
+        total = 0.0
+        for fault in self.faults:
+            if fault.concerns(transform, topic):
+                delay = fault.delay_s(transform)
+                if delay is None:
+                    return None
+                total += delay
+        return total

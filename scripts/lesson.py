@@ -1,0 +1,226 @@
+"""Builds the lesson: our pure wheels, Pyodide and the editor from npm, and the page itself.
+
+Each package of npm is pinned in ``site/lesson/packages.json``, with its hash; ``npm pack`` fetches
+it once, and ``build/npm`` keeps it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import gzip
+import hashlib
+import http.server
+import importlib.metadata
+import json
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "site" / "lesson"
+NPM_CACHE = ROOT / "build" / "npm"
+TURTLESIM_PAGE = ROOT / "ros" / "turtlesim" / "page"
+#: Ours, and how each is built without a compiler.
+WHEELS = (
+    (".", ("-C", "wheel.cmake=false")),
+    ("ros", ()),
+    ("ros2_ws/src/learning_tf2_py", ()),
+)
+#: What ours need of others, in pure Python, as it is installed here.
+PURE_PYTHON = ("PyYAML", "argcomplete", "defusedxml")
+#: Files of the page itself, beside its scripts.
+PAGE = ("index.html", "style.css", "icon.svg")
+
+
+class BuildError(Exception):
+    """An error whose text says what is missing."""
+
+
+def main() -> int:
+    """Build, and serve if asked to; the exit status."""
+    parser = argparse.ArgumentParser(prog="scripts/lesson", description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=Path, default=ROOT / "build" / "lesson", metavar="FOLDER")
+    parser.add_argument("--serve", action="store_true", help="show it on this machine")
+    parser.add_argument("--port", type=int, default=8000)
+    options = parser.parse_args()
+    try:
+        weight = build(options.output)
+    except BuildError as error:
+        print(f"scripts/lesson: {error}", file=sys.stderr)
+        return 1
+    print(f"{options.output}: {weight / 1e6:.1f} MB to load, compressed")
+    if options.serve:
+        serve(options.output, options.port)
+    return 0
+
+
+def build(output: Path) -> int:
+    """Build the page into a folder, which is replaced; its compressed weight in bytes."""
+    with tempfile.TemporaryDirectory(dir=_made(ROOT / "build")) as folder:
+        page = Path(folder) / "lesson"
+        _copy_page(page)
+        for package in json.loads((SOURCE / "packages.json").read_text(encoding="utf-8")):
+            _unpack(package, page)
+        _build_wheels(page / "python")
+        _pack_pure_python(page / "python" / "others.zip")
+        _pack_lessons(page)
+        weight = _write_manifest(page)
+        shutil.rmtree(output, ignore_errors=True)
+        _made(output.parent)
+        page.rename(output)
+    return weight
+
+
+def _made(folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def _copy_page(page: Path) -> None:
+    _made(page)
+    for name in PAGE:
+        shutil.copy(SOURCE / name, page)
+    shutil.copytree(SOURCE / "js", page / "js")
+    shutil.copytree(TURTLESIM_PAGE / "js", page / "turtlesim")
+    shutil.copy(ROOT / "LICENSE", page)
+
+
+def _unpack(package: dict[str, Any], page: Path) -> None:
+    """Copy the files of a package of npm that the page uses."""
+    with tarfile.open(_fetched(package)) as archive:
+        for inside, outside in package["files"].items():
+            member = archive.extractfile(f"package/{inside}")
+            if member is None:
+                raise BuildError(f"{package['name']} has no file {inside}")
+            target = page / outside
+            _made(target.parent)
+            target.write_bytes(member.read())
+
+
+def _fetched(package: dict[str, Any]) -> Path:
+    """The package's archive, from the cache or from npm, with the right hash."""
+    name, version = package["name"], package["version"]
+    archive = NPM_CACHE / f"{name.removeprefix('@').replace('/', '-')}-{version}.tgz"
+    if not archive.exists():
+        print(f"[lesson] fetching {name} {version} from npm", file=sys.stderr, flush=True)
+        command = ["npm", "pack", "--silent", "--ignore-scripts", f"{name}@{version}"]
+        try:
+            done = subprocess.run(
+                command, cwd=_made(NPM_CACHE), capture_output=True, text=True, check=False
+            )
+        except FileNotFoundError:
+            raise BuildError("npm is not installed (Debian: apt install npm)") from None
+        if done.returncode or not archive.exists():
+            raise BuildError(f"`{' '.join(command)}` failed:\n{done.stdout}{done.stderr}")
+    digest = base64.b64encode(hashlib.sha512(archive.read_bytes()).digest()).decode()
+    if package["integrity"] != f"sha512-{digest}":
+        archive.unlink()
+        raise BuildError(
+            f"{name} {version} has another hash than packages.json says: {digest}. "
+            "It was thrown away; try again, or find out who changed it."
+        )
+    return archive
+
+
+def _build_wheels(folder: Path) -> None:
+    """Build our wheels as they are for a platform without a compiler."""
+    _made(folder)
+    for project, options in WHEELS:
+        command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", str(folder)]
+        done = subprocess.run(
+            [*command, *options, f"./{project}"],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        if done.returncode:
+            raise BuildError(f"the wheel of {project} failed:\n{done.stdout}{done.stderr}")
+
+
+def _pack_pure_python(archive: Path) -> None:
+    """Pack the Python files of the distributions that ours need."""
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as packed:
+        for name in PURE_PYTHON:
+            for path in sorted(importlib.metadata.files(name) or [], key=str):
+                is_wanted = path.suffix == ".py" or ".dist-info" in str(path)
+                if is_wanted and not str(path).startswith(".."):
+                    packed.writestr(_entry(str(path)), path.locate().read_bytes())
+
+
+def _entry(name: str) -> zipfile.ZipInfo:
+    """An entry with the same bytes in each build."""
+    entry = zipfile.ZipInfo(name)
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    return entry
+
+
+def _pack_lessons(page: Path) -> None:
+    """Pack what runs in Python, and write what the page itself needs of the lessons."""
+    with zipfile.ZipFile(page / "python" / "lesson.zip", "w", zipfile.ZIP_DEFLATED) as packed:
+        for folder in (SOURCE / "python", SOURCE / "lessons"):
+            for path in sorted(folder.rglob("*")):
+                if path.suffix in {".py", ".json"}:
+                    name = path.relative_to(SOURCE).as_posix().removeprefix("python/")
+                    packed.writestr(_entry(name), path.read_bytes())
+    order = json.loads((SOURCE / "lessons" / "order.json").read_text(encoding="utf-8"))
+    lessons = [_lesson(SOURCE / "lessons" / name) for name in order]
+    (page / "lessons.json").write_text(json.dumps(lessons), encoding="utf-8")
+
+
+def _lesson(folder: Path) -> dict[str, Any]:
+    """A lesson as the page needs it: title, text and the student's files."""
+    facts = json.loads((folder / "lesson.json").read_text(encoding="utf-8"))
+
+    def sources(kind: str) -> dict[str, str]:
+        return {name: (folder / kind / name).read_text(encoding="utf-8") for name in facts["files"]}
+
+    return {
+        "id": folder.name,
+        **{key: facts.get(key, "") for key in ("title", "target", "source", "topic")},
+        "faults": facts.get("faults", []),
+        "text": (folder / "text.html").read_text(encoding="utf-8"),
+        "starter": sources("starter"),
+        "solution": sources("solution"),
+    }
+
+
+def _write_manifest(page: Path) -> int:
+    """List all files with their sizes, and give the service worker a version that changes."""
+    version = hashlib.sha256()
+    files, weight = [], 0
+    for path in sorted(page.rglob("*")):
+        if path.is_file():
+            content = path.read_bytes()
+            name = path.relative_to(page).as_posix()
+            version.update(f"{name} {hashlib.sha256(content).hexdigest()}\n".encode())
+            files.append({"path": name, "bytes": len(content)})
+            weight += len(gzip.compress(content, mtime=0))
+    manifest = {"compressed": weight, "files": files}
+    (page / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
+    worker = (SOURCE / "sw.js").read_text(encoding="utf-8")
+    worker = worker.replace("VERSION-OF-THE-BUILD", version.hexdigest()[:16])
+    (page / "sw.js").write_text(worker, encoding="utf-8")
+    return weight
+
+
+def serve(folder: Path, port: int) -> None:
+    """Serve the folder to this machine until Ctrl-C."""
+    handler = partial(http.server.SimpleHTTPRequestHandler, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
+        print(f"http://localhost:{server.server_address[1]}/ (Ctrl-C ends it)", flush=True)
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            print()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

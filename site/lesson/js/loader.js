@@ -1,0 +1,42 @@
+// The first load: the service worker, the weight, and a progress bar while the files come.
+
+const ISOLATION_TRIED = "lesson-isolation-tried";
+
+/** Install the service worker; the page is loaded once more if that isolates it. */
+export async function prepareOffline() {
+  if (!("serviceWorker" in navigator) || !isSecureContext) return;
+  try {
+    await navigator.serviceWorker.register("sw.js");
+    await navigator.serviceWorker.ready;
+    await controlled();
+  } catch {
+    return; // private windows may refuse it: the lesson works, but only with a network
+  }
+  if (!crossOriginIsolated && !sessionStorage.getItem(ISOLATION_TRIED)) {
+    sessionStorage.setItem(ISOLATION_TRIED, "yes");
+    location.reload();
+    await new Promise(() => {}); // the page ends here
+  }
+}
+
+function controlled() {
+  if (navigator.serviceWorker.controller) return null;
+  return new Promise((resolve) => {
+    navigator.serviceWorker.addEventListener("controllerchange", resolve, { once: true });
+  });
+}
+
+/** Fetch all files, so that they are there offline; `onProgress(done, total)` in bytes. */
+export async function fetchAll(files, onProgress) {
+  const total = files.reduce((sum, { bytes }) => sum + bytes, 0);
+  let done = 0;
+  await Promise.all(files.map(async ({ path }) => {
+    const response = await fetch(path);
+    if (!response.ok) throw new Error(`${path}: ${response.status} ${response.statusText}`);
+    const reader = response.body.getReader();
+    for (let part = await reader.read(); !part.done; part = await reader.read()) {
+      done += part.value.length;
+      onProgress(done, total);
+    }
+  }));
+}

@@ -1,0 +1,237 @@
+// The page: a lesson's text and files on one side, what they do on the other.
+
+import { listenForDriving } from "../turtlesim/controls.js";
+import { Editors } from "./editors.js";
+import { Grading } from "./grading.js";
+import { fetchAll, prepareOffline } from "./loader.js";
+import { Runtime } from "./runtime.js";
+import { store } from "./store.js";
+import { Watch } from "./watch.js";
+import { World } from "./world.js";
+
+const DRIVEN = "turtle1";
+const ENDLESS = {
+  text: "The code was stopped: it did not come to an end.",
+  hint: "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop.",
+};
+const byId = (id) => document.getElementById(id);
+
+const status = (state, text) => {
+  byId("status").dataset.state = state;
+  byId("status").textContent = text;
+};
+
+class Page {
+  #lessons;
+  #lesson = null;
+  #runtime;
+  #running = false;
+  #run = 0;
+  #commands = [];
+  #world = new World();
+  #watch = new Watch(() => this.#examine(), () => this.run());
+  #grading = new Grading(() => this.#check(), () => this.#showSolution());
+  #editors = new Editors(byId("tabs"), byId("editors"), {
+    onChange: (file, text) => store.keepFile(this.#lesson.id, file, text),
+    onRun: () => this.run(),
+  });
+
+  constructor(lessons, runtime) {
+    this.#lessons = lessons;
+    this.#runtime = runtime;
+    byId("run").onclick = () => this.run();
+    byId("reset").onclick = () => this.#startOver();
+    listenForDriving(byId("pad"), ({ linear, angular }) => {
+      this.#commands.push([DRIVEN, linear, angular]);
+    });
+    addEventListener("hashchange", () => this.#openChosen());
+  }
+
+  get handlers() {
+    return {
+      onLog: (line) => this.#watch.log(line),
+      onResult: (result) => this.#takeResult(result),
+      onRestart: () => status("loading", "starting Python anew …"),
+    };
+  }
+
+  /** Show the lesson that the address names, without running it. */
+  show() {
+    this.#lesson = this.#lessons.find(({ id }) => `#${id}` === location.hash) ?? this.#lessons[0];
+    byId("text").innerHTML = this.#lesson.text; // ours, from the build
+    document.title = `${this.#lesson.title} – TF2 in a tab`;
+    this.#editors.open(store.filesOf(this.#lesson));
+    this.#grading.clear();
+    this.#watch.open(this.#lesson);
+    this.#listLessons();
+    byId("mistake").hidden = true;
+  }
+
+  /** Python is loaded: enable the buttons and run. */
+  begin() {
+    for (const id of ["run", "check", "examine"]) byId(id).disabled = false;
+    requestAnimationFrame((now) => this.#display(now));
+    return this.run();
+  }
+
+  /** (Re)start the programs of the lesson with the files as they are. */
+  async run() {
+    const run = (this.#run += 1);
+    this.#running = false;
+    this.#editors.unmark();
+    byId("mistake").hidden = true;
+    this.#watch.clear();
+    const { id } = this.#lesson;
+    const request = { type: "start", lesson: id, files: this.#editors.files };
+    const started = performance.now();
+    const answer = await this.#runtime.request({ ...request, faults: this.#watch.faults });
+    if (run !== this.#run) return; // Run was pressed again
+    byId("run").dataset.milliseconds = Math.round(performance.now() - started);
+    this.#world.restart();
+    if (!this.#failed(answer)) {
+      this.#running = true;
+      status("live", "running");
+      this.#step(run);
+    }
+  }
+
+  async #step(run) {
+    while (this.#running && run === this.#run) {
+      const ticks = await this.#world.due();
+      if (run !== this.#run) return;
+      const wishes = { drive: this.#commands.splice(0), ...this.#watch.wishes };
+      const answer = await this.#runtime.request({ type: "step", ticks, wishes });
+      if (run !== this.#run) return;
+      if (answer.frame) this.#world.take(answer.frame);
+      for (const text of answer.texts) this.#show(JSON.parse(text));
+      if (this.#failed(answer)) this.#running = false;
+    }
+  }
+
+  #show(message) {
+    if (message.type === "scene") this.#world.setScene(message);
+    else this.#watch.show(message);
+  }
+
+  /** Show the mistake of an answer; whether there is one. */
+  #failed({ mistake, stopped }) {
+    if (!mistake && !stopped) return false;
+    const shown = { file: "", line: 0, hint: "", ...mistake, ...(stopped ? ENDLESS : {}) };
+    status("stopped", "stopped");
+    this.#editors.mark(shown);
+    const where = shown.line ? `${shown.file}, line ${shown.line}: ` : "";
+    const box = byId("mistake");
+    const [text, hint] = [document.createElement("strong"), document.createElement("span")];
+    text.textContent = where + shown.text;
+    hint.textContent = shown.hint;
+    box.replaceChildren(text, hint);
+    box.hidden = false;
+    return true;
+  }
+
+  async #check() {
+    const run = (this.#run += 1);
+    this.#running = false;
+    this.#editors.unmark();
+    byId("mistake").hidden = true;
+    status("loading", "checking …");
+    const { id } = this.#lesson;
+    const request = { type: "grade", lesson: id, files: this.#editors.files };
+    const answer = await this.#runtime.request(request);
+    if (run !== this.#run) return;
+    if (answer.restarted) this.#grading.add({ check: "Came to an end", passed: false, ...ENDLESS });
+    if (this.#grading.finish()) store.keepSolved(id);
+    this.#listLessons();
+    await this.run();
+  }
+
+  #takeResult(result) {
+    this.#grading.add(result);
+    if (!result.passed && result.line) this.#editors.mark(result);
+  }
+
+  async #examine() {
+    if (this.#running) await this.#runtime.request({ type: "examine" });
+  }
+
+  #showSolution() {
+    this.#editors.open({ ...this.#editors.files, ...this.#lesson.solution });
+    return this.run();
+  }
+
+  #startOver() {
+    store.forgetFiles(this.#lesson.id);
+    this.#editors.open(this.#lesson.starter);
+    this.#grading.clear();
+    return this.run();
+  }
+
+  #openChosen() {
+    this.show();
+    return this.run();
+  }
+
+  #listLessons() {
+    const items = this.#lessons.map(({ id, title }, k) => {
+      const link = document.createElement("a");
+      link.href = `#${id}`;
+      link.textContent = k + 1;
+      link.title = title;
+      link.setAttribute("aria-label", `Lesson ${k + 1}: ${title}`);
+      if (id === this.#lesson.id) link.setAttribute("aria-current", "page");
+      if (store.isSolved(id)) link.dataset.solved = "yes";
+      const item = document.createElement("li");
+      item.append(link);
+      return item;
+    });
+    byId("lessons").replaceChildren(...items);
+  }
+
+  #display(now) {
+    this.#world.draw(DRIVEN, now);
+    requestAnimationFrame((next) => this.#display(next));
+  }
+}
+
+async function loadFiles(manifest) {
+  const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
+  const weight = `${megabytes(manifest.compressed)} MB compressed`;
+  byId("loading-text").textContent =
+    `Loading Python and the lesson: ${weight}, once. Then it also works without a network.`;
+  await fetchAll(manifest.files, (done, total) => {
+    byId("loading-bar").value = done / total;
+    status("loading", `loading, ${Math.round((100 * done) / total)} %`);
+  });
+  byId("loading-text").textContent = "Starting Python …";
+  byId("loading-bar").removeAttribute("value");
+}
+
+async function main() {
+  const isLoading = performance.now();
+  await prepareOffline();
+  const [lessons, manifest] = await Promise.all(
+    ["lessons.json", "manifest.json"].map(async (path) => (await fetch(path)).json()),
+  );
+  const archives = manifest.files.map(({ path }) => path).filter((path) => /^python\//.test(path));
+  let page = null;
+  const runtime = new Runtime(document.baseURI, archives, {
+    onLog: (line) => page.handlers.onLog(line),
+    onResult: (result) => page.handlers.onResult(result),
+    onRestart: () => page.handlers.onRestart(),
+  });
+  page = new Page(lessons, runtime);
+  page.show();
+  await loadFiles(manifest);
+  await runtime.load();
+  byId("loading").hidden = true;
+  await page.begin();
+  document.body.dataset.loadedMs = Math.round(performance.now() - isLoading);
+}
+
+main().catch((error) => {
+  byId("loading").hidden = false;
+  byId("loading-text").textContent =
+    `The lesson could not be loaded: ${error.message}. Check the network and load the page again.`;
+  status("stopped", "not loaded");
+  throw error;
+});

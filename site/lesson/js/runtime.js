@@ -1,0 +1,91 @@
+// The worker that runs Python: one request at a time, and a watch on code that does not end.
+
+const LIMIT_MS = 3000; // without a sign of life
+const MERCY_MS = 2000; // after it was told to stop
+const LOADING_MS = 120_000;
+const SIGINT = 2;
+
+export class Runtime {
+  #worker = null;
+  #load;
+  #handlers;
+  #pending = null;
+  #watch = null;
+  #flag = null;
+  #queue = Promise.resolve();
+
+  /**
+   * `archives`: wheels and zips of Python code; `handlers`: onLog({stream, text}),
+   * onResult(result), onRestart() before Python is loaded anew.
+   */
+  constructor(base, archives, handlers) {
+    this.#load = { type: "load", base, archives };
+    this.#handlers = handlers;
+  }
+
+  /** Load Python, or load it anew. */
+  async load() {
+    this.#worker?.terminate();
+    this.#worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    this.#worker.onmessage = ({ data }) => this.#take(data);
+    this.#worker.onerror = (event) => this.#take({ type: "failed", text: event.message });
+    if (crossOriginIsolated) this.#flag = new Uint8Array(new SharedArrayBuffer(1));
+    return this.#ask({ ...this.#load, interruptBuffer: this.#flag }, LOADING_MS);
+  }
+
+  /** Ask after all earlier requests are done. The answer has `stopped: true` if it was too slow. */
+  request(message) {
+    const answer = this.#queue.then(() => this.#ask(message, LIMIT_MS));
+    this.#queue = answer.catch(() => {});
+    return answer;
+  }
+
+  #ask(message, limit) {
+    return new Promise((resolve, reject) => {
+      this.#pending = { resolve, reject, limit, interrupted: false };
+      this.#expectLife();
+      this.#worker.postMessage(message);
+    });
+  }
+
+  #take({ type, ...rest }) {
+    if (type === "log") this.#handlers.onLog(rest);
+    else if (!this.#pending) return;
+    else if (type === "alive") this.#expectLife();
+    else if (type === "result") {
+      this.#expectLife();
+      this.#handlers.onResult(rest.result);
+    } else this.#finish(type, rest);
+  }
+
+  #finish(type, rest) {
+    clearTimeout(this.#watch);
+    const { resolve, reject, interrupted } = this.#pending;
+    this.#pending = null;
+    if (this.#flag) this.#flag[0] = 0;
+    if (type === "failed") reject(new Error(rest.text));
+    else resolve({ ...rest, stopped: interrupted });
+  }
+
+  #expectLife() {
+    clearTimeout(this.#watch);
+    this.#watch = setTimeout(() => this.#stop(), this.#pending.limit);
+  }
+
+  /** Interrupt Python where the page is isolated; otherwise, or if that fails, start it anew. */
+  #stop() {
+    if (this.#flag && !this.#pending.interrupted) {
+      this.#pending.interrupted = true;
+      this.#flag[0] = SIGINT;
+      this.#watch = setTimeout(() => this.#stop(), MERCY_MS);
+    } else this.#restart();
+  }
+
+  async #restart() {
+    const { resolve } = this.#pending;
+    this.#pending = null;
+    this.#handlers.onRestart();
+    await this.load();
+    resolve({ stopped: true, restarted: true, texts: [], frame: null, mistake: null });
+  }
+}

@@ -1,0 +1,65 @@
+// The field, drawn with turtlesim's own modules, and how much simulated time is due.
+
+import { Field } from "../turtlesim/field.js";
+import { decodeFrame, Playback } from "../turtlesim/frames.js";
+import { fieldInWords } from "../turtlesim/words.js";
+
+const TICK_MS = 16;
+const MOST_TICKS = 12; // more than this behind, and simulated time falls back instead
+const DESCRIPTION_MS = 2000;
+const byId = (id) => document.getElementById(id);
+
+export class World {
+  #field = new Field(byId("ground"), byId("turtles"));
+  #playback = new Playback();
+  #names = [];
+  #version = -1;
+  #described = 0;
+  #simulated = null;
+
+  /** Another simulation begins. */
+  restart() {
+    this.#playback = new Playback();
+    this.#names = [];
+    this.#version = -1;
+    this.#simulated = null;
+  }
+
+  /** Wait for the next animation frame; how many ticks have to pass by then. */
+  async due() {
+    for (;;) {
+      const now = await new Promise((resolve) => requestAnimationFrame(resolve));
+      this.#simulated ??= now - TICK_MS;
+      const ticks = Math.floor((now - this.#simulated) / TICK_MS);
+      if (ticks < 1) continue;
+      this.#simulated = ticks > MOST_TICKS ? now : this.#simulated + ticks * TICK_MS;
+      return Math.min(ticks, MOST_TICKS);
+    }
+  }
+
+  setScene({ turtles, background, version }) {
+    this.#names = turtles;
+    this.#version = version;
+    this.#field.setBackground(background);
+    this.#field.keepOnly(turtles);
+  }
+
+  /** Take the bytes of a step. */
+  take(bytes) {
+    const frame = decodeFrame(bytes);
+    this.#field.addStrokes(frame.strokes, frame.restart);
+    this.#playback.push(frame);
+  }
+
+  /** Draw a display frame; `driven` is the turtle with the ring. */
+  draw(driven, now) {
+    const newest = this.#playback.newest;
+    if (!newest || newest.turtleCount !== this.#names.length) return;
+    const poses = this.#playback.sample(now);
+    if (poses?.length !== this.#names.length) return;
+    this.#field.drawTurtles(this.#names, poses, driven, null, now);
+    if (now - this.#described < DESCRIPTION_MS) return;
+    this.#described = now;
+    byId("turtles").setAttribute("aria-label", fieldInWords(this.#names, poses));
+  }
+}

@@ -1,0 +1,75 @@
+"""Turtle2 goes where turtle1 was three seconds ago."""
+
+import math
+
+from turtle_lesson.exercise import Exercise
+
+_FULL = (
+    "lookup_transform_full(target_frame='turtle2', target_time=Time(), source_frame='turtle1', "
+    "source_time=three seconds ago, fixed_frame='world') asks two times in one question: where "
+    "turtle1 was then, as turtle2 sees it now."
+)
+
+
+def _settle(exercise: Exercise) -> None:
+    exercise.simulation.run(25.0)
+
+
+def check_arrives(exercise: Exercise) -> None:
+    """Turtle2 comes to a turtle1 that stands still, and stays there."""
+    _settle(exercise)
+    farthest = 0.0
+    for _ in range(10):
+        exercise.simulation.run(0.5)
+        farthest = max(farthest, exercise.simulation.distance("turtle1", "turtle2"))
+    hint = (
+        "With one time for both turtles, turtle2 steers by where it was itself three seconds ago, "
+        "and loses its way. " + _FULL
+    )
+    source = "\n".join(exercise.files.values())
+    if "fixed_frame" in source and "'world'" not in source and '"world"' not in source:
+        hint = "The fixed frame must be one that does not move in between: 'world'."
+    elif "lookup_transform_full" in source:
+        hint = (
+            "Keep target_time=Time(), turtle2's present place, and a source_time that lies in the "
+            "past: now - Duration(seconds=3.0). The fixed frame is 'world'."
+        )
+    exercise.expect(farthest < 0.5, f"turtle2 is up to {farthest:.2f} m away.", hint)
+
+
+def _drive_off(exercise: Exercise) -> tuple[float, float]:
+    """Let turtle1 drive three metres within a second; turtle2's place before."""
+    _settle(exercise)
+    pose = exercise.simulation.pose("turtle2")
+    exercise.simulation.drive("turtle1", linear=3.0)
+    return pose.x, pose.y
+
+
+def check_waits(exercise: Exercise) -> None:
+    """When turtle1 drives off, turtle2 does not know it for three seconds."""
+    start = _drive_off(exercise)
+    exercise.simulation.run(2.5)
+    pose = exercise.simulation.pose("turtle2")
+    moved = math.dist((pose.x, pose.y), start)
+    exercise.expect(
+        moved < 0.3,
+        f"2.5 s after turtle1 drove off, turtle2 had moved {moved:.2f} m.",
+        "turtle1's place must be taken from three seconds ago: source_time = "
+        "self.get_clock().now() - Duration(seconds=3.0).",
+    )
+
+
+def check_follows(exercise: Exercise) -> None:
+    """After three seconds turtle2 sets off, too."""
+    start = _drive_off(exercise)
+    exercise.simulation.run(5.0)
+    pose = exercise.simulation.pose("turtle2")
+    moved = math.dist((pose.x, pose.y), start)
+    exercise.expect(
+        moved > 0.6,
+        f"5 s after turtle1 drove off, turtle2 had moved {moved:.2f} m.",
+        "Three seconds, not more: Duration(seconds=3.0).",
+    )
+    exercise.simulation.run(15.0)
+    left = exercise.simulation.distance("turtle1", "turtle2")
+    exercise.expect(left < 0.5, f"In the end turtle2 is {left:.2f} m away.", _FULL)

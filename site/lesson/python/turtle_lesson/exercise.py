@@ -1,0 +1,157 @@
+"""A simulation in which the programs of a lesson run; what checks look at."""
+
+from __future__ import annotations
+
+import contextlib
+from importlib import import_module
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
+
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformException, TransformListener
+from tf_transformations import euler_from_quaternion
+from turtle_lesson.files import imported
+from turtlesim.testing import Simulation
+from turtlesim.testing.programs import ProgramError, rclpy_in_step
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+    from types import ModuleType
+
+    from turtle_lesson.lesson import Lesson, Program
+
+__all__ = ["Exercise", "NotYet", "Place", "exercise_of"]
+
+#: Simulated time at the start [s]: what is asked about the past of a moment ago has an answer.
+_BEGIN = 100.0
+_NO_MAIN = "Keep the function main() at the end of the file: `ros2 run` calls it, too."
+
+
+class NotYet(Exception):
+    """A check that is not passed: what was seen, and what helps.
+
+    Attributes:
+        hint: What helps.
+    """
+
+    def __init__(self, text: str, hint: str) -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class Place(NamedTuple):
+    """Where a frame is: metres ahead and to the left, and radians to the left."""
+
+    x: float
+    y: float
+    yaw: float
+
+
+class Exercise:
+    """The simulation, the student's files in it, and a TF buffer beside them.
+
+    Attributes:
+        simulation: Turtlesim and all nodes, in lock-step.
+        files: Source texts of the student by file name.
+        buffer: Knows all transforms.
+    """
+
+    def __init__(self, simulation: Simulation, files: Mapping[str, str]) -> None:
+        self.simulation = simulation
+        self.files = files
+        self._observer = simulation.start(lambda: Node("observer"), name="_observer")
+        self.buffer = Buffer(node=self._observer)
+        self._listener = TransformListener(self.buffer, self._observer)
+
+    def call_regularly(self, call: Callable[[], object]) -> None:
+        """Call a function twice in a simulated second."""
+        self._observer.create_timer(0.5, call)
+
+    def place(self, target: str, source: str, hint: str = "") -> Place:
+        """Where ``source`` is as ``target`` sees it, at the latest time that is known.
+
+        Raises:
+            NotYet: TF does not know; tf2 says why. The hint is this, or the buffer's.
+        """
+        try:
+            found = self.buffer.lookup_transform(target, source, Time()).transform
+        except TransformException as error:
+            raise NotYet(
+                f"TF cannot say where {source} is as {target} sees it: {error}", hint or error.hint
+            ) from error
+        rotation = found.rotation
+        _, _, yaw = euler_from_quaternion((rotation.x, rotation.y, rotation.z, rotation.w))
+        return Place(found.translation.x, found.translation.y, yaw)
+
+    def stamp(self, target: str, source: str) -> float:
+        """The newest time at which the two are known [s].
+
+        Raises:
+            NotYet: TF does not know; tf2 says why.
+        """
+        self.place(target, source)
+        stamp = self.buffer.lookup_transform(target, source, Time()).header.stamp
+        return float(stamp.sec + stamp.nanosec / 1e9)
+
+    def another_buffer(self) -> Buffer:
+        """A buffer that listens from now on."""
+        buffer = Buffer(node=self._observer)
+        self._late = TransformListener(buffer, self._observer)
+        return buffer
+
+    def frames(self) -> dict[str, str]:
+        """Each frame's parent."""
+        import yaml
+
+        told = yaml.safe_load(self.buffer.all_frames_as_yaml())
+        return {frame: facts["parent"] for frame, facts in told.items()} if told else {}
+
+    def expect(self, condition: bool, text: str, hint: str) -> None:
+        """Fail the check with what was seen and what helps, unless the condition is true."""
+        if not condition:
+            raise NotYet(text, hint)
+
+
+@contextlib.contextmanager
+def exercise_of(
+    lesson: Lesson,
+    files: Mapping[str, str],
+    prepare: Callable[[Simulation], None] = lambda _: None,
+) -> Iterator[Exercise]:
+    """Open a simulation and start the programs of a lesson in it.
+
+    Args:
+        lesson: The lesson.
+        files: The student's files.
+        prepare: Called with the simulation before anything else is in it.
+
+    Raises:
+        BaseException: Whatever the student's code raises at its start.
+    """
+    with Simulation(begin=_BEGIN) as simulation:
+        prepare(simulation)
+        for turtle in lesson.turtles:
+            simulation.spawn(turtle.name, x=turtle.x, y=turtle.y, theta=turtle.theta)
+        exercise = Exercise(simulation, files)
+        with contextlib.ExitStack() as stack:
+            with rclpy_in_step():
+                modules = stack.enter_context(imported(files))
+            for program in lesson.programs:
+                _start(simulation, program, modules)
+            yield exercise
+
+
+def _start(simulation: Simulation, program: Program, modules: Mapping[str, ModuleType]) -> None:
+    module = modules.get(program.source)
+    if module is None:
+        with rclpy_in_step():
+            module = import_module(program.source)
+    main = getattr(module, "main", None)
+    if not callable(main):
+        _refuse(f"{program.source} has no function main()", _NO_MAIN)
+    name = {"name": program.name} if program.name else {}
+    simulation.start_program(main, *program.arguments, **name, **program.parameters)
+
+
+def _refuse(text: str, hint: str) -> NoReturn:
+    raise ProgramError(text, hint)

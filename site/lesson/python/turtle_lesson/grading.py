@@ -1,0 +1,86 @@
+"""Runs the checks of a lesson: each in a simulation of its own, with the same result every time."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtle_lesson.exercise import NotYet, exercise_of
+from turtle_lesson.mistakes import mistake_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from turtle_lesson.exercise import Exercise
+    from turtle_lesson.lesson import Lesson
+
+__all__ = ["Result", "grade", "grade_as_json"]
+
+
+class Result(NamedTuple):
+    """What a check found.
+
+    Attributes:
+        check: What is checked, in words.
+        passed: Whether it is so.
+        text: What was seen instead; empty if it passed.
+        hint: What helps.
+        file: The file of the student to look at, if an error points to a line.
+        line: The line, from 1; 0 if none.
+    """
+
+    check: str
+    passed: bool
+    text: str = ""
+    hint: str = ""
+    file: str = ""
+    line: int = 0
+
+
+def grade(
+    lesson: Lesson, files: Mapping[str, str], alive: Callable[[], object] = lambda: None
+) -> Iterator[Result]:
+    """Run the checks in their order; ends after the first that is not passed.
+
+    Later checks build on earlier ones, and one thing to mend at a time is enough.
+
+    Args:
+        lesson: The lesson.
+        files: The student's files.
+        alive: Called twice in a simulated second.
+    """
+    for check in lesson.checks():
+        result = _run(check, lesson, files, alive)
+        yield result
+        if not result.passed:
+            return
+
+
+def grade_as_json(
+    lesson: Lesson,
+    files: Mapping[str, str],
+    tell: Callable[[str], object],
+    alive: Callable[[], object],
+) -> None:
+    """Run the checks and tell the page each result as a JSON object as soon as it is there."""
+    for result in grade(lesson, files, alive):
+        tell(json.dumps(result._asdict()))
+
+
+def _run(
+    check: Callable[[Exercise], None],
+    lesson: Lesson,
+    files: Mapping[str, str],
+    alive: Callable[[], object],
+) -> Result:
+    name = (check.__doc__ or check.__name__).strip().splitlines()[0].removesuffix(".")
+    try:
+        with exercise_of(lesson, files) as exercise:
+            exercise.call_regularly(alive)
+            check(exercise)
+    except NotYet as seen:
+        return Result(name, False, str(seen), seen.hint)
+    except BaseException as error:  # noqa: BLE001 - students raise anything
+        mistake = mistake_of(error, files)
+        return Result(name, False, mistake.text, mistake.hint, mistake.file, mistake.line)
+    return Result(name, True)

@@ -1,0 +1,95 @@
+"""Errors of the student's code: where they are, what they say and what helps."""
+
+from __future__ import annotations
+
+import re
+import traceback
+from typing import TYPE_CHECKING, NamedTuple
+
+from turtlewire.errors import TransformException
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+__all__ = ["Mistake", "mistake_of"]
+
+_ENDLESS = (
+    "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop that "
+    "waits."
+)
+_UNCAUGHT = "Catch TransformException: at the start, and now and then, TF has no answer."
+#: Parts of error texts, and what helps.
+_HINTS = (
+    (r"expected ':'", "Lines with def, class, if, for, while, try and except end with a colon."),
+    (r"was never closed", "A bracket that is opened here has no partner further down."),
+    (r"unterminated string", "The text needs a quotation mark at its end."),
+    (r"indent", "Lines of one block begin in the same column: four spaces for each level."),
+    (
+        r"NoneType' object has no attribute",
+        "The object on the left is None: look where it is set.",
+    ),
+    (
+        r"takes \d+ positional arguments? but \d+ (was|were) given",
+        "A method's first parameter is `self`; callbacks of subscriptions take a message, too.",
+    ),
+    (
+        r"No module named",
+        "The lesson has rclpy, tf2_ros, turtlesim and the messages. NumPy is not loaded here.",
+    ),
+    (
+        r"name '(\w+)' is not defined",
+        "Import the name at the top of the file, or correct its spelling.",
+    ),
+)
+
+
+class Mistake(NamedTuple):
+    """An error in a file.
+
+    Attributes:
+        file: Name of the file; empty if no line of the student is to blame.
+        line: Number of the line, from 1; 0 if unknown.
+        text: What Python says.
+        hint: What helps; may be empty.
+    """
+
+    file: str
+    line: int
+    text: str
+    hint: str
+
+
+def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
+    """Describe an error that came out of the student's files, or of what they called."""
+    if isinstance(error, KeyboardInterrupt):
+        file, line = _place(error, files)
+        return Mistake(file, line, "The code was stopped: it did not come to an end.", _ENDLESS)
+    told = traceback.TracebackException.from_exception(error)
+    text = "".join(told.format_exception_only()).strip()
+    if isinstance(error, SyntaxError):
+        text = f"{type(error).__name__}: {error.msg}"
+        file, line = error.filename or "", error.lineno or 0
+    else:
+        file, line = _place(error, files)
+    hint = str(getattr(error, "hint", "")) or _hint_for(text)
+    # The hint is also a note of the error; it stands below the text already.
+    text = re.sub(r"^[\w.]+\.(\w+:)", r"\1", text).removesuffix(hint).strip()
+    if isinstance(error, TransformException):
+        hint = f"{_UNCAUGHT} {hint}".strip()
+    return Mistake(file, line, text, hint)
+
+
+def _place(error: BaseException, files: Collection[str]) -> tuple[str, int]:
+    """The innermost line of the student's files."""
+    place = ("", 0)
+    for frame in traceback.extract_tb(error.__traceback__):
+        if frame.filename in files:
+            place = (frame.filename, frame.lineno or 0)
+    return place
+
+
+def _hint_for(text: str) -> str:
+    for pattern, hint in _HINTS:
+        if re.search(pattern, text):
+            return hint
+    return ""

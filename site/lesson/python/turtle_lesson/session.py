@@ -1,0 +1,143 @@
+"""What the page shows: a lesson's programs, run step by step and watched."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from typing import TYPE_CHECKING, Any
+
+from rclpy.node import Node
+from turtle_lesson.exercise import exercise_of
+from turtle_lesson.faults import FAULTS
+from turtle_lesson.mistakes import mistake_of
+from turtle_lesson.screen import LessonScreen
+from turtle_lesson.watch import Doctor, TopicEcho, TransformEcho, topics_of
+from turtlesim.model import TICK_NS
+from turtlesim.transform_view import TransformView
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from turtle_lesson.lesson import Lesson
+    from turtlesim.testing import Simulation
+
+__all__ = ["Session"]
+
+#: Simulated time between two texts for the page [ticks].
+_WATCH_TICKS = 12
+#: As long as the doctor listens to the transforms [ticks].
+_DOCTOR_TICKS = 125
+
+
+class Session:
+    """A lesson that runs. The page makes one at each press of Run, and closes it before the next.
+
+    Args:
+        lesson: The lesson.
+        files: The student's files.
+        faults: Names of faults that are switched on.
+    """
+
+    def __init__(
+        self, lesson: Lesson, files: Mapping[str, str], faults: Sequence[str] = ()
+    ) -> None:
+        self._files = files
+        self._faults = faults
+        self._screen = LessonScreen()
+        self._stack = contextlib.ExitStack()
+        self._mistake: str | None = None
+        self._ticks = self._next_watch = 0
+        self._doctor: Doctor | None = None
+        self._doctor_ends = 0
+        try:
+            exercise = self._stack.enter_context(exercise_of(lesson, files, self._prepare))
+        except BaseException as error:  # noqa: BLE001 - students raise anything
+            self._note(error)
+            return
+        self._simulation = exercise.simulation
+        watcher = self._simulation.start(lambda: Node("watcher"), name="_watcher")
+        self._watcher = watcher
+        self._topic_echo, self._transform_echo = TopicEcho(watcher), TransformEcho(watcher)
+        self._transforms = TransformView(
+            watcher.context.wire, "/", lambda: round(exercise.simulation.now * 1e9)
+        )
+        self._transforms.join()
+        self._stack.callback(self._transforms.close)
+
+    def _prepare(self, simulation: Simulation) -> None:
+        simulation.node.show_on(self._screen)
+        for name in self._faults:
+            simulation.inject(FAULTS[name]())
+
+    def _note(self, error: BaseException) -> None:
+        self._mistake = json.dumps(mistake_of(error, self._files)._asdict())
+        self.close()
+
+    def close(self) -> None:
+        """End all nodes."""
+        # A callback that was interrupted may leave a node that cannot be closed.
+        with contextlib.suppress(Exception):
+            self._stack.close()
+
+    @property
+    def mistake(self) -> str | None:
+        """The error that ended the session, as JSON."""
+        return self._mistake
+
+    def step(self, ticks: int, wishes: str) -> list[str]:
+        """Let time pass.
+
+        Args:
+            ticks: How many times 16 ms.
+            wishes: JSON object of what the page wants: ``drive`` (a list of `[turtle, linear,
+                angular]`), ``target`` and ``source`` (frames), ``topic``.
+
+        Returns:
+            Texts for the page, each a JSON object with a ``type``.
+        """
+        if self._mistake is not None:
+            return []
+        wanted = json.loads(wishes)
+        try:
+            for turtle, linear, angular in wanted.get("drive", ()):
+                self._simulation.drive(turtle, linear, angular)
+            self._simulation.step(ticks)
+        except BaseException as error:  # noqa: BLE001 - students raise anything
+            self._note(error)
+            return []
+        self._ticks += ticks
+        return self._texts(wanted)
+
+    def frame(self) -> bytes:
+        """The picture, as turtlesim's page understands it."""
+        return self._screen.take_frame()
+
+    def examine(self) -> None:
+        """Have the doctor listen from now on; a later step returns its report."""
+        self._doctor = Doctor(self._watcher)
+        self._doctor_ends = self._ticks + _DOCTOR_TICKS
+
+    def _texts(self, wanted: dict[str, Any]) -> list[str]:
+        scene = self._screen.take_scene()
+        texts = [] if scene is None else [scene]
+        if self._doctor is not None and self._ticks >= self._doctor_ends:
+            texts.append(json.dumps({"type": "doctor", "text": self._doctor.report()}))
+            self._doctor = None
+        if self._ticks >= self._next_watch:
+            self._next_watch = self._ticks + _WATCH_TICKS
+            texts += self._watched(wanted)
+        return texts
+
+    def _watched(self, wanted: dict[str, Any]) -> list[str]:
+        target, source = wanted.get("target"), wanted.get("source")
+        relation = self._transforms.relation(target, source) if target and source else None
+        frames = self._transforms.frames()
+        tf = {"type": "tf", "frames": frames, "target": target, "source": source}
+        echo = {
+            "type": "echo",
+            "seconds": round(self._ticks * TICK_NS / 1e9, 1),
+            "topics": topics_of(self._watcher),
+            "topic": self._topic_echo.text(wanted.get("topic") or ""),
+            "transform": self._transform_echo.text(target, source) if target and source else "",
+        }
+        return [json.dumps({**tf, "relation": relation}), json.dumps(echo)]

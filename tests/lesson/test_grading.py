@@ -1,0 +1,71 @@
+"""The checks of all lessons: solutions pass, starters and typical mistakes do not."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from turtle_lesson.grading import grade
+from turtle_lesson.lesson import load_lesson
+
+from .wrong_answers import WRONG_ANSWERS
+
+ROOT = Path(__file__).parents[2]
+LESSONS = ROOT / "site" / "lesson" / "lessons"
+ORDER = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
+VERBATIM = ROOT / "tests" / "tutorial" / "verbatim" / "learning_tf2_py" / "learning_tf2_py"
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_the_solution_passes_and_the_first_files_do_not(name):
+    lesson = load_lesson(LESSONS / name)
+    results = list(grade(lesson, lesson.sources("solution")))
+    assert len(results) >= 3
+    assert all(result.passed for result in results), results
+    last = list(grade(lesson, lesson.sources("starter")))[-1]
+    assert not last.passed
+    assert last.text
+    assert last.hint
+
+
+@pytest.mark.parametrize("wrong", WRONG_ANSWERS, ids=lambda wrong: f"{wrong.lesson}-{wrong.name}")
+def test_a_typical_mistake_gets_its_hint(wrong):
+    lesson = load_lesson(LESSONS / wrong.lesson)
+    last = list(grade(lesson, wrong.files(lesson)))[-1]
+    assert not last.passed
+    assert re.search(wrong.hint, last.hint), last
+
+
+def test_every_lesson_has_three_typical_mistakes():
+    for name in ORDER:
+        assert sum(wrong.lesson == name for wrong in WRONG_ANSWERS) >= 3, name
+
+
+@pytest.mark.parametrize("file", ["turtle_tf2_broadcaster.py", "turtle_tf2_listener.py"])
+def test_the_lessons_begin_with_the_files_of_the_document(file):
+    printed = (VERBATIM / file).read_text(encoding="utf-8")
+    for name in ORDER:
+        starter = LESSONS / name / "starter" / file
+        if starter.exists():
+            assert starter.read_text(encoding="utf-8") == printed
+
+
+def test_an_error_of_the_file_is_a_result_with_its_line():
+    lesson = load_lesson(LESSONS / "listener")
+    files = lesson.sources("solution")
+    broken = files["turtle_tf2_listener.py"].replace("msg = Twist()", "msg = Twist(")
+    files["turtle_tf2_listener.py"] = broken
+    (result,) = grade(lesson, files)
+    assert (result.passed, result.file) == (False, "turtle_tf2_listener.py")
+    assert broken.splitlines()[result.line - 1].strip() == "msg = Twist("
+    assert result.text == "SyntaxError: '(' was never closed"
+
+
+def test_it_gives_signs_of_life():
+    lesson = load_lesson(LESSONS / "static")
+    signs = []
+    list(grade(lesson, lesson.sources("solution"), lambda: signs.append(1)))
+    assert len(signs) >= 10  # six simulated seconds of the last check, twice a second
