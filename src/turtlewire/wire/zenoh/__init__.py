@@ -24,6 +24,7 @@ module                       what it holds
 `endpoint`                   what all endpoints have in common
 `publisher`, `subscription`  the ends of a topic
 `services`                   clients and servers
-`router`                     ``rmw_zenohd``
+`router`, `router_log`       ``rmw_zenohd``, and what it says of peers that it refuses
+`diagnosis`                  why a session cannot be opened
 ===========================  ==================================================================
 """

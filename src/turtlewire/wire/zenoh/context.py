@@ -17,6 +17,7 @@ from turtlewire.wire.reader_thread import ReaderThread
 
 from .configuration import session_configuration
 from .core import ContextCore
+from .diagnosis import fault_of, warn_of_faults
 from .graph import ZenohGraph
 from .library import reason_of
 from .node import ZenohNode
@@ -122,7 +123,14 @@ class ZenohContext(Context):
 
 
 def _open() -> zenoh.Session:
+    configuration = session_configuration()
     try:
-        return zenoh.open(session_configuration())
+        session = zenoh.open(configuration)
     except zenoh.ZError as error:
-        raise WireError(f"cannot open a Zenoh session: {reason_of(error)}") from error
+        fault = fault_of(configuration)
+        if fault is None:
+            raise WireError(f"cannot open a Zenoh session: {reason_of(error)}") from error
+        failed = WireError(f"cannot open a Zenoh session: {fault.text}")
+        raise failed.with_hint(fault.remedy) from None
+    warn_of_faults(configuration)
+    return session
