@@ -168,7 +168,8 @@ class Session:
         if packets or key != self._said.get("frames"):
             self._said["frames"] = key
             head = {"type": "frames", "version": structure.version, "origin": list(frames.origin)}
-            packets.append(encode_packet({**head, "stamp": self._source.now_ns() / 1e9}, arrays))
+            stamp = self._timeline.stamp_ns() / 1e9 or float(frames.stamps.max(initial=0.0))
+            packets.append(encode_packet({**head, "stamp": stamp}, arrays))
         return packets
 
     def _tree(self) -> list[bytes]:
