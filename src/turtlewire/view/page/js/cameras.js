@@ -1,0 +1,150 @@
+// Ways to look: around a point, from above, or after a frame.
+
+import { MOUSE, OrthographicCamera, PerspectiveCamera, TOUCH, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+const FIELD_OF_VIEW = 50; // [degrees]
+const START = new Vector3(-0.62, -0.78, 0.62); // where the eye is from the middle, to be scaled
+const TURN = Math.PI / 24;
+const ZOOM = 0.85;
+
+export class Cameras {
+  /** "orbit" or "top". */
+  kind = "orbit";
+  /** Name of the frame that stays in place on the screen, or "". */
+  followed = "";
+  /** Whether the user has moved a camera. */
+  isTouched = false;
+  #view;
+  #onChange;
+  #cameras = {};
+  #controls = {};
+  #height = 10; // of what the camera from above sees [m]
+  #former = null;
+
+  /** `onChange()`: the user chose another frame or kind. */
+  constructor(view, onChange = () => {}) {
+    this.#view = view;
+    this.#onChange = onChange;
+    this.#add("orbit", new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 5000));
+    this.#add("top", new OrthographicCamera(-1, 1, 1, -1, 0.1, 20_000));
+    const { top } = this.#controls;
+    top.enableRotate = false;
+    top.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
+    top.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
+    top.screenSpacePanning = true;
+    view.resized.push(() => this.#shape());
+    view.canvas.addEventListener("keydown", (event) => this.#key(event));
+    this.look(new Vector3(), 4);
+    this.choose("orbit");
+  }
+
+  /** Look around a point ("orbit") or from above ("top"). */
+  choose(kind) {
+    const target = this.#controls[this.kind].target.clone();
+    this.kind = kind;
+    for (const name of ["orbit", "top"]) this.#controls[name].enabled = name === kind;
+    this.#view.camera = this.#cameras[kind];
+    this.#shift(target.sub(this.#controls[kind].target));
+    this.#shape();
+    this.#onChange();
+  }
+
+  /** See everything within `radius` [m] of `middle`. */
+  look(middle, radius) {
+    const { orbit, top } = this.#cameras;
+    const away = (1.15 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360) / this.#narrow();
+    for (const controls of Object.values(this.#controls)) controls.target.copy(middle);
+    orbit.position.copy(START).normalize().multiplyScalar(away).add(middle);
+    orbit.near = Math.max(0.001, away / 500);
+    orbit.far = 200 * away;
+    this.#height = (2.3 * radius) / this.#narrow();
+    top.position.set(middle.x, middle.y, middle.z + 5000);
+    top.zoom = 1;
+    this.#shape();
+    for (const controls of Object.values(this.#controls)) controls.update();
+  }
+
+  /** Keep a frame where it is on the screen; "" ends it. */
+  follow(name) {
+    this.followed = name;
+    this.#former = null;
+    this.#onChange();
+  }
+
+  /** Move with the followed frame; after each packet of poses. */
+  take(frames) {
+    const pose = this.followed && frames.poseOf(this.followed);
+    if (!pose || !pose.slice(0, 3).every(Number.isFinite)) return;
+    const at = new Vector3(...pose);
+    const target = this.#controls[this.kind].target;
+    this.#shift(this.#former ? at.clone().sub(this.#former) : at.clone().sub(target));
+    this.#former = at;
+  }
+
+  /** Pixels that a metre at the middle has on the screen. */
+  get pixelsPerMetre() {
+    const { height } = this.#view.viewport;
+    const { orbit, top } = this.#cameras;
+    if (this.kind === "top") return (height * top.zoom) / this.#height;
+    const away = orbit.position.distanceTo(this.#controls.orbit.target);
+    return height / (2 * away * Math.tan((FIELD_OF_VIEW * Math.PI) / 360));
+  }
+
+  #add(name, camera) {
+    camera.up.set(0, 0, 1);
+    if (name === "top") camera.up.set(0, 1, 0);
+    camera.position.set(0, name === "top" ? 0 : -1, 1);
+    const controls = new OrbitControls(camera, this.#view.canvas);
+    controls.addEventListener("start", () => { this.isTouched = true; });
+    controls.addEventListener("change", () => this.#view.requestDraw());
+    controls.maxPolarAngle = Math.PI * 0.98;
+    controls.zoomToCursor = true;
+    this.#cameras[name] = camera;
+    this.#controls[name] = controls;
+  }
+
+  #shift(by) {
+    const controls = this.#controls[this.kind];
+    controls.target.add(by);
+    this.#cameras[this.kind].position.add(by);
+    controls.update();
+    this.#view.requestDraw();
+  }
+
+  #shape() {
+    const { width, height } = this.#view.viewport;
+    const { orbit, top } = this.#cameras;
+    orbit.aspect = width / height;
+    top.top = this.#height / 2;
+    top.bottom = -top.top;
+    top.right = (top.top * width) / height;
+    top.left = -top.right;
+    orbit.updateProjectionMatrix();
+    top.updateProjectionMatrix();
+  }
+
+  /** How much less is seen across than upwards, at most 1. */
+  #narrow() {
+    return Math.min(1, this.#view.viewport.width / this.#view.viewport.height);
+  }
+
+  #key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const controls = this.#controls[this.kind];
+    const pans = event.shiftKey || this.kind === "top";
+    const acts = {
+      ArrowLeft: () => (pans ? controls.pan(60, 0) : controls.rotateLeft(TURN)),
+      ArrowRight: () => (pans ? controls.pan(-60, 0) : controls.rotateLeft(-TURN)),
+      ArrowUp: () => (pans ? controls.pan(0, 60) : controls.rotateUp(TURN)),
+      ArrowDown: () => (pans ? controls.pan(0, -60) : controls.rotateUp(-TURN)),
+      "+": () => controls.dollyIn(ZOOM),
+      "=": () => controls.dollyIn(ZOOM),
+      "-": () => controls.dollyOut(ZOOM),
+    };
+    if (!acts[event.key]) return;
+    this.isTouched = true;
+    event.preventDefault();
+    acts[event.key]();
+  }
+}

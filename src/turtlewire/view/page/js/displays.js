@@ -1,0 +1,160 @@
+// Displays: each kind is a module below displays/, loaded when the first one is added.
+
+import * as three from "three";
+import { bytesOf } from "./colors.js";
+import { DisplayParts } from "./display_parts.js";
+
+export class Displays {
+  #view;
+  #frames;
+  #send;
+  #onChange;
+  #entries = new Map(); // id to entry
+
+  /** `onChange()`: the list or a status is another one. `view` is null without WebGL. */
+  constructor(view, frames, send, onChange) {
+    this.#view = view;
+    this.#frames = frames;
+    this.#send = send;
+    this.#onChange = onChange;
+    view?.recolored.push((colors) => {
+      for (const { display } of this.#entries.values()) display?.schemeChanged?.(colors);
+    });
+  }
+
+  /** What is there: { id, kind, topic, options, schema, visible, level, text }. */
+  get list() {
+    return [...this.#entries.values()];
+  }
+
+  /** Add a display; `id` of one that a loaded view names. */
+  async add({ kind, topic, options = {}, id = crypto.randomUUID?.() ?? `${kind}-${Date.now()}` }) {
+    const entry = { id, kind, topic, options, schema: [], visible: true, level: "ok", text: "" };
+    this.#entries.set(id, entry);
+    this.#onChange();
+    try {
+      const module = await import(`./displays/${kind}.js`);
+      if (!this.#entries.has(id)) return;
+      entry.schema = module.OPTIONS ?? [];
+      entry.options = { ...defaults(entry.schema), ...options };
+      if (this.#view) this.#draw(entry, module.default);
+    } catch (error) {
+      entry.level = "error";
+      entry.text = `This page cannot draw "${kind}": ${error.message}`;
+      this.#onChange();
+      return;
+    }
+    this.#announce(entry);
+    this.#onChange();
+  }
+
+  remove(id) {
+    const entry = this.#entries.get(id);
+    if (!entry) return;
+    this.#entries.delete(id);
+    entry.display?.dispose?.();
+    entry.parts?.dispose();
+    this.#send({ type: "remove", id });
+    this.#view?.requestDraw();
+    this.#onChange();
+  }
+
+  setVisible(id, visible) {
+    const entry = this.#entries.get(id);
+    entry.visible = visible;
+    if (entry.parts) entry.parts.object.visible = visible;
+    this.#view?.requestDraw();
+    this.#onChange();
+  }
+
+  setOption(id, name, value) {
+    const entry = this.#entries.get(id);
+    entry.options = { ...entry.options, [name]: value };
+    entry.display?.setOptions?.(entry.options);
+    this.#send({ type: "options", id, options: forServer(entry) });
+    this.#view?.requestDraw();
+  }
+
+  /** A new connection knows no display. */
+  announceAll() {
+    for (const entry of this.#entries.values()) {
+      for (const part of entry.partNames ?? []) entry.parts.remove(part);
+      entry.partNames?.clear();
+      this.#announce(entry);
+    }
+  }
+
+  /** A packet `display`, `pose`, `removed` or `status` with an id. */
+  take(packet) {
+    const entry = this.#entries.get(packet.id);
+    if (!entry) return;
+    if (packet.type === "status") {
+      Object.assign(entry, { level: packet.level, text: packet.text });
+      this.#onChange();
+    } else if (entry.parts) this.#takeGeometry(entry, packet);
+    this.#view?.requestDraw();
+  }
+
+  /** After each packet of poses. */
+  follow() {
+    for (const { parts, display } of this.#entries.values()) {
+      parts?.follow(this.#frames);
+      display?.update?.(this.#frames);
+    }
+  }
+
+  #takeGeometry(entry, packet) {
+    const { part = "", arrays, shapes } = packet;
+    if (packet.type === "removed") {
+      entry.display.removed?.(part);
+      entry.parts.remove(part);
+      entry.partNames.delete(part);
+    } else {
+      if (packet.type === "display") {
+        entry.partNames.add(part);
+        entry.display.show(entry.parts.group(part), packet, arrays, shapes);
+      }
+      entry.parts.place(part, packet);
+      if (packet.frame) entry.parts.follow(this.#frames);
+    }
+  }
+
+  #draw(entry, Kind) {
+    entry.parts = new DisplayParts();
+    entry.partNames = new Set();
+    entry.display = new Kind(this.#context(), entry.options);
+    this.#view.displays.add(entry.parts.object);
+  }
+
+  #context() {
+    const view = this.#view;
+    return {
+      three,
+      scene: view.scene,
+      viewport: view.viewport,
+      get camera() { return view.camera; },
+      get colors() { return view.colors; },
+      requestDraw: () => view.requestDraw(),
+      now: () => this.#frames.stamp,
+      poseOf: (name) => this.#frames.poseOf(name),
+      send: (command) => this.#send(command),
+    };
+  }
+
+  #announce(entry) {
+    const { id, kind, topic } = entry;
+    this.#send({ type: "add", id, kind, topic, options: forServer(entry) });
+  }
+}
+
+function defaults(schema) {
+  return Object.fromEntries(schema.map(({ name, value }) => [name, value]));
+}
+
+/** Colours travel as three numbers. */
+function forServer({ schema, options }) {
+  const colors = new Set(schema.filter(({ type }) => type === "color").map(({ name }) => name));
+  return Object.fromEntries(Object.entries(options).map(([name, value]) => {
+    return [name, colors.has(name) ? bytesOf(value) : value];
+  }));
+}

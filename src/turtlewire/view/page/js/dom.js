@@ -1,0 +1,43 @@
+// Small helpers for the page's elements.
+
+export const byId = (id) => document.getElementById(id);
+
+/** Natural order: link2 before link10. */
+export const naturalOrder = new Intl.Collator("en", { numeric: true }).compare;
+
+/** Set a text only when it is another one: no needless layout. */
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** An element with attributes and children; `attributes` may hold `className` and handlers. */
+export function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name in element) element[name] = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
+
+/** Offer `options` as [value, text] and keep the user's choice, or take the first. */
+export function offer(select, options, chosen = select.value) {
+  const values = options.map(([value]) => value);
+  const shape = JSON.stringify(options);
+  if (select.dataset.shape !== shape) {
+    select.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
+    select.dataset.shape = shape;
+  }
+  select.value = values.includes(chosen) ? chosen : (values[0] ?? "");
+}
+
+/** A dl's content from [term, text]; null texts are left out. */
+export function setFacts(list, facts) {
+  const shown = facts.filter(([, text]) => text !== null && text !== undefined);
+  const parts = shown.flatMap(([term, text]) => [
+    make("dt", { textContent: term }), make("dd", { textContent: text }),
+  ]);
+  const isSame = list.textContent === shown.flat().join("");
+  if (!isSame || !shown.length) list.replaceChildren(...parts);
+}

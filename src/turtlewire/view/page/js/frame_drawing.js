@@ -1,0 +1,129 @@
+// All frames in three draw calls: axes, arrows from child to parent, and what is highlighted.
+
+import { Group } from "three";
+import { ArrowHeads } from "./arrow_heads.js";
+import { bytesOf } from "./colors.js";
+import { ThickLines } from "./thick_lines.js";
+
+const POSE = 7;
+const NEAR_METRES = 0.001; // a shorter arrow is not drawn, as in RViz
+const DIM = 0.3;
+
+export class FrameDrawing {
+  object = new Group();
+  /** Length of the axes [m]. */
+  size = 0.2;
+  show = { axes: true, arrows: true };
+  #axes = new ThickLines(2.5);
+  #shafts = new ThickLines(1.5);
+  #heads = new ArrowHeads();
+  #path = new ThickLines(5, { onTop: true });
+  #colors;
+
+  constructor(colors) {
+    this.setColors(colors);
+    this.object.add(this.#axes.object, this.#shafts.object, this.#heads.object, this.#path.object);
+  }
+
+  setColors(colors) {
+    const names = ["x", "y", "z", "head", "shaft", "faded", "accent"];
+    this.#colors = Object.fromEntries(names.map((name) => [name, bytesOf(colors[name])]));
+  }
+
+  /** Rewrite everything. `path`: indices of highlighted frames in order, perhaps none. */
+  update(frames, path) {
+    frames.ages.tick();
+    const onPath = new Set(path);
+    const dim = (k) => (path.length > 0 && !onPath.has(k) ? DIM : 1);
+    this.#drawAxes(frames, dim);
+    this.#drawArrows(frames, dim);
+    this.#drawPath(frames, path);
+  }
+
+  #drawAxes(frames, dim) {
+    const { ends, colors } = this.#axes.reserve(3 * frames.count);
+    const kinds = [this.#colors.x, this.#colors.y, this.#colors.z];
+    const at = [0, 0, 0];
+    let count = 0;
+    for (let k = 0; this.show.axes && k < frames.count; k += 1) {
+      if (!frames.isShown(k)) continue;
+      frames.position(k, at);
+      writeAxes(frames.poses, POSE * k, at, this.size, ends, 6 * count);
+      const fading = frames.ages.fading(k);
+      const alpha = 255 * fading.alpha * dim(k);
+      for (let axis = 0; axis < 3; axis += 1) {
+        this.#write(colors, 8 * (count + axis), kinds[axis], fading.grey, alpha);
+      }
+      count += 3;
+    }
+    this.#axes.show(count);
+  }
+
+  #drawArrows(frames, dim) {
+    const shafts = this.#shafts.reserve(frames.count);
+    const heads = this.#heads.reserve(frames.count);
+    const [from, to] = [[0, 0, 0], [0, 0, 0]];
+    let count = 0;
+    for (let k = 0; this.show.arrows && k < frames.count; k += 1) {
+      const parent = frames.parents[k];
+      if (parent < 0 || !frames.isShown(k) || !frames.isShown(parent)) continue;
+      frames.position(k, from);
+      frames.position(parent, to);
+      const [x, y, z] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+      const length = Math.hypot(x, y, z);
+      if (!(length >= NEAR_METRES)) continue;
+      const head = Math.min(0.55 * this.size, 0.4 * length);
+      const back = head / length;
+      shafts.ends.set(from, 6 * count);
+      shafts.ends.set([to[0] - back * x, to[1] - back * y, to[2] - back * z], 6 * count + 3);
+      heads.tips.set([...to, head], 4 * count);
+      heads.directions.set([x, y, z], 3 * count);
+      const { grey, alpha } = frames.ages.fading(k);
+      const opacity = 255 * alpha * dim(k) * Math.min(dim(parent), 1);
+      this.#write(shafts.colors, 8 * count, this.#colors.shaft, grey, opacity);
+      this.#write(heads.colors, 4 * count, this.#colors.head, grey, opacity, 1);
+      count += 1;
+    }
+    this.#shafts.show(count);
+    this.#heads.show(count);
+  }
+
+  #drawPath(frames, path) {
+    const { ends, colors } = this.#path.reserve(path.length);
+    let count = 0;
+    for (let k = 1; k < path.length; k += 1) {
+      if (!frames.isShown(path[k - 1]) || !frames.isShown(path[k])) continue;
+      ends.set(frames.position(path[k - 1]), 6 * count);
+      ends.set(frames.position(path[k]), 6 * count + 3);
+      this.#write(colors, 8 * count, this.#colors.accent, 0, 150);
+      count += 1;
+    }
+    this.#path.show(count);
+  }
+
+  /** A colour, on its way to grey, into `ends` vertices from `at` on. */
+  #write(colors, at, color, grey, alpha, ends = 2) {
+    for (let end = 0; end < ends; end += 1) {
+      for (let i = 0; i < 3; i += 1) {
+        colors[at + 4 * end + i] = color[i] + grey * (this.#colors.faded[i] - color[i]);
+      }
+      colors[at + 4 * end + 3] = alpha;
+    }
+  }
+}
+
+/** Three segments from `origin` along the axes of the rotation at `poses[start + 3]`. */
+function writeAxes(poses, start, origin, size, ends, at) {
+  const [x, y, z, w] = [poses[start + 3], poses[start + 4], poses[start + 5], poses[start + 6]];
+  const axes = [
+    1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
+    2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
+    2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y),
+  ];
+  for (let axis = 0; axis < 3; axis += 1) {
+    for (let i = 0; i < 3; i += 1) {
+      ends[at + 6 * axis + i] = origin[i];
+      ends[at + 6 * axis + 3 + i] = origin[i] + size * axes[3 * axis + i];
+    }
+  }
+}

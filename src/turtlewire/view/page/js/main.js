@@ -1,0 +1,208 @@
+// Wiring: packets feed the frames, the picture and the panels; the user's choices go to the server.
+
+import { Budget } from "./budget.js";
+import { Connection } from "./connection.js";
+import { Displays } from "./displays.js";
+import { DisplaysPanel } from "./displays_panel.js";
+import { byId, naturalOrder, offer, setText } from "./dom.js";
+import { Frames } from "./frames.js";
+import { Hiding } from "./hiding.js";
+import { listenForLooks } from "./looks.js";
+import { RelationPanel } from "./relation_panel.js";
+import { Stage } from "./stage.js";
+import { TimeBar } from "./time_bar.js";
+import { TreeView } from "./tree_view.js";
+import { View } from "./scene.js";
+
+const NOTICE_MS = 6000;
+
+const frames = new Frames();
+const send = (command) => connection.send(command);
+const hiding = new Hiding(applyHiding);
+const stage = makeStage();
+const looks = stage && listenForLooks(stage, () => relation.source);
+const relation = new RelationPanel(frames, takeChoice);
+const tree = new TreeView(frames, {
+  select,
+  hide: (name, on) => hiding.set(name, on),
+  hover: (k) => stage?.hover(k),
+  follow: (name) => stage?.cameras.follow(name),
+});
+const displays = new Displays(stage?.view ?? null, frames, send, () => displaysPanel.show());
+const displaysPanel = new DisplaysPanel(displays);
+const time = new TimeBar(send);
+const budget = new Budget(stage?.view.isSoftware ?? true, send);
+let chosenFixed = "";
+let noticeTimer = null;
+
+const TAKERS = {
+  hello: takeHello,
+  names: takeNames,
+  frames: takePoses,
+  tree: takeTree,
+  relation: (packet) => relation.show(packet),
+  topics: ({ topics }) => displaysPanel.showTopics(topics),
+  display: (packet) => displays.take(packet),
+  pose: (packet) => displays.take(packet),
+  removed: (packet) => displays.take(packet),
+  status: takeStatus,
+  time: takeTime,
+  view: takeView,
+  error: ({ text }) => notice(text, "error"),
+};
+const connection = new Connection({
+  onState: takeState,
+  onPacket: (packet) => TAKERS[packet.type]?.(packet),
+});
+
+/** Everything that is drawn, or null when this browser cannot. */
+function makeStage() {
+  try {
+    const view = new View(byId("scene"));
+    return new Stage(view, frames, {
+      select: (k, event) => select(frames.names[k] ?? "", event),
+      hover: (k) => tree.showHovered(k),
+      look: () => looks?.show(),
+    });
+  } catch (error) {
+    notice(`${error.message} The tree and the numbers work without it.`, "error", false);
+    return null;
+  }
+}
+
+function takeState(state) {
+  const pill = byId("connection");
+  pill.dataset.state = state;
+  setText(pill, state === "live" ? "live" : "connection lost, trying again …");
+  byId("stage").toggleAttribute("data-stale", state === "lost");
+  if (state !== "live") return;
+  if (chosenFixed) send({ type: "fixed", frame: chosenFixed });
+  budget.announce();
+  displays.announceAll();
+  takeChoice();
+}
+
+function takeHello({ source }) {
+  time.isBag = source.kind === "bag";
+  setText(byId("source"), source.name);
+  document.title = `${source.name} · turtlewire view`;
+}
+
+function takeNames(packet) {
+  frames.takeNames(packet);
+  hiding.apply(frames);
+  const others = [...frames.names].sort(naturalOrder).map((name) => [name, name]);
+  const automatic = frames.roots[0] ? `automatic (${frames.roots[0]})` : "automatic";
+  offer(byId("fixed"), [["", automatic], ...others], chosenFixed);
+  tree.rebuild();
+  stage?.takeNames();
+  relation.rebuild();
+  showSelection();
+  if (packet.loops?.length) notice(`Frames in a loop: ${packet.loops[0].join(" → ")}`, "error");
+}
+
+function takePoses(packet) {
+  if (!frames.takePoses(packet)) return;
+  stage?.takePoses();
+  displays.follow();
+}
+
+function takeTree({ rows }) {
+  tree.showReadings(rows);
+  relation.showFacts(tree.readingOf(relation.source) ?? {});
+}
+
+function takeTime(packet) {
+  time.show(packet);
+  frames.ages.setPaused(time.isPaused);
+}
+
+function takeStatus(packet) {
+  if (packet.id !== null && packet.id !== undefined) displays.take(packet);
+  else notice(packet.text, packet.level, false);
+}
+
+async function takeView(packet) {
+  chosenFixed = packet.fixed ?? "";
+  byId("fixed").value = chosenFixed;
+  for (const { id } of displays.list) displays.remove(id);
+  for (const display of packet.displays ?? []) await displays.add(display);
+}
+
+function select(name, event) {
+  if (name && event?.shiftKey && relation.source) relation.chooseTarget(name);
+  else relation.choose(name);
+}
+
+/** The user chose frames (or the connection is new): ask, and show them. */
+function takeChoice() {
+  const { source, target } = relation;
+  send(source && target ? { type: "relation", target, source } : { type: "relation", target: null });
+  relation.showFacts(tree.readingOf(source) ?? {});
+  showSelection();
+}
+
+function showSelection() {
+  const { source, target } = relation;
+  const k = frames.index(source);
+  const path = stage?.select(k, frames.index(target)) ?? [];
+  tree.showSelection(source, path);
+  byId("frame-actions").hidden = k < 0;
+  byId("hide-one").setAttribute("aria-pressed", String(k >= 0 && frames.hidden[k] === 1));
+  byId("trail").setAttribute("aria-pressed", String(stage?.trails.has(source) ?? false));
+  looks?.show();
+}
+
+function applyHiding() {
+  hiding.apply(frames);
+  tree.rebuild();
+  showSelection();
+  stage?.change();
+}
+
+function notice(text, level, passes = true) {
+  const line = byId("notice");
+  line.hidden = !text;
+  line.dataset.level = level;
+  setText(line, text);
+  clearTimeout(noticeTimer);
+  if (passes) noticeTimer = setTimeout(() => { line.hidden = true; }, NOTICE_MS);
+}
+
+function chooseFixed(name) {
+  chosenFixed = name;
+  byId("fixed").value = name;
+  stage?.trails.clear();
+  send({ type: "fixed", frame: name });
+}
+
+byId("fixed").onchange = ({ target }) => chooseFixed(target.value);
+byId("use-fixed").onclick = () => chooseFixed(relation.source);
+byId("hide-one").onclick = () => {
+  hiding.set(relation.source, frames.hidden[frames.index(relation.source)] === 0);
+};
+byId("trail").onclick = () => {
+  stage?.trails.toggle(relation.source);
+  stage?.change();
+  showSelection();
+};
+addEventListener("keydown", (event) => {
+  if (event.target.matches("input, select, textarea, button, summary")) return;
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  const acts = {
+    " ": () => time.toggle(),
+    n: () => time.now(),
+    Escape: () => select(""),
+    "/": () => byId("search").focus(),
+  };
+  const act = acts[event.key] ?? looks?.keys[event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+if (stage) {
+  stage.view.afterDraw((now) => {
+    if (!displays.list.some(({ visible }) => visible)) return;
+    requestAnimationFrame((next) => budget.take(next - now));
+  });
+}

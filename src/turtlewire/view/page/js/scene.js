@@ -1,0 +1,119 @@
+// The picture: renderer, light and grid; it draws only when something asks for it.
+
+import {
+  Color, DirectionalLight, Group, HemisphereLight, Object3D, PerspectiveCamera, Scene,
+  WebGLRenderer,
+} from "three";
+import { currentColors, onSchemeChange } from "./colors.js";
+import { Grid } from "./grid.js";
+
+/** A renderer without a graphics card: smoothed edges and fine pixels cost too much there. */
+const SOFTWARE = /SwiftShader|llvmpipe|softpipe|Basic Render/i;
+const MOST_PIXELS_PER_CSS = 2;
+
+export class View {
+  scene = new Scene();
+  camera = new PerspectiveCamera(50, 1, 0.01, 10_000);
+  colors = currentColors();
+  viewport = { width: 1, height: 1 };
+  /** Whether the browser draws without a graphics card. */
+  isSoftware;
+  grid = new Grid();
+  /** Below this hang the displays. */
+  displays = new Group();
+  canvas;
+  #renderer;
+  #before = [];
+  #after = [];
+  #scheduled = false;
+  #light = new DirectionalLight(0xffffff, 2.2);
+
+  /** Raises an Error when the browser cannot draw in 3D. */
+  constructor(canvas) {
+    this.canvas = canvas;
+    Object3D.DEFAULT_UP.set(0, 0, 1);
+    this.camera.up.set(0, 0, 1);
+    this.isSoftware = SOFTWARE.test(rendererName());
+    const options = { canvas, antialias: !this.isSoftware, powerPreference: "high-performance" };
+    this.#renderer = new WebGLRenderer(options);
+    this.scene.add(new HemisphereLight(0xffffff, 0x8088a0, 1.6), this.#light, this.#light.target);
+    this.scene.add(this.grid.object, this.displays);
+    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+    this.#resize();
+    this.#takeColors(this.colors);
+    onSchemeChange((colors) => this.#takeColors(colors));
+  }
+
+  /** Draw soon; many calls are one picture. */
+  requestDraw() {
+    if (this.#scheduled) return;
+    this.#scheduled = true;
+    requestAnimationFrame((now) => this.#draw(now));
+  }
+
+  /** Call `act(now)` [ms] before each picture. */
+  beforeDraw(act) {
+    this.#before.push(act);
+  }
+
+  /** Call `act(now)` after each picture. */
+  afterDraw(act) {
+    this.#after.push(act);
+  }
+
+  /** Where a point of the picture is on the canvas: CSS pixels and depth; null behind the eye. */
+  project(point) {
+    const at = point.clone().project(this.camera);
+    if (!(at.z > -1 && at.z < 1)) return null;
+    const { width, height } = this.viewport;
+    return { x: (at.x + 1) * width / 2, y: (1 - at.y) * height / 2, depth: at.z };
+  }
+
+  /** The picture as a PNG blob. */
+  async picture() {
+    this.#draw(performance.now());
+    return new Promise((done) => this.canvas.toBlob(done, "image/png"));
+  }
+
+  #draw(now) {
+    this.#scheduled = false;
+    for (const act of this.#before) act(now);
+    this.#light.position.copy(this.camera.position);
+    this.#renderer.render(this.scene, this.camera);
+    for (const act of this.#after) act(now);
+  }
+
+  #resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    Object.assign(this.viewport, { width, height });
+    const ratio = this.isSoftware ? 1 : Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS);
+    this.#renderer.setPixelRatio(ratio);
+    this.#renderer.setSize(width, height, false);
+    for (const act of this.resized) act(width, height);
+    this.#draw(performance.now()); // resizing clears the canvas
+  }
+
+  /** Called with width and height [CSS pixels] when the canvas has another size. */
+  resized = [];
+  /** Called with the colours when the scheme changes. */
+  recolored = [];
+
+  #takeColors(colors) {
+    this.colors = colors;
+    this.scene.background = new Color(colors.ground);
+    this.grid.setColors(colors);
+    for (const act of this.recolored) act(colors);
+    this.requestDraw();
+  }
+}
+
+/** What draws, as the browser names it. */
+function rendererName() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) throw new Error("This browser cannot draw in 3D: WebGL 2 is off or missing.");
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return String(name);
+}

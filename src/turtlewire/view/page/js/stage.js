@@ -1,0 +1,147 @@
+// The frames in the picture: drawing, names, trails, cameras and pointer work together here.
+
+import { Cameras } from "./cameras.js";
+import { cellFor, extentOf, sizeFor } from "./extent.js";
+import { FrameDrawing } from "./frame_drawing.js";
+import { Labels } from "./labels.js";
+import { Picking } from "./picking.js";
+import { Trails } from "./trails.js";
+
+const FADING_MS = 150;
+const SETTLE_MS = 300; // names are chosen anew when a movement has ended
+
+export class Stage {
+  view;
+  cameras;
+  trails = new Trails();
+  labels;
+  drawing;
+  #frames;
+  #picking;
+  #path = [];
+  #selection = { source: -1, target: -1 };
+  #isDirty = true;
+  #settling = null;
+  #fading = null;
+  #fitted = -1;
+  #sizeIsChosen = false;
+  #onLook;
+
+  /** `actions`: select(index, event), hover(index), look() after a change of camera or sizes. */
+  constructor(view, frames, actions) {
+    this.view = view;
+    this.#frames = frames;
+    this.#onLook = actions.look;
+    this.drawing = new FrameDrawing(view.colors);
+    this.labels = new Labels(view);
+    this.cameras = new Cameras(view, actions.look);
+    this.#picking = new Picking(view, frames, {
+      select: actions.select,
+      hover: (k) => {
+        actions.hover(k);
+        this.hover(k);
+      },
+    });
+    view.scene.add(this.drawing.object, this.trails.object, this.labels.object);
+    view.beforeDraw((now) => this.#prepare(now));
+    view.recolored.push((colors) => {
+      this.drawing.setColors(colors);
+      this.change();
+    });
+  }
+
+  /** Something that is drawn is another one. */
+  change() {
+    this.#isDirty = true;
+    this.labels.refresh();
+    this.view.requestDraw();
+  }
+
+  /** After a `names` packet. */
+  takeNames() {
+    this.trails.clear();
+    this.#path = [];
+    this.#selection = { source: -1, target: -1 };
+    this.change();
+  }
+
+  /** After a `frames` packet. */
+  takePoses() {
+    const frames = this.#frames;
+    if (this.#fitted !== frames.version && !this.cameras.isTouched) this.fit();
+    this.#fitted = frames.version;
+    this.cameras.take(frames);
+    this.trails.take(frames);
+    this.view.grid.setOrigin(frames.origin);
+    this.#isDirty = true;
+    this.view.requestDraw();
+    this.#watchFading();
+  }
+
+  /** Highlight the path between two frames (indices, or -1). */
+  select(source, target) {
+    this.#selection = { source, target };
+    this.#path = source >= 0 && target >= 0 ? this.#frames.path(source, target) : [];
+    this.change();
+    return this.#path;
+  }
+
+  /** Name the frame under the pointer, here or in the tree; -1 for none. */
+  hover(k) {
+    this.#picking.hovered = k;
+    this.labels.refresh();
+    this.view.requestDraw();
+  }
+
+  /** Show everything, with sizes that fit. */
+  fit() {
+    const extent = extentOf(this.#frames);
+    if (!extent) return;
+    if (!this.#sizeIsChosen) this.drawing.size = sizeFor(this.#frames, extent.radius);
+    this.view.grid.setCell(cellFor(extent.radius));
+    this.cameras.look(extent.middle, extent.radius + this.drawing.size);
+    this.change();
+    this.#onLook();
+  }
+
+  /** Length of the axes, chosen by the user [m]. */
+  setSize(metres) {
+    this.#sizeIsChosen = true;
+    this.drawing.size = metres;
+    this.change();
+  }
+
+  #prepare(now) {
+    if (this.#isDirty) this.drawing.update(this.#frames, this.#path);
+    this.#isDirty = false;
+    this.labels.update(this.#frames, this.#important(), now);
+    clearTimeout(this.#settling);
+    this.#settling = setTimeout(() => this.#settle(), SETTLE_MS);
+  }
+
+  #settle() {
+    if (!this.labels.isCurrent(this.#frames, this.#important())) this.view.requestDraw();
+  }
+
+  #important() {
+    const important = new Map();
+    const { roots } = this.#frames;
+    if (roots.length > 1) for (const root of roots) important.set(this.#frames.index(root), "root");
+    for (const k of this.#path) important.set(k, "other");
+    if (this.#picking.hovered >= 0) important.set(this.#picking.hovered, "hovered");
+    if (this.#selection.target >= 0) important.set(this.#selection.target, "other");
+    if (this.#selection.source >= 0) important.set(this.#selection.source, "selected");
+    return important;
+  }
+
+  /** Frames that no longer move fade with time, without packets. */
+  #watchFading() {
+    if (this.#fading !== null) return;
+    this.#fading = setInterval(() => {
+      this.#frames.ages.tick();
+      if (!this.#frames.ages.isFading) return;
+      this.#isDirty = true;
+      this.view.requestDraw();
+    }, FADING_MS);
+  }
+}

@@ -1,0 +1,97 @@
+// Which rows the tree of frames has: order, search, what is folded.
+
+import { naturalOrder } from "./dom.js";
+
+export class TreeModel {
+  /** Name to the server's row: publisher, rate, age, delay, static. */
+  readings = new Map();
+  #frames;
+  #children = new Map(); // index to indices of children in order; -1 to the roots
+  #folded = new Set(); // names
+  #query = "";
+
+  constructor(frames) {
+    this.#frames = frames;
+  }
+
+  /** After other names: order anew. */
+  rebuild() {
+    const { names, parents, trees, fixed } = this.#frames;
+    const main = trees[this.#frames.index(fixed)];
+    const order = names.map((_, k) => k);
+    order.sort((a, b) => naturalOrder(names[a], names[b]));
+    order.sort((a, b) => (trees[b] === main) - (trees[a] === main));
+    this.#children = new Map();
+    for (const k of order) {
+      const siblings = this.#children.get(parents[k]);
+      if (siblings) siblings.push(k);
+      else this.#children.set(parents[k], [k]);
+    }
+  }
+
+  search(query) {
+    this.#query = query.trim().toLowerCase();
+  }
+
+  get isSearching() {
+    return this.#query !== "";
+  }
+
+  fold(name, folded) {
+    if (folded) this.#folded.add(name);
+    else this.#folded.delete(name);
+  }
+
+  /** Open everything above a frame, so that it has a row. */
+  reveal(k) {
+    const { names, parents } = this.#frames;
+    let at = parents[k];
+    for (let step = 0; at >= 0 && step < names.length; step += 1, at = parents[at]) {
+      this.#folded.delete(names[at]);
+    }
+  }
+
+  /** Rows from the top: { k, depth, fold: "none", "open" or "closed", found }. */
+  rows() {
+    const wanted = this.isSearching ? this.#found() : null;
+    const rows = [];
+    const stack = this.#below(-1, 0);
+    while (stack.length) {
+      const { k, depth } = stack.pop();
+      if (wanted && !wanted.has(k)) continue;
+      const name = this.#frames.names[k];
+      const below = this.#below(k, depth + 1);
+      const closed = !wanted && this.#folded.has(name);
+      const fold = below.length === 0 ? "none" : closed ? "closed" : "open";
+      rows.push({ k, depth, fold, found: wanted?.get(k) ?? null });
+      if (!closed) stack.push(...below);
+    }
+    return rows;
+  }
+
+  /** Children in reverse: the stack takes the first one first. */
+  #below(k, depth) {
+    return (this.#children.get(k) ?? []).map((child) => ({ k: child, depth })).reverse();
+  }
+
+  /** Index to where the name matches (or -1: above one, or its publisher matches). */
+  #found() {
+    const { names, parents } = this.#frames;
+    const found = new Map();
+    names.forEach((name, k) => {
+      const at = name.toLowerCase().indexOf(this.#query);
+      const publisher = this.readings.get(name)?.publisher ?? "";
+      if (at < 0 && !publisher.toLowerCase().includes(this.#query)) return;
+      found.set(k, at);
+      for (let above = parents[k]; above >= 0 && !found.has(above); above = parents[above]) {
+        found.set(above, -1);
+      }
+    });
+    return found;
+  }
+
+  /** Length of what is searched for, to mark it. */
+  get queryLength() {
+    return this.#query.length;
+  }
+}

@@ -1,0 +1,217 @@
+// The tree of frames as rows; only those in sight are elements.
+
+import { byId, make, setText } from "./dom.js";
+import { TreeModel } from "./tree_model.js";
+import { kindOf, readingInWords } from "./words.js";
+
+const ROW_REM = 2.5;
+const SPARE = 4; // rows above and below those in sight
+const EYE = '<svg viewBox="0 0 24 24" aria-hidden="true"><path class="lid" '
+  + 'd="M2 12s4-6 10-6 10 6 10 6-4 6-10 6S2 12 2 12zM12 9a3 3 0 1 0 .01 0"/>'
+  + '<path class="slash" d="M3 12c4 5 14 5 18 0M6 16l-2 3M12 17v3M18 16l2 3"/></svg>';
+
+export class TreeView {
+  #frames;
+  #actions;
+  #model;
+  #rows = [];
+  #elements = new Map(); // index of the frame to element
+  #selected = "";
+  #path = new Set();
+  #hovered = -1;
+  #active = -1; // row of the keyboard
+  #box = byId("tree");
+  #inside = byId("tree-rows");
+
+  /** `actions`: select(name, event), hide(name, on), hover(index), follow(name). */
+  constructor(frames, actions) {
+    this.#frames = frames;
+    this.#actions = actions;
+    this.#model = new TreeModel(frames);
+    this.#box.addEventListener("scroll", () => this.#draw(), { passive: true });
+    this.#box.addEventListener("keydown", (event) => this.#key(event));
+    this.#box.addEventListener("pointerleave", () => actions.hover(-1));
+    new ResizeObserver(() => this.#draw()).observe(this.#box);
+    byId("search").addEventListener("input", ({ target }) => {
+      this.#model.search(target.value);
+      this.#box.scrollTop = 0;
+      this.#layout();
+    });
+  }
+
+  /** Other names or parents. */
+  rebuild() {
+    this.#model.rebuild();
+    for (const element of this.#elements.values()) element.remove();
+    this.#elements.clear();
+    byId("no-frames").hidden = this.#frames.count > 0;
+    this.#box.hidden = this.#frames.count === 0;
+    const trees = this.#frames.roots.length;
+    const apart = trees > 1 ? ` in ${trees} trees` : "";
+    setText(byId("frame-count"), this.#frames.count ? `${this.#frames.count}${apart}` : "");
+    this.#layout();
+  }
+
+  /** The server's rows. */
+  showReadings(rows) {
+    this.#model.readings = new Map(rows.map((row) => [row.name, row]));
+    if (this.#model.isSearching) this.#layout();
+    else this.#draw();
+  }
+
+  readingOf(name) {
+    return this.#model.readings.get(name);
+  }
+
+  /** The selected frame's name, and indices on its path. */
+  showSelection(name, path) {
+    this.#path = new Set(path);
+    const isNew = name !== this.#selected;
+    this.#selected = name;
+    const k = this.#frames.index(name);
+    if (!isNew || k < 0) return this.#draw();
+    this.#model.reveal(k);
+    this.#layout();
+    this.#active = this.#rows.findIndex((row) => row.k === k);
+    this.#scrollTo(this.#active);
+  }
+
+  showHovered(k) {
+    this.#elements.get(this.#hovered)?.removeAttribute("data-hovered");
+    this.#elements.get(k)?.setAttribute("data-hovered", "");
+    this.#hovered = k;
+  }
+
+  #layout() {
+    this.#rows = this.#model.rows();
+    this.#inside.style.height = `${this.#rows.length * ROW_REM}rem`;
+    this.#draw();
+  }
+
+  #rowPixels() {
+    return ROW_REM * parseFloat(getComputedStyle(document.documentElement).fontSize);
+  }
+
+  #draw() {
+    const height = this.#rowPixels();
+    const first = Math.max(0, Math.floor(this.#box.scrollTop / height) - SPARE);
+    const count = Math.ceil(this.#box.clientHeight / height) + 2 * SPARE;
+    const visible = this.#rows.slice(first, first + count);
+    const wanted = new Set(visible.map(({ k }) => k));
+    for (const [k, element] of this.#elements) {
+      if (wanted.has(k)) continue;
+      element.remove();
+      this.#elements.delete(k);
+    }
+    visible.forEach((row, n) => this.#drawRow(row, first + n));
+  }
+
+  #drawRow(row, at) {
+    const name = this.#frames.names[row.k];
+    const reading = this.readingOf(name);
+    let element = this.#elements.get(row.k);
+    if (!element) {
+      element = this.#makeRow(row.k, name);
+      this.#elements.set(row.k, element);
+      this.#inside.append(element);
+    }
+    element.style.top = `${at * ROW_REM}rem`;
+    element.style.setProperty("--depth", Math.min(row.depth, 12));
+    element.setAttribute("aria-level", row.depth + 1);
+    element.setAttribute("aria-selected", String(name === this.#selected));
+    element.dataset.kind = this.#frames.parents[row.k] < 0 ? "root" : kindOf(reading);
+    element.toggleAttribute("data-path", this.#path.has(row.k));
+    element.toggleAttribute("data-active", at === this.#active);
+    element.toggleAttribute("data-apart", row.depth === 0 && this.#frames.roots.length > 1);
+    this.#drawFold(element, row, name);
+    this.#drawEye(element, row.k);
+    this.#drawName(element.querySelector(".name"), name, row.found);
+    setText(element.querySelector("small"), this.#readingText(row.k, reading));
+    element.title = name;
+  }
+
+  #readingText(k, reading) {
+    if (this.#frames.parents[k] >= 0) return readingInWords(reading);
+    return this.#frames.isConnected(k) ? "root" : "root · not connected with the fixed frame";
+  }
+
+  #drawFold(element, row, name) {
+    const fold = element.querySelector(".fold");
+    fold.hidden = row.fold === "none";
+    setText(fold, row.fold === "closed" ? "▸" : "▾");
+    fold.setAttribute("aria-label", `${row.fold === "closed" ? "Unfold" : "Fold"} ${name}`);
+    if (row.fold === "none") element.removeAttribute("aria-expanded");
+    else element.setAttribute("aria-expanded", String(row.fold === "open"));
+  }
+
+  #drawEye(element, k) {
+    const isHidden = this.#frames.hidden[k] === 1;
+    element.toggleAttribute("data-hidden", isHidden);
+    element.querySelector(".eye").setAttribute("aria-pressed", String(isHidden));
+  }
+
+  #drawName(element, name, found) {
+    if (found === null || found < 0) return setText(element, name);
+    const end = found + this.#model.queryLength;
+    const mark = make("mark", { textContent: name.slice(found, end) });
+    element.replaceChildren(name.slice(0, found), mark, name.slice(end));
+  }
+
+  #makeRow(k, name) {
+    const fold = make("button", { type: "button", className: "fold", tabIndex: -1 });
+    const eye = make("button", { type: "button", className: "eye", tabIndex: -1, title: "Hide" });
+    eye.setAttribute("aria-label", `Hide ${name}`);
+    eye.innerHTML = EYE;
+    const row = make(
+      "div", { className: "row", id: `frame-${k}`, role: "treeitem" },
+      fold, make("i", { className: "dot" }), make("span", { className: "name" }),
+      make("small"), eye,
+    );
+    row.onclick = (event) => this.#actions.select(name, event);
+    row.ondblclick = () => this.#actions.follow(name);
+    row.onpointerenter = () => this.#actions.hover(k);
+    fold.onclick = (event) => {
+      event.stopPropagation();
+      this.#setFolded(name, row.getAttribute("aria-expanded") === "true");
+    };
+    eye.onclick = (event) => {
+      event.stopPropagation();
+      this.#actions.hide(name, this.#frames.hidden[k] === 0);
+    };
+    return row;
+  }
+
+  #setFolded(name, folded) {
+    this.#model.fold(name, folded);
+    this.#layout();
+  }
+
+  #scrollTo(at) {
+    const height = this.#rowPixels();
+    const { scrollTop, clientHeight } = this.#box;
+    if (at * height < scrollTop) this.#box.scrollTop = at * height;
+    else if ((at + 1) * height > scrollTop + clientHeight) {
+      this.#box.scrollTop = (at + 1) * height - clientHeight;
+    }
+    this.#draw();
+  }
+
+  #key(event) {
+    const row = this.#rows[this.#active];
+    const moves = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10, Home: -1e9, End: 1e9 };
+    if (event.target !== this.#box || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.key in moves) {
+      const last = this.#rows.length - 1;
+      this.#active = Math.min(last, Math.max(0, this.#active + moves[event.key]));
+      this.#scrollTo(this.#active);
+      this.#box.setAttribute("aria-activedescendant", `frame-${this.#rows[this.#active]?.k}`);
+    } else if (!row) return;
+    else if (event.key === "ArrowRight") this.#setFolded(this.#frames.names[row.k], false);
+    else if (event.key === "ArrowLeft") this.#setFolded(this.#frames.names[row.k], true);
+    else if (event.key === "Enter" || event.key === " ") {
+      this.#actions.select(this.#frames.names[row.k], event);
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}
