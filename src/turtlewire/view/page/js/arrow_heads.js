@@ -1,11 +1,10 @@
 // The heads of many arrows in one draw call: flat triangles that face the camera.
 
 import {
-  BufferAttribute, DoubleSide, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry,
-  Mesh, ShaderMaterial,
+  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial,
 } from "three";
 
-const CORNERS = new Float32Array([0, 0, 0, -1, -1, 0, -1, 1, 0]);
+const CORNERS = [0, 0, 0, -1, -1, 0, -1, 1, 0];
 const VERTEX = `
 attribute vec4 tip;
 attribute vec3 along;
@@ -38,45 +37,51 @@ export class ArrowHeads {
     const material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, side: DoubleSide,
     });
-    this.object = new Mesh(new InstancedBufferGeometry(), material);
+    this.object = new Mesh(new BufferGeometry(), material);
     this.object.frustumCulled = false;
     this.object.renderOrder = 1;
     this.#grow(16);
   }
 
-  /** Room for `count` heads: tips as x, y, z, length; directions; colours as RGBA bytes. */
+  /** Room for `count` heads. */
   reserve(count) {
-    if (count > this.#tips.count) this.#grow(Math.ceil(1.5 * count));
-    return {
-      tips: this.#tips.array, directions: this.#directions.array, colors: this.#colors.array,
-    };
+    if (3 * count > this.#tips.count) this.#grow(Math.ceil(1.5 * count));
   }
 
-  /** Show the first `count` heads of what was reserved. */
+  /** Head `k`: its tip, how long it is [m], the direction that it points to, RGBA in bytes. */
+  set(k, [x, y, z], length, direction, color) {
+    for (let corner = 3 * k; corner < 3 * k + 3; corner += 1) {
+      this.#tips.setXYZW(corner, x, y, z, length);
+      this.#directions.setXYZ(corner, ...direction);
+      this.#colors.array.set(color, 4 * corner);
+    }
+  }
+
+  /** Show the first `count` heads. */
   show(count) {
-    this.object.geometry.instanceCount = count;
+    this.object.geometry.setDrawRange(0, 3 * count);
     this.object.visible = count > 0;
     for (const attribute of [this.#tips, this.#directions, this.#colors]) {
       attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, attribute.itemSize * count);
+      attribute.addUpdateRange(0, attribute.itemSize * 3 * count);
       attribute.needsUpdate = true;
     }
   }
 
+  /** Three corners for each head. Not instanced: that is slow on a processor. */
   #grow(count) {
     const attribute = (Kind, size, normalized = false) =>
-      new InstancedBufferAttribute(new Kind(size * count), size, normalized)
-        .setUsage(DynamicDrawUsage);
+      new BufferAttribute(new Kind(3 * size * count), size, normalized).setUsage(DynamicDrawUsage);
     this.#tips = attribute(Float32Array, 4);
     this.#directions = attribute(Float32Array, 3);
     this.#colors = attribute(Uint8Array, 4, true);
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(CORNERS, 3));
-    geometry.setAttribute("tip", this.#tips);
-    geometry.setAttribute("along", this.#directions);
-    geometry.setAttribute("color", this.#colors);
-    geometry.instanceCount = 0;
+    const corners = new Int8Array(9 * count);
+    for (let k = 0; k < count; k += 1) corners.set(CORNERS, 9 * k);
     this.object.geometry.dispose();
-    this.object.geometry = geometry;
+    this.object.geometry = new BufferGeometry()
+      .setAttribute("position", new BufferAttribute(corners, 3))
+      .setAttribute("tip", this.#tips)
+      .setAttribute("along", this.#directions)
+      .setAttribute("color", this.#colors);
   }
 }

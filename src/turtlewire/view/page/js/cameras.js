@@ -4,7 +4,7 @@ import { MOUSE, OrthographicCamera, PerspectiveCamera, TOUCH, Vector3 } from "th
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const FIELD_OF_VIEW = 50; // [degrees]
-const START = new Vector3(-0.62, -0.78, 0.62); // where the eye is from the middle, to be scaled
+const START = new Vector3(-0.3, -0.85, 0.6); // where the eye is from the middle, to be scaled
 const TURN = Math.PI / 24;
 const ZOOM = 0.85;
 
@@ -53,12 +53,12 @@ export class Cameras {
   /** See everything within `radius` [m] of `middle`. */
   look(middle, radius) {
     const { orbit, top } = this.#cameras;
-    const away = (1.15 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360) / this.#narrow();
+    const away = (0.92 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360) / this.#narrow();
     for (const controls of Object.values(this.#controls)) controls.target.copy(middle);
     orbit.position.copy(START).normalize().multiplyScalar(away).add(middle);
     orbit.near = Math.max(0.001, away / 500);
     orbit.far = 200 * away;
-    this.#height = (2.3 * radius) / this.#narrow();
+    this.#height = (2.1 * radius) / this.#narrow();
     top.position.set(middle.x, middle.y, middle.z + 5000);
     top.zoom = 1;
     this.#shape();

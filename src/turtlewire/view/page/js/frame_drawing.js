@@ -61,7 +61,8 @@ export class FrameDrawing {
 
   #drawArrows(frames, dim) {
     const shafts = this.#shafts.reserve(frames.count);
-    const heads = this.#heads.reserve(frames.count);
+    this.#heads.reserve(frames.count);
+    const color = [0, 0, 0, 0];
     const [from, to] = [[0, 0, 0], [0, 0, 0]];
     let count = 0;
     for (let k = 0; this.show.arrows && k < frames.count; k += 1) {
@@ -76,12 +77,11 @@ export class FrameDrawing {
       const back = head / length;
       shafts.ends.set(from, 6 * count);
       shafts.ends.set([to[0] - back * x, to[1] - back * y, to[2] - back * z], 6 * count + 3);
-      heads.tips.set([...to, head], 4 * count);
-      heads.directions.set([x, y, z], 3 * count);
       const { grey, alpha } = frames.ages.fading(k);
       const opacity = 255 * alpha * dim(k) * Math.min(dim(parent), 1);
       this.#write(shafts.colors, 8 * count, this.#colors.shaft, grey, opacity);
-      this.#write(heads.colors, 4 * count, this.#colors.head, grey, opacity, 1);
+      this.#write(color, 0, this.#colors.head, grey, opacity, 1);
+      this.#heads.set(count, to, head, [x, y, z], color);
       count += 1;
     }
     this.#shafts.show(count);

@@ -16,7 +16,7 @@ export class Grid {
 
   constructor() {
     this.object = this.#lines.object;
-    this.object.renderOrder = 0;
+    this.#lines.layBehind();
   }
 
   setColors(colors) {

@@ -1,16 +1,19 @@
 // The names in the picture: of the nearest frames that leave each other room, and the important.
 
 import {
-  BufferAttribute, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh,
-  ShaderMaterial, Vector2, Vector3,
+  BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, ShaderMaterial, Vector2, Vector3,
 } from "three";
 import { COLUMNS, LabelAtlas, ROWS, SLOT_HEIGHT, SLOT_WIDTH } from "./label_atlas.js";
 
 const MOST = 50;
 const CHOOSE_MS = 250;
+const RANKS = { selected: -4, hovered: -3, target: -2, root: -1, path: 0 };
+const ALWAYS = new Set(["selected", "hovered"]); // also where there is no room
 const STAYING = 0.8; // who has a name keeps it rather than one that is a little nearer
 const ABOVE = 7; // [CSS pixels] from the origin to the middle of the text, and to its left end
-const CORNERS = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+const CORNERS = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0];
+const TRIANGLES = [0, 1, 2, 0, 2, 3];
+const ROOM = MOST + 14;
 const VERTEX = `
 attribute vec3 place;
 attribute vec3 slot;
@@ -44,7 +47,7 @@ export class Labels {
   /** Whether names stand at frames other than those selected or under the pointer. */
   showAll = true;
   #atlas;
-  #geometry = new InstancedBufferGeometry();
+  #geometry = new BufferGeometry();
   #places = attribute(3);
   #slots = attribute(3);
   #view;
@@ -54,8 +57,10 @@ export class Labels {
   constructor(view) {
     this.#view = view;
     this.#atlas = new LabelAtlas(view.isSoftware ? 1 : Math.min(2, Math.ceil(devicePixelRatio)));
-    this.#geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    this.#geometry.setAttribute("position", new BufferAttribute(CORNERS, 3));
+    const rooms = Array.from({ length: ROOM }, (_, k) => k);
+    this.#geometry.setIndex(rooms.flatMap((k) => TRIANGLES.map((corner) => 4 * k + corner)));
+    const corners = Int8Array.from(rooms.flatMap(() => CORNERS));
+    this.#geometry.setAttribute("position", new BufferAttribute(corners, 3));
     this.#geometry.setAttribute("place", this.#places);
     this.#geometry.setAttribute("slot", this.#slots);
     const uniforms = { atlas: { value: this.#atlas.texture }, viewport: { value: new Vector2() } };
@@ -85,7 +90,7 @@ export class Labels {
   }
 
   /**
-   * Place the names. `important`: index to style ("selected", "other", "hovered", "root"), which
+   * Place the names. `important`: index to style (a key of RANKS), which
    * have one in any case.
    */
   update(frames, important, now) {
@@ -97,12 +102,16 @@ export class Labels {
     let count = 0;
     for (const { k, slot, width } of this.#chosen) {
       if (k >= frames.count || !frames.isShown(k)) continue;
-      this.#places.array.set(frames.position(k, at), 3 * count);
-      this.#slots.array.set([slot, width, frames.ages.fading(k).alpha], 3 * count);
+      frames.position(k, at);
+      const { alpha } = frames.ages.fading(k);
+      for (let corner = 4 * count; corner < 4 * count + 4; corner += 1) {
+        this.#places.setXYZ(corner, ...at);
+        this.#slots.setXYZ(corner, slot, width, alpha);
+      }
       count += 1;
     }
     this.#places.needsUpdate = this.#slots.needsUpdate = true;
-    this.#geometry.instanceCount = count;
+    this.#geometry.setDrawRange(0, 6 * count);
     this.object.visible = count > 0;
   }
 
@@ -122,7 +131,7 @@ export class Labels {
       Object.assign(label, this.#look(label.style, frames.isConnected(label.k)));
       const width = this.#atlas.widthOf(label.text, label.bold);
       const box = [label.x, label.x + width, label.y - ABOVE - 9, label.y - ABOVE + 9];
-      if (label.rank >= 0 && taken.some((other) => overlaps(box, other))) continue;
+      if (!ALWAYS.has(label.style) && taken.some((other) => overlaps(box, other))) continue;
       taken.push(box);
       chosen.push(label);
     }
@@ -142,7 +151,7 @@ export class Labels {
       if (at.x > this.#view.viewport.width || at.y > this.#view.viewport.height) continue;
       const distance = point.distanceTo(this.#view.camera.position);
       const staying = before.has(frames.names[k]) ? STAYING : 1;
-      found.push({ k, style, x: at.x, y: at.y, rank: style ? -1 : distance * staying });
+      found.push({ k, style, x: at.x, y: at.y, rank: RANKS[style] ?? distance * staying });
     }
     return found;
   }
@@ -150,14 +159,13 @@ export class Labels {
   #look(style, connected) {
     const { ink, accent, accentInk, bad } = this.#view.colors;
     if (style === "selected") return { bold: true, ink: accentInk, fill: accent };
-    if (style === "other") return { bold: true, ink: accent, fill: null };
+    if (style === "target" || style === "path") return { bold: true, ink: accent, fill: null };
     return { bold: style === "hovered" || style === "root", ink: connected ? ink : bad, fill: null };
   }
 }
 
 function attribute(size) {
-  const array = new Float32Array(size * (MOST + 14));
-  return new InstancedBufferAttribute(array, size).setUsage(DynamicDrawUsage);
+  return new BufferAttribute(new Float32Array(4 * size * ROOM), size).setUsage(DynamicDrawUsage);
 }
 
 function overlaps([left, right, top, bottom], [left2, right2, top2, bottom2]) {

@@ -16,11 +16,14 @@ import { View } from "./scene.js";
 
 const NOTICE_MS = 6000;
 
+let looks = null;
+let chosenFixed = "";
+let noticeTimer = null;
 const frames = new Frames();
 const send = (command) => connection.send(command);
 const hiding = new Hiding(applyHiding);
 const stage = makeStage();
-const looks = stage && listenForLooks(stage, () => relation.source);
+if (stage) looks = listenForLooks(stage, () => relation.source);
 const relation = new RelationPanel(frames, takeChoice);
 const tree = new TreeView(frames, {
   select,
@@ -32,8 +35,6 @@ const displays = new Displays(stage?.view ?? null, frames, send, () => displaysP
 const displaysPanel = new DisplaysPanel(displays);
 const time = new TimeBar(send);
 const budget = new Budget(stage?.view.isSoftware ?? true, send);
-let chosenFixed = "";
-let noticeTimer = null;
 
 const TAKERS = {
   hello: takeHello,
@@ -206,3 +207,6 @@ if (stage) {
     requestAnimationFrame((next) => budget.take(next - now));
   });
 }
+
+/** For tests and for curious people: `(await import("./js/main.js")).stage`. */
+export { displays, frames, stage };

@@ -37,6 +37,7 @@ export class RelationPanel {
     this.#source = source;
     this.#target = target;
     this.rebuild();
+    byId("help").hidden = Boolean(source);
     if (!source) this.#showEmpty();
     this.#onChoose();
   }

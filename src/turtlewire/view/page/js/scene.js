@@ -6,6 +6,7 @@ import {
 } from "three";
 import { currentColors, onSchemeChange } from "./colors.js";
 import { Grid } from "./grid.js";
+import { ThickLines } from "./thick_lines.js";
 
 /** A renderer without a graphics card: smoothed edges and fine pixels cost too much there. */
 const SOFTWARE = /SwiftShader|llvmpipe|softpipe|Basic Render/i;
@@ -34,6 +35,8 @@ export class View {
     Object3D.DEFAULT_UP.set(0, 0, 1);
     this.camera.up.set(0, 0, 1);
     this.isSoftware = SOFTWARE.test(rendererName());
+    ThickLines.isSoftware = this.isSoftware;
+    document.documentElement.toggleAttribute("data-software", this.isSoftware);
     const options = { canvas, antialias: !this.isSoftware, powerPreference: "high-performance" };
     this.#renderer = new WebGLRenderer(options);
     this.scene.add(new HemisphereLight(0xffffff, 0x8088a0, 1.6), this.#light, this.#light.target);
@@ -48,7 +51,7 @@ export class View {
   requestDraw() {
     if (this.#scheduled) return;
     this.#scheduled = true;
-    requestAnimationFrame((now) => this.#draw(now));
+    requestAnimationFrame((now) => this.draw(now));
   }
 
   /** Call `act(now)` [ms] before each picture. */
@@ -71,11 +74,12 @@ export class View {
 
   /** The picture as a PNG blob. */
   async picture() {
-    this.#draw(performance.now());
+    this.draw(performance.now());
     return new Promise((done) => this.canvas.toBlob(done, "image/png"));
   }
 
-  #draw(now) {
+  /** Draw at once; `now` [ms] is handed to those who asked for it. */
+  draw(now) {
     this.#scheduled = false;
     for (const act of this.#before) act(now);
     this.#light.position.copy(this.camera.position);
@@ -91,7 +95,7 @@ export class View {
     this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(width, height, false);
     for (const act of this.resized) act(width, height);
-    this.#draw(performance.now()); // resizing clears the canvas
+    this.draw(performance.now()); // resizing clears the canvas
   }
 
   /** Called with width and height [CSS pixels] when the canvas has another size. */

@@ -127,9 +127,9 @@ export class Stage {
     const important = new Map();
     const { roots } = this.#frames;
     if (roots.length > 1) for (const root of roots) important.set(this.#frames.index(root), "root");
-    for (const k of this.#path) important.set(k, "other");
+    for (const k of this.#path) important.set(k, "path");
     if (this.#picking.hovered >= 0) important.set(this.#picking.hovered, "hovered");
-    if (this.#selection.target >= 0) important.set(this.#selection.target, "other");
+    if (this.#selection.target >= 0) important.set(this.#selection.target, "target");
     if (this.#selection.source >= 0) important.set(this.#selection.source, "selected");
     return important;
   }

@@ -14,36 +14,33 @@ export function offsetsOfTrees(frames, former) {
   const order = [fixed, ...boxes.keys()].filter((tree, at, all) => all.indexOf(tree) === at);
   if (!isUnplaced(former, fixed) && !overlap(boxes, former)) return former;
   const offsets = boxes.map(() => [0, 0, 0]);
-  let edge = -boxes[fixed].maxY;
-  for (const tree of order) {
-    const { minY, maxY } = boxes[tree];
-    const width = Math.max(1, maxY - minY);
-    if (tree !== fixed) offsets[tree][1] = -(edge + GAP) - maxY;
-    edge += width + (tree === fixed ? 0 : GAP);
+  let edge = boxes[fixed].maxX;
+  for (const tree of order.slice(1)) {
+    const { minX, maxX } = boxes[tree];
+    offsets[tree][0] = edge + GAP - minX;
+    edge += GAP + maxX - minX;
   }
   return offsets;
 }
 
 function boxesOf(frames) {
-  const boxes = frames.roots.map(() => ({ minX: -0.5, maxX: 0.5, minY: -0.5, maxY: 0.5 }));
+  const boxes = frames.roots.map(() => ({ minX: -0.5, maxX: 0.5 }));
   for (let k = 0; k < frames.count; k += 1) {
     const box = boxes[frames.trees[k]];
-    const [x, y] = [frames.poses[POSE * k], frames.poses[POSE * k + 1]];
-    if (!frames.known[k] || !Number.isFinite(x + y)) continue;
+    const x = frames.poses[POSE * k];
+    if (!frames.known[k] || !Number.isFinite(x)) continue;
     box.minX = Math.min(box.minX, x);
     box.maxX = Math.max(box.maxX, x);
-    box.minY = Math.min(box.minY, y);
-    box.maxY = Math.max(box.maxY, y);
   }
   return boxes;
 }
 
 function isUnplaced(offsets, fixed) {
-  return offsets.some(([, y], tree) => (tree === fixed) !== (y === 0));
+  return offsets.some(([x], tree) => (tree === fixed) !== (x === 0));
 }
 
 function overlap(boxes, offsets) {
-  const spans = boxes.map(({ minY, maxY }, k) => [minY + offsets[k][1], maxY + offsets[k][1]]);
+  const spans = boxes.map(({ minX, maxX }, k) => [minX + offsets[k][0], maxX + offsets[k][0]]);
   spans.sort(([a], [b]) => a - b);
   return spans.some(([start], k) => k > 0 && start < spans[k - 1][1]);
 }
