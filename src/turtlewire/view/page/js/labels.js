@@ -10,7 +10,7 @@ const CHOOSE_MS = 250;
 const RANKS = { selected: -4, hovered: -3, target: -2, root: -1, path: 0 };
 const ALWAYS = new Set(["selected", "hovered"]); // also where there is no room
 const STAYING = 0.8; // who has a name keeps it rather than one that is a little nearer
-const ABOVE = 7; // [CSS pixels] from the origin to the middle of the text, and to its left end
+const BELOW = 12; // [CSS pixels] from the origin to the middle of the text
 const CORNERS = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0];
 const TRIANGLES = [0, 1, 2, 0, 2, 3];
 const ROOM = MOST + 14;
@@ -24,7 +24,7 @@ const vec2 SIZE = vec2(${SLOT_WIDTH}.0, ${SLOT_HEIGHT}.0);
 const vec2 GRID = vec2(${COLUMNS}.0, ${ROWS}.0);
 void main() {
   vec4 at = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
-  vec2 anchor = floor((at.xy / at.w * 0.5 + 0.5) * viewport) + vec2(4.0, ${ABOVE}.0);
+  vec2 anchor = floor((at.xy / at.w * 0.5 + 0.5) * viewport) + vec2(4.0, -${BELOW}.0);
   vec2 corner = vec2(position.x * slot.y, position.y * SIZE.y) - vec2(0.0, 0.5 * SIZE.y);
   at.xy = ((anchor + corner) / viewport * 2.0 - 1.0) * at.w;
   gl_Position = at;
@@ -130,7 +130,7 @@ export class Labels {
       label.text = frames.names[label.k];
       Object.assign(label, this.#look(label.style, frames.isConnected(label.k)));
       const width = this.#atlas.widthOf(label.text, label.bold);
-      const box = [label.x, label.x + width, label.y - ABOVE - 9, label.y - ABOVE + 9];
+      const box = [label.x, label.x + width, label.y + BELOW - 9, label.y + BELOW + 9];
       if (!ALWAYS.has(label.style) && taken.some((other) => overlaps(box, other))) continue;
       taken.push(box);
       chosen.push(label);

@@ -129,8 +129,9 @@ export class Stage {
     if (roots.length > 1) for (const root of roots) important.set(this.#frames.index(root), "root");
     for (const k of this.#path) important.set(k, "path");
     if (this.#picking.hovered >= 0) important.set(this.#picking.hovered, "hovered");
-    if (this.#selection.target >= 0) important.set(this.#selection.target, "target");
-    if (this.#selection.source >= 0) important.set(this.#selection.source, "selected");
+    const { source, target } = this.#selection;
+    if (source >= 0 && target >= 0) important.set(target, "target");
+    if (source >= 0) important.set(source, "selected");
     return important;
   }
 
