@@ -160,7 +160,8 @@ export class Labels {
     const { ink, accent, accentInk, bad } = this.#view.colors;
     if (style === "selected") return { bold: true, ink: accentInk, fill: accent };
     if (style === "target" || style === "path") return { bold: true, ink: accent, fill: null };
-    return { bold: style === "hovered" || style === "root", ink: connected ? ink : bad, fill: null };
+    const bold = style === "hovered" || style === "root";
+    return { bold, ink: connected ? ink : bad, fill: null };
   }
 }
 

@@ -138,7 +138,8 @@ function select(name, event) {
 /** The user chose frames (or the connection is new): ask, and show them. */
 function takeChoice() {
   const { source, target } = relation;
-  send(source && target ? { type: "relation", target, source } : { type: "relation", target: null });
+  const isWhole = source && target;
+  send({ type: "relation", ...(isWhole ? { target, source } : { target: null }) });
   relation.showFacts(tree.readingOf(source) ?? {});
   showSelection();
 }

@@ -42,8 +42,7 @@ export class Picking {
   }
 
   #move(event) {
-    if (event.buttons) return;
-    this.#hover(this.nearest(event.offsetX, event.offsetY, REACH[event.pointerType] ?? REACH.mouse));
+    if (!event.buttons) this.#hover(this.#under(event));
   }
 
   #hover(k) {
@@ -58,7 +57,10 @@ export class Picking {
     this.#start = null;
     if (!start || start.pointerId !== event.pointerId) return;
     if (Math.hypot(event.offsetX - start.offsetX, event.offsetY - start.offsetY) > DRAG) return;
-    const reach = REACH[event.pointerType] ?? REACH.mouse;
-    this.#actions.select(this.nearest(event.offsetX, event.offsetY, reach), event);
+    this.#actions.select(this.#under(event), event);
+  }
+
+  #under({ offsetX, offsetY, pointerType }) {
+    return this.nearest(offsetX, offsetY, REACH[pointerType] ?? REACH.mouse);
   }
 }

@@ -108,13 +108,12 @@ export class RelationPanel {
       ["roll pitch yaw", `${numbersInWords(rpy)} rad`],
       ["in degrees", numbersInWords(degrees, 1)],
     ]);
-    const rows = matrix.length === 16 ? [0, 4, 8, 12].map((at) => matrix.slice(at, at + 4)) : matrix;
     const cells = byId("matrix").querySelectorAll("td");
-    const values = rows.flat().map((value) => (isNumber(value) ? value.toFixed(3) : "nan"));
+    const values = matrix.flat().map((value) => (isNumber(value) ? value.toFixed(3) : "nan"));
     if (cells.length === values.length) {
       return cells.forEach((cell, n) => setText(cell, values[n]));
     }
-    byId("matrix").tBodies[0].replaceChildren(...rows.map((row, r) => make("tr", {},
+    byId("matrix").tBodies[0].replaceChildren(...matrix.map((row, r) => make("tr", {},
       ...row.map((_, c) => make("td", { textContent: values[4 * r + c] })))));
   }
 }
