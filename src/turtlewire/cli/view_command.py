@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import signal
+import sys
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -43,30 +45,29 @@ def add_view_command(commands: Any) -> None:
 
 def _view(args: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C or SIGTERM."""
+    from turtlewire.errors import WireError
     from turtlewire.view.viewer import Viewer
     from turtlewire.web.desktop import open_browser, wanted_lan
     from turtlewire.web.lan import invite
 
     ended = threading.Event()
-    former = signal.signal(signal.SIGTERM, lambda *_: ended.set())
+    signal.signal(signal.SIGTERM, lambda *_: ended.set())
     lan = args.lan or wanted_lan()
-    source = _source(args.bag)
     try:
+        source = _source(args.bag)
+    except WireError as error:
+        print(f"turtlewire view: {error} {error.hint}".rstrip(), file=sys.stderr)
+        return 2
+    with contextlib.ExitStack() as stack:
+        stack.callback(source.close)
         viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan)
-    except BaseException:
-        source.close()
-        raise
-    try:
+        stack.pop_all()
+        stack.callback(viewer.close)  # closes the source, too
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)
         if lan:
             invite(viewer.url, print)
         open_browser(viewer.url)
         ended.wait()
-    except KeyboardInterrupt:
-        print()
-    finally:
-        viewer.close()
-        signal.signal(signal.SIGTERM, former)
     return 0
 
 

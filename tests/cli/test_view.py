@@ -1,0 +1,67 @@
+"""`turtlewire view`: its words, its address, and its end."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+from tests.bag.conftest import write_bag
+from tests.view.packets import decode_packet
+from websockets.sync.client import connect
+
+TURTLEWIRE = Path(sys.executable).parent / "turtlewire"
+
+
+@pytest.fixture
+def view(run):
+    def start(*words, **options):
+        return run(TURTLEWIRE, "view", *words, **options)
+
+    return start
+
+
+def address_of(program):
+    return program.wait_for(r"The view is at http(://127\.0\.0\.1:\d+/)")[0][1]
+
+
+def test_it_tells_its_address_serves_and_ends_at_ctrl_c(view):
+    program = view("--port", "0", terminal=True)
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        assert decode_packet(page.recv())["source"]["kind"] == "live"
+        program.type("\x03")
+        assert program.wait() == 130
+    assert "Traceback" not in program.text
+
+
+def test_a_bag_is_shown_without_the_network(view, tmp_path):
+    bag = write_bag(tmp_path / "made")
+    program = view(bag, "--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        assert decode_packet(page.recv())["source"] == {"kind": "bag", "name": "made"}
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
+        (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),
+        (["no_such_bag"], "turtlewire view: "),
+        (["a", "b"], "unrecognized arguments: b"),
+    ],
+)
+def test_wrong_words(view, words, answer):
+    program = view(*words)
+    assert program.wait() == 2
+    assert answer in program.text
+    assert "Traceback" not in program.text
+
+
+def test_without_a_network_it_says_so(view):
+    program = view("--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
+    assert program.wait() == 2
+    assert program.text.startswith("turtlewire view: ")
+    assert "Traceback" not in program.text
