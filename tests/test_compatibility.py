@@ -332,8 +332,8 @@ Ctrl-C of a verb may end in error lines
   ros2cli/test_run_command.py test_python_scripts_run_on_this_interpreter
 `AMENT_PREFIX_PATH` must be set
   turtlewire_ros/test_prefix.py test_prefixes_that_exist_in_their_order_and_the_own_one_last
-`pkg create` makes C++ packages, too
-  test_compatibility.py test_only_python_packages_are_created
+`pkg create` makes C++ packages, and does when no `--build-type` is given
+  ros2cli/test_pkg_create.py test_a_package_with_a_node test_a_node_of_cpp_is_refused
 `ros2 doctor` counts checks
   cli/test_doctor.py test_the_command_says_problems_first_and_fails
 `dependent_joints` have no effect once there is a description
@@ -461,23 +461,3 @@ def test_no_daemon_is_running(capsys):
 
     main(["daemon", "status"])
     assert capsys.readouterr().out == "The daemon is not running\n"
-
-
-def test_only_python_packages_are_created(capsys, tmp_path):
-    from ros2cli.main import main
-
-    with pytest.raises(SystemExit) as end:
-        main(
-            [
-                "pkg",
-                "create",
-                "p",
-                "--build-type",
-                "ament_cmake",
-                "--destination-directory",
-                str(tmp_path),
-            ]
-        )
-    assert end.value.code == 2
-    assert "'ament_cmake'" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []

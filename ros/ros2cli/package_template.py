@@ -1,4 +1,4 @@
-"""The files of a new ament_python package."""
+"""The files of a new package."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape, quoteattr
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
-__all__ = ["files"]
+__all__ = ["cmake_files", "python_files"]
 
 _MANIFEST = """<?xml version="1.0"?>
 <?xml-model href="http://download.ros.org/schema/package_format{format}.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
@@ -19,10 +19,9 @@ _MANIFEST = """<?xml version="1.0"?>
   <maintainer email={email}>{maintainer}</maintainer>
   <license>{license}</license>
 
-{dependencies}  <test_depend>python3-pytest</test_depend>
-
+{dependencies}
   <export>
-    <build_type>ament_python</build_type>
+    <build_type>{build_type}</build_type>
   </export>
 </package>
 """
@@ -58,6 +57,27 @@ script_dir=$base/lib/{name}
 install_scripts=$base/lib/{name}
 """
 
+_CMAKE = """cmake_minimum_required(VERSION 3.8)
+project({name})
+
+find_package(ament_cmake REQUIRED)
+{packages}
+# Files below msg/, srv/ and action/ become interfaces when these lines name them. package.xml needs
+#   <buildtool_depend>rosidl_default_generators</buildtool_depend>
+#   <exec_depend>rosidl_default_runtime</exec_depend>
+#   <member_of_group>rosidl_interface_packages</member_of_group>
+#
+# find_package(rosidl_default_generators REQUIRED)
+# rosidl_generate_interfaces(${{PROJECT_NAME}}
+#   "msg/Name.msg"
+#   DEPENDENCIES {dependencies}
+# )
+
+# install(DIRECTORY launch DESTINATION share/${{PROJECT_NAME}})
+
+ament_package()
+"""
+
 _NODE = """def main():
     print('Hi from {name}.')
 
@@ -67,17 +87,17 @@ if __name__ == '__main__':
 """
 
 
-def files(
+def python_files(
     *,
     name: str,
     package_format: str,
     description: str,
     license_name: str,
     maintainer: tuple[str, str],
-    dependencies: Iterable[str],
+    dependencies: Sequence[str],
     node_name: str | None,
 ) -> dict[str, str]:
-    """Contents by path within the package's folder, in the order in which they are made.
+    """Contents of an ament_python package by path within its folder, in the order of making.
 
     Args:
         name: Name of the package.
@@ -88,17 +108,11 @@ def files(
         dependencies: Packages that it depends on.
         node_name: Name of an executable to begin with, or None.
     """
-    depends = "".join(f"  <depend>{escape(dependency)}</depend>\n" for dependency in dependencies)
     script = f"\n            '{node_name} = {name}.{node_name}:main',\n        "
+    tags = [("depend", each) for each in dependencies] + [("test_depend", "python3-pytest")]
     made = {
-        "package.xml": _MANIFEST.format(
-            format=package_format,
-            name=name,
-            description=escape(description),
-            email=quoteattr(maintainer[1]),
-            maintainer=escape(maintainer[0]),
-            license=escape(license_name),
-            dependencies=f"{depends}\n" if depends else "",
+        "package.xml": _manifest(
+            "ament_python", name, package_format, description, license_name, maintainer, tags
         ),
         f"{name}/__init__.py": "",
         "setup.py": _SETUP.format(
@@ -117,3 +131,47 @@ def files(
     if node_name is not None:
         made[f"{name}/{node_name}.py"] = _NODE.format(name=name)
     return made
+
+
+def cmake_files(
+    *,
+    name: str,
+    package_format: str,
+    description: str,
+    license_name: str,
+    maintainer: tuple[str, str],
+    dependencies: Sequence[str],
+) -> dict[str, str]:
+    """Contents of an ament_cmake package of interfaces or data; the rest as `python_files`."""
+    tags = [("buildtool_depend", "ament_cmake"), *(("depend", each) for each in dependencies)]
+    return {
+        "package.xml": _manifest(
+            "ament_cmake", name, package_format, description, license_name, maintainer, tags
+        ),
+        "CMakeLists.txt": _CMAKE.format(
+            name=name,
+            packages="".join(f"find_package({each} REQUIRED)\n" for each in dependencies),
+            dependencies=" ".join(dependencies) or "std_msgs",
+        ),
+    }
+
+
+def _manifest(
+    build_type: str,
+    name: str,
+    package_format: str,
+    description: str,
+    license_name: str,
+    maintainer: tuple[str, str],
+    tags: Sequence[tuple[str, str]],
+) -> str:
+    return _MANIFEST.format(
+        build_type=build_type,
+        format=package_format,
+        name=name,
+        description=escape(description),
+        email=quoteattr(maintainer[1]),
+        maintainer=escape(maintainer[0]),
+        license=escape(license_name),
+        dependencies="".join(f"  <{tag}>{escape(text)}</{tag}>\n" for tag, text in tags),
+    )

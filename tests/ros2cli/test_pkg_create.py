@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
+import zipfile
 
 import pytest
 from defusedxml import ElementTree
 
 from ros2cli.main import main
+from turtlewire_ros.wheel import build_package_wheels
 
 
 def create(*words):
@@ -97,3 +99,35 @@ def test_node_names_that_cannot_be(tmp_path, capsys):
         assert create("p", "--node-name", node, "--destination-directory", str(tmp_path)) == 1
         assert "node name" in capsys.readouterr().err.lower()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_package_of_interfaces_is_built_when_its_lines_are_uncommented(tmp_path, capsys):
+    words = ["--build-type", "ament_cmake", "tutorial_interfaces"]
+    words += ["--destination-directory", str(tmp_path), "--dependencies", "geometry_msgs"]
+    assert create(*words) == 0
+    assert "build type: ament_cmake\ndependencies: ['geometry_msgs']\n" in capsys.readouterr().out
+    folder = tmp_path / "tutorial_interfaces"
+    (folder / "msg").mkdir()
+    (folder / "msg/Name.msg").write_text("geometry_msgs/Point center\n")
+    cmake = folder / "CMakeLists.txt"
+    lines = cmake.read_text().splitlines(keepends=True)
+    first = next(index for index, line in enumerate(lines) if "default_generators REQ" in line)
+    lines[first:] = [line.removeprefix("# ") for line in lines[first:]]
+    cmake.write_text("".join(lines).replace("install(DIRECTORY", "# install(DIRECTORY"))
+    (wheel,) = build_package_wheels([folder], tmp_path / "wheels", lambda _: None)
+    assert "tutorial_interfaces/msg/Name.msg" in {
+        name.partition("share/")[2] for name in zipfile.ZipFile(wheel).namelist()
+    }
+
+
+def test_an_empty_package_of_cmake_is_built(tmp_path):
+    words = ["--build-type", "ament_cmake", "p", "--destination-directory", str(tmp_path)]
+    assert create(*words, "--dependencies", "rclpy", "std_msgs") == 0
+    assert build_package_wheels([tmp_path / "p"], tmp_path / "wheels", lambda _: None)
+
+
+def test_a_node_of_cpp_is_refused(tmp_path, capsys):
+    words = ["--build-type", "ament_cmake", "p", "--destination-directory", str(tmp_path)]
+    assert create(*words, "--node-name", "talk") == 1
+    assert capsys.readouterr().err.endswith("use --build-type ament_python\n")
+    assert [*tmp_path.iterdir()] == []

@@ -41,8 +41,8 @@ ARGUMENTS = (
     argument(
         "--build-type",
         default="ament_python",
-        choices=["ament_python"],
-        help="Packages of C++ need a real ROS",
+        choices=["ament_cmake", "ament_python"],
+        help="ament_cmake for interfaces and data; programs of C++ need a real ROS",
     ),
     argument("--dependencies", nargs="+", default=[], help="Packages that it depends on"),
     argument("--maintainer-email", help="Address of the maintainer"),
@@ -56,7 +56,7 @@ ARGUMENTS = (
 
 
 def main(args: argparse.Namespace) -> str | None:
-    """Make the folder with all that an ament_python package needs."""
+    """Make the folder with all that a package needs."""
     if not _NAME.fullmatch(args.package_name):
         return (
             f"Invalid package name '{args.package_name}': use lower-case letters, digits and"
@@ -66,6 +66,11 @@ def main(args: argparse.Namespace) -> str | None:
         return (
             f"Invalid node name '{args.node_name}': use letters, digits and underscores, and do"
             " not begin with a digit"
+        )
+    if args.node_name is not None and args.build_type == "ament_cmake":
+        return (
+            "Nodes of ament_cmake packages are programs of C++, which need a real ROS: use"
+            " --build-type ament_python"
         )
     if args.node_name == args.package_name:
         return "[ERROR] [ros2pkg]: node name cannot be the same as the package name"
@@ -77,17 +82,22 @@ def main(args: argparse.Namespace) -> str | None:
         )
     email = args.maintainer_email or f"{args.maintainer_name}@todo.todo"
     _print_plan(args, email)
-    files = package_template.files(
-        name=args.package_name,
-        package_format=args.package_format,
-        description=args.description,
-        license_name=args.license,
-        maintainer=(args.maintainer_name, email),
-        dependencies=args.dependencies,
-        node_name=args.node_name,
-    )
-    _write(folder, files)
+    _write(folder, _files(args, email))
     return None
+
+
+def _files(args: argparse.Namespace, email: str) -> dict[str, str]:
+    known = {
+        "name": args.package_name,
+        "package_format": args.package_format,
+        "description": args.description,
+        "license_name": args.license,
+        "maintainer": (args.maintainer_name, email),
+        "dependencies": args.dependencies,
+    }
+    if args.build_type == "ament_cmake":
+        return package_template.cmake_files(**known)
+    return package_template.python_files(**known, node_name=args.node_name)
 
 
 def _print_plan(args: argparse.Namespace, email: str) -> None:
