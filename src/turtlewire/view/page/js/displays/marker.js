@@ -1,0 +1,113 @@
+// Marker and MarkerArray: what there is of each namespace and id, until its lifetime ends.
+
+import { Group } from "three";
+import { clear, free, setPose } from "./parts/common.js";
+import { makeMarker } from "./parts/marker_shapes.js";
+import { loadMesh, makePlaceholder, paint } from "./parts/meshes.js";
+
+export const OPTIONS = [
+  { name: "hidden", label: "Hide namespaces (regex)", type: "text", value: "" },
+];
+/** Longest time that a browser's timer can wait [s]. */
+const LONGEST_TIMER_S = 2e6;
+
+export default class Marker {
+  #view;
+  #hidden;
+  #held = new Map(); // namespace and id to { holder, namespace, timer }
+
+  constructor(view, options) {
+    this.#view = view;
+    this.setOptions(options);
+  }
+
+  show(group, header, arrays) {
+    if (header.clear) for (const key of [...this.#held.keys()]) this.#drop(key);
+    for (const pair of header.delete ?? []) this.#drop(JSON.stringify(pair));
+    if (!header.markers) return;
+    clear(group);
+    for (const marker of header.markers) this.#add(group, marker, arrays);
+  }
+
+  setOptions({ hidden }) {
+    this.#hidden = regexOf(hidden);
+    for (const { holder, namespace } of this.#held.values()) {
+      holder.visible = !this.#hidden?.test(namespace);
+    }
+  }
+
+  dispose() {
+    for (const key of [...this.#held.keys()]) this.#drop(key);
+  }
+
+  #add(group, marker, arrays) {
+    const key = JSON.stringify(marker.key);
+    this.#drop(key);
+    const holder = setPose(new Group(), marker.pose);
+    const [namespace] = marker.key;
+    holder.visible = !this.#hidden?.test(namespace);
+    const entry = { holder, namespace, timer: null };
+    this.#held.set(key, entry);
+    group.add(holder);
+    if (marker.shape === "mesh") this.#addMesh(holder, marker, arrays);
+    else {
+      const points = rows(arrays.points, marker.points, 3);
+      holder.add(makeMarker(marker, points, rows(arrays.colors, marker.colors, 4)));
+    }
+    if (marker.lifetime > 0) {
+      const wait = 1000 * Math.min(marker.lifetime, LONGEST_TIMER_S);
+      entry.timer = setTimeout(() => {
+        this.#drop(key);
+        this.#view.requestDraw();
+      }, wait);
+    }
+  }
+
+  async #addMesh(holder, marker, { files }) {
+    const { mesh, scale, color, file, embedded_materials: keepsOwn } = marker;
+    const bytes = file[1] ? rows(files, file, 1).slice().buffer : null;
+    let object;
+    try {
+      const loaded = await loadMesh(mesh, bytes);
+      object = loaded.object;
+      if (!keepsOwn || !loaded.isOwn) paint(object, color);
+      const alpha = color[3] / 255;
+      if (alpha < 1 && !keepsOwn) makeClear(object, alpha);
+      object.scale.set(...scale.map((value) => value || 1e-6));
+    } catch (error) {
+      object = makePlaceholder();
+      this.#view.report?.(`marker ${marker.key.join("/")}: ${error.message}`);
+    }
+    if (holder.parent) holder.add(object);
+    else free(object);
+    this.#view.requestDraw();
+  }
+
+  #drop(key) {
+    const entry = this.#held.get(key);
+    if (!entry) return;
+    this.#held.delete(key);
+    clearTimeout(entry.timer);
+    entry.holder.removeFromParent();
+    free(entry.holder);
+  }
+}
+
+/** The rows of an array that [first, count] tell; `width` numbers in each. */
+function rows(array, [first, count], width) {
+  return array.subarray(width * first, width * (first + count));
+}
+
+function makeClear(object, alpha) {
+  object.traverse((each) => {
+    if (each.isMesh) Object.assign(each.material, { opacity: alpha, transparent: true });
+  });
+}
+
+function regexOf(text) {
+  try {
+    return text ? new RegExp(text) : null;
+  } catch {
+    return null; // the user is still typing
+  }
+}

@@ -1,0 +1,50 @@
+// What all displays need: emptying groups, poses, colours.
+
+import { Color, SRGBColorSpace } from "three";
+
+/** Remove and free everything below an object. */
+export function clear(object) {
+  for (const child of [...object.children]) {
+    object.remove(child);
+    free(child);
+  }
+}
+
+/** Free what the graphics card holds for an object and everything below it. */
+export function free(object) {
+  object.traverse((each) => {
+    if (each.isInstancedMesh) each.dispose();
+    each.geometry?.dispose();
+    for (const material of [each.material].flat()) {
+      if (!material) continue;
+      for (const value of Object.values(material)) if (value?.isTexture) value.dispose();
+      for (const { value } of Object.values(material.uniforms ?? {})) {
+        if (value?.isTexture) value.dispose();
+      }
+      material.dispose();
+    }
+  });
+}
+
+/** Put an object to [x, y, z, qx, qy, qz, qw]. */
+export function setPose(object, pose) {
+  object.position.fromArray(pose);
+  object.quaternion.set(pose[3], pose[4], pose[5], pose[6]);
+  return object;
+}
+
+/** The bytes of "#rrggbb" and an opacity from 0 to 1. */
+export function bytesOf(color, alpha = 1) {
+  const number = parseInt(color.slice(1), 16);
+  return [number >> 16, (number >> 8) & 255, number & 255, Math.round(255 * alpha)];
+}
+
+/** A colour for lit materials, of bytes. */
+export function litColor([r, g, b]) {
+  return new Color().setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
+}
+
+/** What materials need to be drawn with an opacity from 0 to 1. */
+export function opacity(alpha) {
+  return { opacity: alpha, transparent: alpha < 1, depthWrite: alpha >= 1 };
+}

@@ -1,0 +1,57 @@
+// Many points in one draw call, some pixels or some metres wide, in exactly the colours given.
+
+import { BufferAttribute, BufferGeometry, Points, ShaderMaterial, Vector2 } from "three";
+
+const VERTEX = `
+attribute vec4 rgba;
+uniform vec2 pixels;
+uniform float size;
+uniform bool metres;
+varying vec4 vColor;
+void main() {
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  float wide = size * projectionMatrix[1][1] * pixels.y * 0.5 / gl_Position.w;
+  gl_PointSize = metres ? clamp(wide, 2.0, 512.0) : size;
+  vColor = rgba;
+}`;
+const FRAGMENT = `
+uniform float alpha;
+uniform bool round;
+varying vec4 vColor;
+void main() {
+  vec2 from = gl_PointCoord - vec2(0.5);
+  if (round && dot(from, from) > 0.25) discard;
+  gl_FragColor = vec4(vColor.rgb, vColor.a * alpha);
+}`;
+
+/**
+ * Points at `positions` (x, y, z) with `colors` (RGBA bytes).
+ * `size` is in metres or in pixels of the screen.
+ */
+export function makePoints(positions, colors, { size, metres = false, alpha = 1, round = false }) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(positions, 3));
+  geometry.setAttribute("rgba", new BufferAttribute(colors, 4, true));
+  let isClear = alpha < 1;
+  for (let k = 3; !isClear && k < colors.length; k += 4) isClear = colors[k] < 255;
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: {
+      pixels: { value: new Vector2(1, 1) },
+      size: { value: size },
+      metres: { value: metres },
+      alpha: { value: alpha },
+      round: { value: round },
+    },
+    transparent: isClear,
+    depthWrite: !isClear,
+  });
+  const points = new Points(geometry, material);
+  points.onBeforeRender = (renderer) => {
+    renderer.getDrawingBufferSize(material.uniforms.pixels.value);
+    const ratio = metres ? 1 : renderer.getPixelRatio();
+    material.uniforms.size.value = size * ratio;
+  };
+  return points;
+}
