@@ -24,6 +24,10 @@ _PAGE = Path(__file__).parent / "page"
 _FRAME_S, _IDLE_S = 1 / 30, 1.0
 
 
+#: GLTF files may hold their pictures and numbers themselves.
+_SOURCES = {"connect-src": "data: blob:"}
+
+
 class Viewer:
     """Serves the page until it is closed.
 
@@ -60,6 +64,7 @@ class Viewer:
             lan=lan,
             answer=self._meshes.answer,
             immutable="/vendor/",
+            sources=_SOURCES,
         )
         self.url = self._server.url
         self._threads = [

@@ -35,7 +35,7 @@ class ImageDisplay(Display):
             "encoding": message.encoding,
             "width": message.width,
             "height": message.height,
-            "frame": message.header.frame_id,
+            "camera": message.header.frame_id,
         }
         return [Content(header, {"rgba": rgba})]
 
@@ -62,7 +62,7 @@ class CompressedImageDisplay(Display):
         header = {
             "encoding": message.format,
             "media_type": media_type,
-            "frame": message.header.frame_id,
+            "camera": message.header.frame_id,
         }
         return [Content(header, {"file": np.frombuffer(data, np.uint8)})]
 

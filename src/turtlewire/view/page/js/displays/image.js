@@ -79,8 +79,8 @@ export default class ImageWindow {
     Object.assign(this.#canvas, { width, height });
   }
 
-  #label({ encoding, frame }, width, height) {
-    const text = `${width} × ${height} · ${encoding}${frame ? ` · ${frame}` : ""}`;
+  #label({ encoding, camera }, width, height) {
+    const text = `${width} × ${height} · ${encoding}${camera ? ` · ${camera}` : ""}`;
     this.#caption.textContent = text;
     this.#canvas.setAttribute("aria-label", `Camera picture, ${text}`);
   }

@@ -9,7 +9,10 @@ export const LOOK_OPTIONS = [
     name: "size_metres", label: "Size (m), 0: in pixels", type: "number", value: 0, min: 0,
     step: 0.01,
   },
-  { name: "style", label: "Style", type: "choice", value: "squares", choices: ["squares", "discs"] },
+  {
+    name: "style", label: "Style", type: "choice", value: "squares",
+    choices: ["squares", "discs"],
+  },
   { name: "alpha", label: "Alpha", type: "number", value: 1, min: 0, max: 1, step: 0.1 },
 ];
 export const OPTIONS = [

@@ -143,6 +143,7 @@ function fade(object, alpha) {
 }
 
 function alphaAbove(object) {
-  for (let at = object; at; at = at.parent) if (at.userData.alpha !== undefined) return at.userData.alpha;
-  return 1;
+  let at = object;
+  while (at && at.userData.alpha === undefined) at = at.parent;
+  return at?.userData.alpha ?? 1;
 }

@@ -23,7 +23,8 @@ const MAKERS = {
   cube_list: ({ scale }, points, colors) => makeBodies("box", scale, points, colors),
   sphere_list: ({ scale }, points, colors) => makeBodies("sphere", scale, points, colors),
   points: ({ scale }, points, colors) => {
-    return makePoints(points, repeated(colors, points.length / 3), { size: scale[0], metres: true });
+    const tints = repeated(colors, points.length / 3);
+    return makePoints(points, tints, { size: scale[0], metres: true });
   },
   text: ({ text, scale, color }) => makeText(text, scale[2], color),
   triangle_list: makeTriangles,

@@ -22,7 +22,8 @@ const PARSERS = {
   },
   dae: async (bytes, folder) => {
     const { ColladaLoader } = await import("three/addons/loaders/ColladaLoader.js");
-    const loaded = new ColladaLoader().parse(new TextDecoder().decode(bytes), folder);
+    const text = new TextDecoder().decode(bytes);
+    const loaded = /<COLLADA[\s>]/.test(text) && new ColladaLoader().parse(text, folder);
     if (!loaded) throw new Error("this is no COLLADA");
     return loaded.scene;
   },

@@ -26,7 +26,8 @@ export function makeText(text, height, color) {
   });
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
-  const sprite = new Sprite(new SpriteMaterial({ map, opacity: color[3] / 255, depthWrite: false }));
+  const look = new SpriteMaterial({ map, opacity: color[3] / 255, depthWrite: false });
+  const sprite = new Sprite(look);
   const metres = height / (CAPITAL * FONT_PX);
   sprite.scale.set(canvas.width * metres, canvas.height * metres, 1);
   return sprite;
