@@ -55,7 +55,9 @@ function setPose(group, pose) {
 
 /** Free what the graphics card holds for everything below an object. */
 export function disposeBelow(object) {
-  object.traverse(({ geometry, material }) => {
+  object.traverse((each) => {
+    const { geometry, material } = each;
+    if (each.isInstancedMesh) each.dispose();
     geometry?.dispose();
     for (const each of [material].flat()) {
       if (!each) continue;

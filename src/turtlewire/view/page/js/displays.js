@@ -63,6 +63,7 @@ export class Displays {
     const entry = this.#entries.get(id);
     entry.visible = visible;
     if (entry.parts) entry.parts.object.visible = visible;
+    entry.display?.setVisible?.(visible);
     this.#view?.requestDraw();
     this.#onChange();
   }
@@ -122,11 +123,17 @@ export class Displays {
   #draw(entry, Kind) {
     entry.parts = new DisplayParts();
     entry.partNames = new Set();
-    entry.display = new Kind(this.#context(), entry.options);
+    entry.display = new Kind(this.#context(entry), entry.options);
     this.#view.displays.add(entry.parts.object);
   }
 
-  #context() {
+  #report(entry, text) {
+    if (entry.problem === text) return;
+    entry.problem = text;
+    this.#onChange();
+  }
+
+  #context(entry) {
     const view = this.#view;
     return {
       three,
@@ -138,6 +145,8 @@ export class Displays {
       now: () => this.#frames.stamp,
       poseOf: (name) => this.#frames.poseOf(name),
       send: (command) => this.#send(command),
+      /** Say what the page itself cannot draw; "" when it can again. */
+      report: (text) => this.#report(entry, text),
     };
   }
 

@@ -60,10 +60,11 @@ export class DisplaysPanel {
       this.#items.set(entry.id, known);
     }
     const { item } = known;
-    item.dataset.level = entry.level;
+    const text = entry.text || entry.problem || "";
+    item.dataset.level = entry.text ? entry.level : entry.problem ? "warn" : "ok";
     item.querySelector(".eye").setAttribute("aria-pressed", String(!entry.visible));
-    setText(item.querySelector(".status"), entry.text);
-    item.querySelector(".status").hidden = !entry.text;
+    setText(item.querySelector(".status"), text);
+    item.querySelector(".status").hidden = !text;
   }
 
   #makeItem(entry) {

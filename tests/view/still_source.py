@@ -1,0 +1,74 @@
+"""A source of the view that holds what a test gives it: no wire, and no time but the test's."""
+
+from __future__ import annotations
+
+from turtlewire import msg
+from turtlewire.tf.buffer import Buffer
+from turtlewire.view.live import LiveTimeline
+from turtlewire.view.source import Topic
+
+STAMP_NS = 1_700_000_000 * 10**9
+
+
+class StillSource:
+    """Frames of the robot ``map`` → ``base`` (1, 0, 0) → ``tip`` (0, 1, 0), and given messages."""
+
+    kind = "live"
+    name = "still"
+    problem = ""
+
+    def __init__(self) -> None:
+        self.buffer = Buffer()
+        self.published: list[tuple[str, str, bytes]] = []
+        self._topics: dict[str, Topic] = {}
+        self._sinks: dict[str, list] = {}
+        self._last: dict[str, list[bytes]] = {}
+        self._changed = lambda: None
+        self.put_frame("map", "base", (1, 0, 0))
+        self.put_frame("base", "tip", (0, 1, 0))
+
+    def put_frame(self, parent, child, place):
+        self.buffer.set_transform(parent, child, 0, place, (0, 0, 0, 1), static=True)
+        self._changed()
+
+    def offer(self, topic, message):
+        """A topic with a message, which each new subscription gets; more messages may follow."""
+        type_name = msg.type_name(type(message))
+        self._topics[topic] = Topic(topic, type_name, 1)
+        self._last.setdefault(topic, [])
+        self.send(topic, message)
+
+    def send(self, topic, message):
+        cdr = msg.serialize(message)
+        self._last[topic].append(cdr)
+        for sink in self._sinks.get(topic, []):
+            sink(cdr)
+        self._changed()
+
+    def now_ns(self):
+        return STAMP_NS
+
+    def new_timeline(self):
+        return LiveTimeline(self)
+
+    def topics(self):
+        return sorted(self._topics.values())
+
+    def subscribe(self, topic, type_name, on_message):
+        del type_name
+        self._sinks.setdefault(topic, []).append(on_message)
+        for cdr in self._last.get(topic, []):
+            on_message(cdr)
+        return lambda: self._sinks[topic].remove(on_message)
+
+    def publish(self, topic, type_name, cdr):
+        self.published.append((topic, type_name, cdr))
+
+    def forget_former_time(self):
+        pass
+
+    def on_change(self, call):
+        self._changed = call
+
+    def close(self):
+        pass

@@ -1,0 +1,594 @@
+"""Each display in a real browser: what colour the picture has at known places."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+
+import numpy as np
+import pytest
+from tests.conftest import BROWSER_FLAGS, CHROMIUM
+from tests.view.still_source import StillSource
+
+from turtlewire import msg
+from turtlewire.view import Viewer
+
+LIMIT_MS = 60_000
+FLAGS = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
+FLAGS += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
+#: Looks down on the square of 8 m around the origin, without frames, names and grid.
+LOOK_DOWN = """async () => {
+    const { stage } = await import("./js/main.js");
+    const { Vector3 } = await import("three");
+    stage.cameras.choose("top");
+    stage.cameras.isTouched = true;
+    stage.cameras.look(new Vector3(0, 0, 0), 4);
+    stage.drawing.object.visible = stage.labels.object.visible = false;
+    stage.view.grid.object.visible = false;
+    stage.view.requestDraw();
+}"""
+#: Colours [r, g, b] of the picture at places [x, y, z] in metres.
+PIXELS = """async (places) => {
+    const { stage } = await import("./js/main.js");
+    const { Vector3 } = await import("three");
+    const bitmap = await createImageBitmap(await stage.view.picture());
+    const ink = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+    ink.drawImage(bitmap, 0, 0);
+    const ratio = bitmap.width / stage.view.viewport.width;
+    return places.map((place) => {
+        const { x, y } = stage.view.project(new Vector3(...place));
+        return [...ink.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data]
+            .slice(0, 3);
+    });
+}"""
+#: Whether the colours at places are as expected, each within a tolerance.
+ARE = f"""async ([expected, tolerance]) => {{
+    const colors = await ({PIXELS})(expected.map(([place]) => place));
+    window.seen = colors;
+    return colors.every((color, k) =>
+        color.every((value, c) => Math.abs(value - expected[k][1][c]) <= tolerance));
+}}"""
+#: Whether places are more red than anything else.
+ARE_RED = f"""async (places) => {{
+    window.seen = await ({PIXELS})(places);
+    return window.seen.every(([r, g, b]) => r > 110 && g < 0.7 * r && b < 0.7 * r);
+}}"""
+ADD = """async ([kind, topic, options]) => {
+    const { displays } = await import("./js/main.js");
+    await displays.add({ kind, topic, options });
+}"""
+SET_OPTION = """async ([name, value]) => {
+    const { displays } = await import("./js/main.js");
+    displays.setOption(displays.list[0].id, name, value);
+}"""
+REMOVE_ALL = """async () => {
+    const { displays } = await import("./js/main.js");
+    for (const { id } of displays.list) displays.remove(id);
+}"""
+GROUND = (247, 249, 253)
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+
+DAE = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+  <library_geometries><geometry id="g"><mesh>
+    <source id="p"><float_array id="f" count="9">0 0 0 1 0 0 0 1 0</float_array>
+      <technique_common><accessor source="#f" count="3" stride="3"><param name="X" type="float"/>
+        <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+    </source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>"""
+_CORNERS = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+GLTF = json.dumps(
+    {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "rotation": [0, 0, 0, 1]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [
+            {"byteLength": 36, "uri": f"data:application/octet-stream;base64,{_CORNERS}"}
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [
+            {
+                "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                "min": [0, 0, 0], "max": [1, 1, 0],
+            }
+        ],
+    }
+)  # fmt: skip
+
+get = msg.get_message
+Point = get("geometry_msgs/msg/Point")
+Pose = get("geometry_msgs/msg/Pose")
+Color = get("std_msgs/msg/ColorRGBA")
+
+
+@pytest.fixture(scope="module")
+def browser_3d():
+    if CHROMIUM is None:
+        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+class Scene:
+    """A page that looks down at what the displays of one test draw.
+
+    Attributes:
+        topic: What :meth:`show` offers and shows.
+    """
+
+    def __init__(self, page, source, number):
+        self.page = page
+        self.source = source
+        self.topic = f"/shown{number}"
+
+    def show(self, kind, message, **options):
+        """Offer a message and add a display of it."""
+        self.source.offer(self.topic, message)
+        self.page.evaluate(ADD, [kind, self.topic, options])
+
+    def send(self, message, suffix=""):
+        self.source.offer(self.topic + suffix, message)
+
+    def set_option(self, name, value):
+        self.page.evaluate(SET_OPTION, [name, value])
+
+    def expect(self, *expected, tolerance=12):
+        """Wait until the places have the colours: pairs of (x, y, z) and (r, g, b)."""
+        try:
+            self.page.wait_for_function(ARE, arg=[expected, tolerance], timeout=LIMIT_MS)
+        except Exception as error:
+            seen = self.page.evaluate("window.seen")
+            raise AssertionError(f"expected {expected}, seen {seen}: {self.status()}") from error
+
+    def expect_red(self, *places):
+        """Wait until the places are reddish: light makes bodies darker or paler."""
+        try:
+            self.page.wait_for_function(ARE_RED, arg=places, timeout=LIMIT_MS)
+        except Exception as error:
+            seen = self.page.evaluate("window.seen")
+            raise AssertionError(f"no red at {places}, but {seen}: {self.status()}") from error
+
+    def expect_ground(self, *places):
+        self.expect(*[(place, GROUND) for place in places])
+
+    def expect_status(self, text):
+        self.page.wait_for_function(
+            "(text) => document.querySelector('#display-list').textContent.includes(text)",
+            arg=text,
+            timeout=LIMIT_MS,
+        )
+
+    def status(self):
+        return self.page.inner_text("#display-list")
+
+
+@pytest.fixture(scope="module")
+def shown_page(browser_3d):
+    """One page for all tests: its displays are removed after each."""
+    source = StillSource()
+    viewer = Viewer(source, "map", port=0)
+    context = browser_3d.new_context(viewport={"width": 900, "height": 700}, color_scheme="light")
+    page = context.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+    page.goto(viewer.url)
+    page.wait_for_function("document.querySelector('#connection').dataset.state === 'live'")
+    page.evaluate(LOOK_DOWN)
+    yield page, source, errors
+    context.close()
+    viewer.close()
+
+
+@pytest.fixture
+def scene(shown_page):
+    page, source, errors = shown_page
+    yield Scene(page, source, len(source.topics()))
+    page.evaluate(REMOVE_ALL)
+    seen, errors[:] = errors[:], []
+    assert seen == []
+
+
+def stamped(type_name, frame="map", **values):
+    message = get(type_name)(**values)
+    message.header.frame_id = frame
+    return message
+
+
+def pose(x=0.0, y=0.0, z=0.0):
+    result = Pose()
+    result.position.x, result.position.y, result.position.z = float(x), float(y), float(z)
+    result.orientation.w = 1.0
+    return result
+
+
+def points(*places):
+    return [Point(x=float(x), y=float(y), z=float(z)) for x, y, z in places]
+
+
+def test_path(scene):
+    PoseStamped = get("geometry_msgs/msg/PoseStamped")  # noqa: N806
+    poses = [PoseStamped(pose=pose(x, y)) for x, y in ((-1, 0), (1, 0), (1, 2))]
+    scene.show("path", stamped("nav_msgs/msg/Path", "base", poses=poses), width=0.2)
+    line = (0x19, 255, 0)
+    scene.expect(((1, 0, 0), line), ((2, 1, 0), line), ((1, 1, 0), GROUND))
+    scene.set_option("color", "#0000ff")
+    scene.expect(((1, 0, 0), BLUE))
+    scene.page.evaluate(REMOVE_ALL)
+    scene.expect_ground((1, 0, 0))
+
+
+def cloud(places, colors):
+    packed = np.array([r << 16 | g << 8 | b for r, g, b in colors], "u4").view("f4")
+    rows = np.column_stack([np.array(places, "f4"), packed])
+    Field = get("sensor_msgs/msg/PointField")  # noqa: N806
+    fields = [
+        Field(name=name, offset=4 * k, datatype=7, count=1)
+        for k, name in enumerate(("x", "y", "z", "rgb"))
+    ]
+    return stamped(
+        "sensor_msgs/msg/PointCloud2", "base", height=1, width=len(rows), fields=fields,
+        point_step=16, row_step=16 * len(rows), data=rows.astype("f4").tobytes(),
+    )  # fmt: skip
+
+
+def test_point_cloud(scene):
+    first = cloud([(0, 0, 0), (1, 1, 0)], [(255, 0, 0), (10, 20, 30)])
+    scene.show("point_cloud", first, size=9)
+    scene.expect(((1, 0, 0), RED), ((2, 1, 0), (10, 20, 30)), ((1, 1, 0), GROUND))
+    scene.send(cloud([(0, 1, 0)], [(0, 0, 255)]))
+    scene.expect(((1, 1, 0), BLUE), ((1, 0, 0), GROUND))
+
+
+def test_laser_scan(scene):
+    scan = stamped(
+        "sensor_msgs/msg/LaserScan", "base", angle_min=0.0, angle_max=np.pi / 2,
+        angle_increment=np.pi / 2, range_max=10.0, ranges=[1.0, 2.0],
+    )  # fmt: skip
+    scene.show("laser_scan", scan, size_metres=0.3, flat_color="#00ff00", color="flat")
+    scene.expect(((2, 0, 0), GREEN), ((1, 2, 0), GREEN), ((1, 0, 0), GROUND))
+
+
+def grid(cells):
+    message = stamped("nav_msgs/msg/OccupancyGrid")
+    message.info.width, message.info.height, message.info.resolution = 2, 2, 1.0
+    message.info.origin = pose(-1, -1)
+    message.data = cells
+    return message
+
+
+def test_occupancy_grid(scene):
+    Update = get("map_msgs/msg/OccupancyGridUpdate")  # noqa: N806
+    scene.show("occupancy_grid", grid([0, 100, -1, 50]), alpha=1.0)
+    scene.expect(
+        ((-0.5, -0.5, 0), WHITE), ((0.5, -0.5, 0), (0, 0, 0)), ((-0.5, 0.5, 0), (0x70, 0x89, 0x86)),
+        ((0.5, 0.5, 0), (128, 128, 128)), ((1.5, 0, 0), GROUND),
+    )  # fmt: skip
+    scene.send(Update(x=1, y=1, width=1, height=1, data=[0]), "_updates")
+    scene.expect(((0.5, 0.5, 0), WHITE), ((0.5, -0.5, 0), (0, 0, 0)))
+    scene.set_option("color_scheme", "costmap")
+    scene.expect(((0.5, -0.5, 0), (255, 0, 255)), ((0.5, 0.5, 0), GROUND))
+
+
+def marker(kind, key=1, at=(0, 0, 0), scale=(1, 1, 1), color=(1, 0, 0), **values):
+    message = stamped("visualization_msgs/msg/Marker", "base", type=kind, ns="n", id=key)
+    message.pose = pose(*at)
+    message.scale.x, message.scale.y, message.scale.z = map(float, scale)
+    message.color.r, message.color.g, message.color.b = map(float, color)
+    message.color.a = 1.0
+    for name, value in values.items():
+        setattr(message, name, value)
+    return message
+
+
+#: Marker, places that it covers, places beside it, all in the frame `base`.
+MARKERS = {
+    "arrow": (marker(0, scale=(2, 0.6, 0.6)), [(0.5, 0, 0), (1.7, 0.2, 0)], [(0.5, 0.5, 0)]),
+    "arrow between points": (
+        marker(0, scale=(0.4, 0.8, 0.5), points=points((0, -1, 0), (0, 1, 0))),
+        [(0, -0.5, 0), (0.2, 0.6, 0)], [(0.35, -0.5, 0), (1, 0, 0)],
+    ),
+    "cube": (marker(1, scale=(2, 1, 1)), [(0.8, 0.4, 0.5)], [(0, 0.7, 0)]),
+    "sphere": (marker(2), [(0, 0, 0), (0.3, 0.3, 0)], [(0.45, 0.45, 0)]),
+    "cylinder": (marker(3), [(0, 0, 0), (0.3, 0.3, 0)], [(0.45, 0.45, 0)]),
+    "line strip": (
+        marker(4, scale=(0.3, 0, 0), points=points((-1, 0, 0), (1, 0, 0), (1, 1, 0))),
+        [(0, 0, 0), (1, 0.5, 0)], [(0, 0.5, 0)],
+    ),
+    "line list": (
+        marker(5, scale=(0.3, 0, 0), points=points((-1, 0, 0), (1, 0, 0), (-1, 1, 0), (1, 1, 0))),
+        [(0, 0, 0), (0, 1, 0)], [(0, 0.5, 0), (1, 0.5, 0)],
+    ),
+    "cube list": (
+        marker(6, scale=(0.5, 0.5, 0.5), points=points((0, 0, 0), (1, 0, 0))),
+        [(0.2, 0.2, 0), (1.2, 0.2, 0)], [(0.5, 0, 0)],
+    ),
+    "sphere list": (
+        marker(7, scale=(0.5, 0.5, 0.5), points=points((0, 0, 0), (1, 0, 0))),
+        [(0.1, 0.1, 0), (1.1, 0.1, 0)], [(0.22, 0.22, 0), (0.5, 0, 0)],
+    ),
+    "points": (
+        marker(8, scale=(0.5, 0.5, 0), points=points((0, 0, 0), (1, 0, 0))),
+        [(0.2, 0.2, 0), (1.2, 0, 0)], [(0.5, 0, 0)],
+    ),
+    "text": (marker(9, scale=(0, 0, 3), text="I"), [(0, 0, 0)], [(1.5, 0, 0)]),
+    "triangle list": (
+        marker(11, points=points((0, 0, 0), (1, 0, 0), (0, 1, 0))),
+        [(0.2, 0.2, 0)], [(0.7, 0.7, 0)],
+    ),
+    "arrow strip": (
+        marker(12, scale=(0.3, 0.6, 0.3), points=points((-1, 0, 0), (0, 0, 0), (0, 1, 0))),
+        [(-0.5, 0, 0), (0, 0.5, 0)], [(-0.5, 0.5, 0)],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MARKERS)
+def test_marker(scene, name):
+    message, on, off = MARKERS[name]
+    on, off = ([(x + 1, y, z) for x, y, z in places] for places in (on, off))
+    scene.show("marker", message)
+    scene.expect_red(*on)
+    scene.expect_ground(*off)
+    delete = marker(0)
+    delete.action = 2
+    scene.send(delete)
+    scene.expect_ground(*on, *off)
+
+
+def test_colors_of_points(scene):
+    colors = [Color(g=1.0, a=1.0), Color(b=1.0, a=1.0)]
+    places = points((0, 0, 0), (1, 0, 0))
+    scene.show("marker", marker(8, scale=(0.5, 0.5, 0), points=places, colors=colors))
+    scene.expect(((1, 0, 0), GREEN), ((2, 0, 0), BLUE))
+
+
+def test_an_array_with_lifetimes_and_hidden_namespaces(scene):
+    passing = marker(8, key=1, scale=(0.5, 0.5, 0), points=points((0, 0, 0)))
+    passing.lifetime.sec = 1
+    other = marker(8, key=2, scale=(0.5, 0.5, 0), points=points((1, 0, 0)), ns="walls")
+    MarkerArray = get("visualization_msgs/msg/MarkerArray")  # noqa: N806
+    scene.show("marker", MarkerArray(markers=[passing, other]))
+    scene.expect(((2, 0, 0), RED))
+    scene.expect(((1, 0, 0), GROUND), ((2, 0, 0), RED))
+    scene.set_option("hidden", "^wall")
+    scene.expect_ground((2, 0, 0))
+
+
+def test_a_marker_on_a_frame_moves_with_it(scene):
+    message = marker(8, scale=(0.5, 0.5, 0), points=points((0, 0, 0)), frame_locked=True)
+    message.header.frame_id = "cart"
+    scene.source.put_frame("map", "cart", (0, 2, 0))
+    scene.show("marker", message)
+    scene.expect(((0, 2, 0), RED))
+    scene.source.put_frame("map", "cart", (0, -2, 0))
+    scene.expect(((0, -2, 0), RED), ((0, 2, 0), GROUND))
+
+
+def stl(*triangles):
+    """A binary STL file."""
+    data = bytes(80) + struct.pack("<I", len(triangles))
+    for triangle in triangles:
+        data += struct.pack("<12fH", 0, 0, 1, *np.ravel(triangle), 0)
+    return data
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """The package ``arm`` with a mesh: a triangle on the ground."""
+    markers = tmp_path / "share/ament_index/resource_index/packages"
+    meshes = tmp_path / "share/arm/meshes"
+    for folder in (markers, meshes):
+        folder.mkdir(parents=True)
+    (markers / "arm").touch()
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    (meshes / "flat.stl").write_bytes(stl(corners))
+    (meshes / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (meshes / "flat.dae").write_text(DAE)
+    (meshes / "flat.gltf").write_text(GLTF)
+    (meshes / "broken.stl").write_bytes(stl(corners)[:90])
+    (meshes / "broken.dae").write_text("<img src=x>")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+
+
+@pytest.mark.usefixtures("package")
+@pytest.mark.parametrize("form", ["stl", "obj", "dae", "gltf"])
+def test_a_mesh(scene, form):
+    message = marker(10, scale=(2, 1, 1), mesh_resource=f"package://arm/meshes/flat.{form}")
+    scene.show("marker", message)
+    scene.expect_red((1.2, 0.2, 0), (2.2, 0.2, 0))
+    scene.expect_ground((2.5, 0.8, 0))
+
+
+@pytest.mark.usefixtures("package")
+@pytest.mark.parametrize("name", ["broken.stl", "broken.dae"])
+def test_a_mesh_of_nonsense(scene, name):
+    scene.show("marker", marker(10, mesh_resource=f"package://arm/meshes/{name}"))
+    scene.expect_status(f"marker n/1: 'package://arm/meshes/{name}'")
+
+
+def test_an_embedded_mesh(scene):
+    message = marker(10, mesh_resource="embedded://flat.stl")
+    message.mesh_file.filename = "flat.stl"
+    message.mesh_file.data = stl([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    scene.show("marker", message)
+    scene.expect_red((1.2, 0.2, 0))
+
+
+ROBOT = """<robot name="arm">
+  <material name="red"><color rgba="1 0 0 1"/></material>
+  <link name="base">
+    <visual><origin xyz="-1 0 0"/><geometry><box size="1 2 0.5"/></geometry>
+      <material name="red"/></visual>
+    <collision><origin xyz="0 -2 0"/><geometry><sphere radius="0.5"/></geometry></collision>
+  </link>
+  <link name="tip">
+    <visual><geometry><mesh filename="package://arm/meshes/flat.stl" scale="-1 1 1"/></geometry>
+      <material name="red"/></visual>
+    <visual><origin xyz="1 0 0"/><geometry><cylinder radius="0.3" length="1"/></geometry>
+      <material name="red"/></visual>
+    <visual><geometry><mesh filename="package://arm/meshes/none.stl"/></geometry></visual>
+  </link>
+  <link name="lost"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+  <joint name="a" type="fixed"><parent link="base"/><child link="tip"/></joint>
+  <joint name="b" type="fixed"><parent link="base"/><child link="lost"/></joint>
+</robot>"""
+
+
+@pytest.mark.usefixtures("package")
+def test_robot_model(scene):
+    scene.topic = "/robot_description"
+    scene.show("robot_model", get("std_msgs/msg/String")(data=ROBOT))
+    scene.expect_red((0.2, 0.7, 0), (-0.2, -0.7, 0))  # the box at base
+    scene.expect_red((0.8, 1.2, 0))  # the mirrored mesh at tip
+    scene.expect_red((2, 1, 0))  # the cylinder at tip
+    scene.expect_ground((1, -2, 0), (0, 1.4, 0))
+    scene.expect_status("has no file 'meshes/none.stl'")
+    scene.set_option("collision", True)
+    scene.page.wait_for_function(
+        f"async () => (await ({PIXELS})([[1, -2, 0]]))[0][2] < 200", timeout=LIMIT_MS
+    )
+    scene.set_option("visual", False)
+    scene.expect_ground((0.2, 0.7, 0), (2, 1, 0))
+
+
+def test_a_link_without_a_frame_is_named(scene):
+    scene.topic = "/other/robot_description"
+    lost = """<robot name="r"><link name="nowhere">
+        <visual><geometry><sphere radius="1"/></geometry></visual></link></robot>"""
+    scene.show("robot_model", get("std_msgs/msg/String")(data=lost))
+    scene.expect_status("No transform from [nowhere]")
+
+
+def test_pose_and_covariance(scene):
+    message = stamped("geometry_msgs/msg/PoseWithCovarianceStamped", "base")
+    message.pose.pose = pose(0, 0)
+    message.pose.covariance[0] = message.pose.covariance[7] = 1.0
+    scene.show("pose", message)
+    scene.expect_red((1.3, 0, 0), (1.9, 0, 0))
+    violet = "async () => { const [[r, g, b]] = await (" + PIXELS + ")([[1, -0.8, 0]]); "
+    scene.page.wait_for_function(violet + "return g < r - 20 && g < b - 20; }", timeout=LIMIT_MS)
+    scene.set_option("show_covariance", False)
+    scene.expect_ground((1, -0.8, 0))
+    scene.send(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", "tip"))
+    scene.expect_red((1.3, 1, 0))
+    scene.expect_ground((1.3, 0, 0))
+
+
+def test_odometry(scene):
+    def odometry(x):
+        message = stamped("nav_msgs/msg/Odometry", "base")
+        message.pose.pose = pose(x, 1)
+        return message
+
+    scene.show("odometry", odometry(-3), keep=2)
+    scene.expect_red((-1.7, 1, 0))
+    scene.send(odometry(-1))
+    scene.expect_red((-1.7, 1, 0), (0.3, 1, 0))
+    scene.send(odometry(1))
+    scene.expect_red((0.3, 1, 0), (2.3, 1, 0))
+    scene.expect_ground((-1.7, 1, 0))
+
+
+def test_pose_array(scene):
+    message = stamped("geometry_msgs/msg/PoseArray", "base", poses=[pose(0, 0), pose(0, 2)])
+    scene.show("pose_array", message, length=2)
+    scene.expect_red((1.5, 0, 0), (1.5, 2, 0))
+    scene.expect_ground((1.5, 1, 0))
+    scene.set_option("shape", "axes")
+    scene.page.wait_for_function(
+        f"""async () => {{
+            const [[r, g, b]] = await ({PIXELS})([[1, 1, 0]]);
+            return g > r && g > b;
+        }}""",
+        timeout=LIMIT_MS,
+    )
+
+
+def test_polygon(scene):
+    Point32 = get("geometry_msgs/msg/Point32")  # noqa: N806
+    message = stamped("geometry_msgs/msg/PolygonStamped", "base")
+    message.polygon.points = [Point32(x=x, y=y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    scene.show("polygon", message, color="#0000ff")
+    scene.expect(((1.5, 0, 0), BLUE), ((2, 0.5, 0), BLUE), ((1, 0.5, 0), BLUE))
+    scene.expect_ground((1.5, 0.5, 0))
+
+
+def test_point(scene):
+    message = stamped("geometry_msgs/msg/PointStamped", "base")
+    message.point = points((0, 2, 0))[0]
+    scene.show("point", message, color="#ff0000", radius=0.5)
+    scene.expect_red((1, 2, 0), (1.3, 2, 0))
+    scene.expect_ground((1.6, 2, 0))
+
+
+def test_range(scene):
+    message = stamped("sensor_msgs/msg/Range", "base", range=2.0, max_range=3.0, field_of_view=1.0)
+    scene.show("range", message, color="#ff0000", alpha=1.0)
+    scene.expect_red((2, 0, 0), (2.8, 0.8, 0))
+    scene.expect_ground((1.3, 0.4, 0), (3.2, 0, 0))
+
+
+#: The colour in the middle of the picture in the window.
+WINDOW_COLOR = """([r, g, b]) => {
+    const canvas = document.querySelector(".image-window canvas");
+    if (!canvas?.width) return false;
+    const at = [canvas.width >> 1, canvas.height >> 1];
+    const seen = canvas.getContext("2d").getImageData(...at, 1, 1).data;
+    return Math.max(...[r, g, b].map((value, k) => Math.abs(value - seen[k]))) < 12;
+}"""
+
+
+def test_image(scene):
+    pixels = np.full((6, 8, 3), (10, 200, 30), np.uint8)
+    message = stamped("sensor_msgs/msg/Image", "lens", height=6, width=8, step=24)
+    message.encoding, message.data = "rgb8", pixels.tobytes()
+    scene.show("image", message)
+    scene.page.wait_for_function(WINDOW_COLOR, arg=[10, 200, 30], timeout=LIMIT_MS)
+    assert scene.page.inner_text(".image-window figcaption").endswith("6 · rgb8 · lens")
+    scene.page.evaluate(REMOVE_ALL)
+    assert scene.page.query_selector(".image-window") is None
+
+
+@pytest.mark.parametrize("form", ["png", "jpeg"])
+def test_compressed_image(scene, form):
+    picture = scene.page.evaluate(
+        """async (form) => {
+            const canvas = new OffscreenCanvas(16, 16);
+            const ink = canvas.getContext("2d");
+            ink.fillStyle = "rgb(20, 40, 220)";
+            ink.fillRect(0, 0, 16, 16);
+            const blob = await canvas.convertToBlob({ type: `image/${form}`, quality: 1 });
+            return [...new Uint8Array(await blob.arrayBuffer())];
+        }""",
+        form,
+    )
+    scene.show("image", stamped("sensor_msgs/msg/CompressedImage", format=form, data=picture))
+    scene.page.wait_for_function(WINDOW_COLOR, arg=[20, 40, 220], timeout=LIMIT_MS)
+
+
+def test_a_picture_that_is_none(scene):
+    data = bytes.fromhex("ffd8ff") + b"nonsense"
+    scene.show("image", stamped("sensor_msgs/msg/CompressedImage", format="jpeg", data=data))
+    scene.expect_status("The browser cannot read this image/jpeg")
+
+
+def test_names_with_markup_stay_text(scene):
+    message = marker(1, ns="<img src=x onerror=window.hacked=1>", color=(0, 0, 0))
+    message.color.a = 0.0
+    scene.show("marker", message)
+    scene.expect_status("marker <img src=x onerror=window.hacked=1>/1: the marker is invisible")
+    assert scene.page.evaluate("window.hacked") is None
