@@ -346,6 +346,16 @@ joint_state_publisher reads COLLADA robots, too
   joint_state_publisher/test_description.py test_errors
 joint_state_publisher_gui opens a Qt window
   joint_state_publisher_gui/test_page.py test_a_slider_moves_its_joint_and_those_that_follow
+`address` is 0.0.0.0 by default
+  cli/test_foxglove.py test_it_tells_its_address_serves_and_ends_at_ctrl_c test_an_address_for_others_is_said_plainly
+pages of any origin connect
+  foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
+`tls`, `certfile` and `keyfile` make it a wss server
+  foxglove/test_foxglove_bridge.py test_wrong_parameters_are_refused
+`num_threads`, `min_qos_depth`, `max_qos_depth`, `best_effort_qos_topic_whitelist`, `use_compression` and others tune it
+  foxglove/test_foxglove_bridge.py test_what_has_no_effect_is_told
+an integer for a floating-point parameter is refused
+  foxglove/test_requests.py test_parameters_are_set_and_keep_their_type
 `rviz2` opens a window
   robots/test_urdf_tutorial.py test_every_model_is_displayed
 `ament_cmake` packages need CMake

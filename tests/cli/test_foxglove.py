@@ -37,7 +37,7 @@ def test_a_port_in_use_is_named_with_the_way_out(foxglove):
         assert program.wait() == 2
     assert program.text == (
         f"turtlewire foxglove: port {port} of 127.0.0.1 is in use, perhaps by another Foxglove "
-        "server. Another one is chosen by --port N, a free one by --port 0."
+        "server.\n--port N takes another one, --port 0 a free one."
     )
 
 
@@ -72,7 +72,7 @@ def test_an_address_for_others_is_said_plainly(foxglove):
     program = foxglove("--port", "0", "--address", "::")
     program.wait_for(r"connect to ws://\[::\]:\d+ ")
     program.wait_for(
-        r"^Everybody who reaches :: can read all topics, publish, and call services\.$"
+        r"^Everybody who reaches :: can read all topics, publish, call services\.$"
     )
 
 

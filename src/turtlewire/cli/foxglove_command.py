@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import sys
 import threading
 from typing import TYPE_CHECKING, Any
@@ -104,7 +103,8 @@ def _foxglove(args: argparse.Namespace) -> int:
     except WireError as error:
         print(f"turtlewire foxglove: {error} {error.hint}".rstrip(), file=sys.stderr)
     except OSError as error:
-        print(f"turtlewire foxglove: {_reason(error, options)}", file=sys.stderr)
+        print(f"turtlewire foxglove: {error}.", file=sys.stderr)
+        print("--port N takes another one, --port 0 a free one.", file=sys.stderr)
     return 2
 
 
@@ -134,19 +134,7 @@ def _options(args: argparse.Namespace) -> Options:
 def _say_where(url: str, options: Options) -> None:
     print(f"Foxglove and Lichtblick connect to {url} (Ctrl-C ends)", flush=True)
     if not options.is_local:
-        rights = "read all topics"
-        if "clientPublish" in options.capabilities:
-            rights += ", publish, and call services"
-        print(f"Everybody who reaches {options.address} can {rights}.", flush=True)
-
-
-def _reason(error: OSError, options: Options) -> str:
-    if error.errno == errno.EADDRINUSE:
-        return (
-            f"port {options.port} of {options.address} is in use, perhaps by another Foxglove "
-            "server. Another one is chosen by --port N, a free one by --port 0."
-        )
-    return f"cannot listen on {printable(options.address)}, port {options.port}: {error.strerror}."
+        print(options.warning, flush=True)
 
 
 class _Log:

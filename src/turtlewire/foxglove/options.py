@@ -119,6 +119,16 @@ class Options:
         """Whether only programs of this machine reach the server."""
         return self.address in {"localhost", "::1"} or self.address.startswith("127.")
 
+    @property
+    def warning(self) -> str:
+        """What it means that others reach the server, for its user."""
+        rights = ["read all topics"]
+        if "clientPublish" in self.capabilities:
+            rights.append("publish")
+        if "services" in self.capabilities:
+            rights.append("call services")
+        return f"Everybody who reaches {self.address} can {', '.join(rights)}."
+
     def patterns(self, name: str) -> Patterns:
         """The compiled expressions of one of the lists."""
         return Patterns(getattr(self, name), name)

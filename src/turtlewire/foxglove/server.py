@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import logging
 import os
 import socket
@@ -61,7 +62,7 @@ class FoxgloveServer:
         url: Where clients connect.
 
     Raises:
-        OSError: The address is not one of this machine, or the port is in use.
+        OSError: The address is not one of this machine, or the port is in use; the text says so.
         WireError: The wire refuses the subscription of ``/clock``.
     """
 
@@ -79,7 +80,7 @@ class FoxgloveServer:
         self._session_id = str(time.time_ns())
         self._warned: set[str] = set()
         self._transports: set[asyncio.Transport] = set()
-        self._socket = _listen(options.address, options.port)
+        self._socket = _listening(options)
         host, port = self._socket.getsockname()[:2]
         self.url = f"ws://[{host}]:{port}" if ":" in host else f"ws://{host}:{port}"
         self._started = threading.Event()
@@ -238,6 +239,20 @@ def _tracking_connections(transports: set[asyncio.Transport]) -> type[ServerConn
             transports.discard(self.transport)
 
     return TrackedConnection
+
+
+def _listening(options: Options) -> socket.socket:
+    """A socket that listens, or an error with a sentence for the user."""
+    try:
+        return _listen(options.address, options.port)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            place = f"port {options.port} of {options.address}"
+            text = f"{place} is in use, perhaps by another Foxglove server"
+        else:
+            place = f"{printable(options.address)}, port {options.port}"
+            text = f"cannot listen on {place}: {error.strerror}"
+        raise OSError(text) from error
 
 
 def _listen(address: str, port: int) -> socket.socket:
