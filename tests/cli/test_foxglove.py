@@ -71,9 +71,7 @@ def test_an_address_for_others_is_said_plainly(foxglove):
     assert program.wait() == 130
     program = foxglove("--port", "0", "--address", "::")
     program.wait_for(r"connect to ws://\[::\]:\d+ ")
-    program.wait_for(
-        r"^Everybody who reaches :: can read all topics, publish, call services\.$"
-    )
+    program.wait_for(r"^Everybody who reaches :: can read all topics, publish, call services\.$")
 
 
 def test_without_a_network_it_says_so(foxglove):
