@@ -7,6 +7,8 @@ import json
 import threading
 
 import pytest
+from tests.conftest import BROWSER_FLAGS, CHROMIUM
+from tests.view.fake_view import FakeView
 from tests.view.packets import decode_packet
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -145,3 +147,47 @@ def open_view_page():
 @pytest.fixture
 def page(viewer, open_view_page):
     return open_view_page(viewer)
+
+
+@pytest.fixture(scope="module")
+def browser_3d():
+    """A browser that draws in 3D without a graphics card."""
+    if CHROMIUM is None:
+        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    flags = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
+    flags += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def fake():
+    """A server that says what the test wants."""
+    with contextlib.closing(FakeView()) as view:
+        yield view
+
+
+@pytest.fixture
+def open_view(browser_3d):
+    """Opens pages of the view; fails the test when one reports an error."""
+    contexts, errors = [], []
+
+    def open_view(url: str, script: str = "", **options):
+        context = browser_3d.new_context(**{"viewport": {"width": 1200, "height": 800}, **options})
+        contexts.append(context)
+        context.set_default_timeout(1000 * LIMIT_S)
+        page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.add_init_script(script)
+        page.goto(url)
+        page.wait_for_selector("#connection[data-state=live]")
+        return page
+
+    yield open_view
+    for context in contexts:
+        context.close()
+    assert errors == []

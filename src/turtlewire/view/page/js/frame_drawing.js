@@ -95,7 +95,7 @@ export class FrameDrawing {
       if (!frames.isShown(path[k - 1]) || !frames.isShown(path[k])) continue;
       ends.set(frames.position(path[k - 1]), 6 * count);
       ends.set(frames.position(path[k]), 6 * count + 3);
-      this.#write(colors, 8 * count, this.#colors.accent, 0, 150);
+      this.#write(colors, 8 * count, this.#colors.accent, 0, 220);
       count += 1;
     }
     this.#path.show(count);

@@ -15,6 +15,9 @@ import { TreeView } from "./tree_view.js";
 import { View } from "./scene.js";
 
 const NOTICE_MS = 6000;
+/** Where keys are for the control itself: all of them, or the space bar. */
+const TYPED_IN = "select, textarea, input:not([type=checkbox])";
+const PRESSED = "button, summary, input";
 
 let looks = null;
 let chosenFixed = "";
@@ -189,7 +192,8 @@ byId("trail").onclick = () => {
   showSelection();
 };
 addEventListener("keydown", (event) => {
-  if (event.target.matches("input, select, textarea, button, summary")) return;
+  if (event.target.matches(TYPED_IN)) return;
+  if (event.key === " " && event.target.matches(PRESSED)) return;
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   const acts = {
     " ": () => time.toggle(),

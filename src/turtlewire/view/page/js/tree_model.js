@@ -7,6 +7,7 @@ export class TreeModel {
   readings = new Map();
   #frames;
   #children = new Map(); // index to indices of children in order; -1 to the roots
+  #order = [];
   #folded = new Set(); // names
   #query = "";
 
@@ -21,6 +22,7 @@ export class TreeModel {
     const order = names.map((_, k) => k);
     order.sort((a, b) => naturalOrder(names[a], names[b]));
     order.sort((a, b) => (trees[b] === main) - (trees[a] === main));
+    this.#order = order;
     this.#children = new Map();
     for (const k of order) {
       const siblings = this.#children.get(parents[k]);
@@ -51,19 +53,23 @@ export class TreeModel {
     }
   }
 
-  /** Rows from the top: { k, depth, fold: "none", "open" or "closed", found }. */
+  /**
+   * Rows from the top: { k, depth, fold: "none", "open" or "closed", found }. While searching they
+   * are those that match, without what is above them: `found` is where in the name, or -1.
+   */
   rows() {
-    const wanted = this.isSearching ? this.#found() : null;
+    return this.isSearching ? this.#matches() : this.#unfolded();
+  }
+
+  #unfolded() {
     const rows = [];
     const stack = this.#below(-1, 0);
     while (stack.length) {
       const { k, depth } = stack.pop();
-      if (wanted && !wanted.has(k)) continue;
-      const name = this.#frames.names[k];
       const below = this.#below(k, depth + 1);
-      const closed = !wanted && this.#folded.has(name);
+      const closed = this.#folded.has(this.#frames.names[k]);
       const fold = below.length === 0 ? "none" : closed ? "closed" : "open";
-      rows.push({ k, depth, fold, found: wanted?.get(k) ?? null });
+      rows.push({ k, depth, fold, found: null });
       if (!closed) stack.push(...below);
     }
     return rows;
@@ -74,20 +80,15 @@ export class TreeModel {
     return (this.#children.get(k) ?? []).map((child) => ({ k: child, depth })).reverse();
   }
 
-  /** Index to where the name matches (or -1: above one, or its publisher matches). */
-  #found() {
-    const { names, parents } = this.#frames;
-    const found = new Map();
-    names.forEach((name, k) => {
-      const at = name.toLowerCase().indexOf(this.#query);
+  /** Frames whose name or publisher holds what is searched for. */
+  #matches() {
+    return this.#order.flatMap((k) => {
+      const name = this.#frames.names[k];
+      const found = name.toLowerCase().indexOf(this.#query);
       const publisher = this.readings.get(name)?.publisher ?? "";
-      if (at < 0 && !publisher.toLowerCase().includes(this.#query)) return;
-      found.set(k, at);
-      for (let above = parents[k]; above >= 0 && !found.has(above); above = parents[above]) {
-        found.set(above, -1);
-      }
+      const isMatch = found >= 0 || publisher.toLowerCase().includes(this.#query);
+      return isMatch ? [{ k, depth: 0, fold: "none", found }] : [];
     });
-    return found;
   }
 
   /** Length of what is searched for, to mark it. */

@@ -122,7 +122,7 @@ export class TreeView {
     element.dataset.kind = this.#frames.parents[row.k] < 0 ? "root" : kindOf(reading);
     element.toggleAttribute("data-path", this.#path.has(row.k));
     element.toggleAttribute("data-active", at === this.#active);
-    element.toggleAttribute("data-apart", row.depth === 0 && this.#frames.roots.length > 1);
+    element.toggleAttribute("data-apart", this.#isRootApart(row.k));
     this.#drawFold(element, row, name);
     this.#drawEye(element, row.k);
     this.#drawName(element.querySelector(".name"), name, row.found);
@@ -131,8 +131,14 @@ export class TreeView {
   }
 
   #readingText(k, reading) {
-    if (this.#frames.parents[k] >= 0) return readingInWords(reading);
+    const above = this.#frames.names[this.#frames.parents[k]];
+    const place = this.#model.isSearching ? `below ${above} · ` : "";
+    if (above !== undefined) return place + readingInWords(reading);
     return this.#frames.isConnected(k) ? "root" : "root · not connected with the fixed frame";
+  }
+
+  #isRootApart(k) {
+    return this.#frames.parents[k] < 0 && this.#frames.roots.length > 1;
   }
 
   #drawFold(element, row, name) {

@@ -1,0 +1,336 @@
+"""The picture of the view's page: what is drawn where, and how one looks at it."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from tests.view.fake_view import IDENTITY, pose
+
+CHAIN = {"world": "", "base": "world", "arm": "base", "beacon": "world"}
+POSES = [IDENTITY, pose(3, 0, 0), pose(3, 2, 1), pose(-1, 3, 0)]
+#: Colours at points of the scene [m], after a picture was drawn.
+PIXELS = """async (points) => {
+    const { stage } = await import(new URL('js/main.js', location.href));
+    const { Vector3 } = await import('three');
+    const { view } = stage;
+    view.draw(performance.now());
+    const canvas = new OffscreenCanvas(view.canvas.width, view.canvas.height);
+    const ctx = canvas.getContext('2d');
+    ctx.drawImage(view.canvas, 0, 0);
+    return points.map((point) => {
+        const { x, y } = view.project(new Vector3(...point));
+        return [...ctx.getImageData(Math.floor(x), Math.floor(y), 1, 1).data.slice(0, 3)];
+    });
+}"""
+RED, GREEN, BLUE = (224, 47, 63), (20, 154, 78), (47, 91, 234)
+HEAD, SHAFT, ACCENT, GROUND = (255, 26, 153), (181, 165, 42), (69, 86, 255), (247, 249, 253)
+
+
+def in_page(page, body: str, argument=None):
+    """Evaluate the body of an async function that knows `stage`, `frames` and `given`."""
+    code = "const { stage, frames } = await import(new URL('js/main.js', location.href));"
+    return page.evaluate(f"async (given) => {{ {code} {body} }}", argument)
+
+
+def on_screen(page, point) -> tuple[float, float]:
+    """Where a point of the scene is in the canvas [CSS pixels]."""
+    body = """
+        const { Vector3 } = await import('three');
+        stage.view.draw(performance.now());
+        const { x, y } = stage.view.project(new Vector3(...given));
+        return [x, y];
+    """
+    return tuple(in_page(page, body, list(point)))
+
+
+def press(page, point, **options) -> None:
+    """Press a point of the scene, and let go."""
+    x, y = on_screen(page, point)
+    page.click("#scene", position={"x": x, "y": y}, **options)
+
+
+@pytest.fixture
+def page(fake, open_view):
+    """Four frames: a path of two links, and one beside it."""
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('beacon')")
+    in_page(page, "stage.labels.showAll = false; stage.view.grid.object.visible = false;")
+    in_page(page, "stage.setSize(0.8); stage.cameras.isTouched = true;")
+    # No two axes are seen in one direction from here.
+    in_page(page, "stage.view.camera.position.set(-5, -6, 7); stage.view.camera.lookAt(1, 1, 0);")
+    return page
+
+
+def along(k: int, axis: int, metres: float = 0.5) -> list[float]:
+    point = list(POSES[k][:3])
+    point[axis] += metres
+    return point
+
+
+def near(colors, expected, tolerance=14) -> None:
+    """Each colour is the expected one: lines are opaque in their middle."""
+    for color, wanted in zip(colors, expected, strict=True):
+        assert max(abs(a - b) for a, b in zip(color, wanted, strict=True)) <= tolerance, (
+            colors,
+            expected,
+        )
+
+
+def test_axes_are_red_green_and_blue_along_x_y_and_z(page):
+    points = [along(k, axis) for k in (1, 3) for axis in range(3)]
+    near(page.evaluate(PIXELS, points), [RED, GREEN, BLUE] * 2)
+
+
+def test_an_axis_turns_with_its_frame(page, fake):
+    fake.frames([*POSES[:3], pose(-1, 3, 0, yaw=math.pi / 2)])
+    page.wait_for_function("() => true")
+    in_page(page, "while (frames.poses[26] > 0.9) await new Promise(requestAnimationFrame);")
+    points = [along(3, 1), along(3, 0, -0.5), along(3, 0, 0.5)]
+    near(page.evaluate(PIXELS, points), [RED, GREEN, GROUND])
+
+
+def test_arrows_go_from_child_to_parent(page):
+    in_page(page, "stage.drawing.show.axes = false; stage.change();")
+    shaft, head = [-0.5, 1.5, 0.0], [-0.07, 0.21, 0.0]  # of beacon's, which ends in world
+    near(page.evaluate(PIXELS, [shaft, head]), [SHAFT, HEAD], tolerance=40)
+
+
+def test_what_is_switched_off_is_not_drawn(page):
+    page.click("#looks summary")
+    page.uncheck("#show-axes")
+    page.uncheck("#show-arrows")
+    near(page.evaluate(PIXELS, [along(1, 1), [-0.5, 1.5, 0.0]]), [GROUND, GROUND])
+
+
+def test_unknown_and_hidden_frames_are_not_drawn(page, fake):
+    fake.frames(POSES, known=[1, 1, 1, 0])
+    in_page(page, "while (frames.known[3]) await new Promise(requestAnimationFrame);")
+    near(page.evaluate(PIXELS, [along(3, 0), along(1, 1)]), [GROUND, GREEN])
+    page.fill("#hide", "^ba")
+    near(page.evaluate(PIXELS, [along(1, 1), along(2, 2)]), [GROUND, BLUE])
+
+
+def test_pressing_a_frame_highlights_its_path_to_the_fixed_frame(page, fake):
+    press(page, POSES[2][:3])
+    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
+    assert page.get_attribute("#tree .row:has-text('arm')", "aria-selected") == "true"
+    on_path = page.evaluate(PIXELS, [[3.0, 1.0, 0.5], [1.5, 0.0, 0.0]])
+    for red, green, blue in on_path:
+        assert blue - max(red, green) > 60
+    beside = page.evaluate(PIXELS, [along(3, 0)])[0]
+    assert beside[0] - beside[1] < RED[0] - RED[1] - 60  # dimmed
+    assert in_page(page, "return stage.labels.texts")[0] == "arm"
+    page.keyboard.press("Escape")
+    fake.wait_for(lambda c: c["type"] == "relation" and c["target"] is None)
+    near(page.evaluate(PIXELS, [along(3, 0)]), [RED])
+
+
+def test_shift_and_a_second_frame_asks_for_their_relation(page, fake):
+    press(page, POSES[2][:3])
+    press(page, POSES[3][:3], modifiers=["Shift"])
+    fake.wait_for(
+        lambda c: c["type"] == "relation" and (c["target"], c.get("source")) == ("beacon", "arm")
+    )
+    assert page.input_value("#relation-target") == "beacon"
+
+
+def test_dragging_selects_nothing(page, fake):
+    before = on_screen(page, POSES[2][:3])
+    page.mouse.move(before[0] + 30, before[1] + 120)
+    x, y = on_screen(page, POSES[3][:3])
+    box = page.locator("#scene").bounding_box()
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x + 90, box["y"] + y + 10, steps=4)
+    page.mouse.up()
+    assert on_screen(page, POSES[2][:3]) != before  # it turned
+    assert not [c for c in fake.commands if c["type"] == "relation" and c["target"]]
+
+
+def test_from_above_x_goes_right_and_y_up(page):
+    page.click("#top")
+    (x0, y0), (x1, y1), (x2, y2) = (
+        on_screen(page, point) for point in ((0, 0, 0), (1, 0, 0), (0, 1, 5))
+    )
+    assert x1 - x0 > 20
+    assert y1 == pytest.approx(y0, abs=0.01)
+    assert y0 - y2 == pytest.approx(x1 - x0)
+    assert x2 == pytest.approx(x0, abs=0.01)
+    page.keyboard.press("o")
+    assert page.get_attribute("#orbit", "aria-pressed") == "true"
+
+
+@pytest.mark.parametrize("camera", ["orbit", "top"])
+def test_a_followed_frame_stays_where_it_is(page, fake, camera):
+    page.click(f"#{camera}")
+    page.click("#tree .row:has-text('arm')")
+    page.click("#follow")
+    fake.frames(POSES)
+    fake.frames([*POSES[:2], pose(9, 4, 1), POSES[3]])
+    in_page(page, "while (frames.poses[14] < 8) await new Promise(requestAnimationFrame);")
+    middle = in_page(page, "return [stage.view.viewport.width / 2, stage.view.viewport.height / 2]")
+    assert on_screen(page, (9, 4, 1)) == pytest.approx(middle, abs=1)
+    assert "following arm" in page.inner_text("#caption")
+
+
+def test_everything_is_seen_at_first_and_after_fit(page, fake):
+    far = [IDENTITY, pose(300, 0), pose(-200, 100, 40), pose(0, -250)]
+    fake.frames(far)
+    in_page(page, "while (frames.poses[7] < 8) await new Promise(requestAnimationFrame);")
+    page.click("#fit")
+    size = in_page(page, "return [stage.view.viewport.width, stage.view.viewport.height]")
+    for each in far:
+        place = on_screen(page, each[:3])
+        assert all(0 < value < limit for value, limit in zip(place, size, strict=True))
+    assert page.inner_text("#caption").startswith("grid 50 m")
+
+
+def test_keys_turn_and_approach_the_picture(page):
+    before = on_screen(page, POSES[2][:3])
+    page.focus("#scene")
+    page.keyboard.press("ArrowLeft")
+    turned = on_screen(page, POSES[2][:3])
+    assert turned != pytest.approx(before, abs=1)
+    distance = "return stage.cameras.pixelsPerMetre"
+    far = in_page(page, distance)
+    page.keyboard.press("+")
+    assert in_page(page, distance) > far
+
+
+def test_trees_that_are_not_connected_stand_apart_and_are_named(fake, open_view):
+    fake.names({"world": "", "base": "world", "map": "", "odom": "map"})
+    fake.frames([IDENTITY, pose(2, 0), IDENTITY, pose(1, 1)])
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('odom')")
+    places = in_page(page, "return frames.names.map((_, k) => frames.position(k))")
+    assert places[:2] == [[0, 0, 0], [2, 0, 0]]
+    assert places[2][0] > 3
+    assert [b - a for a, b in zip(places[2], places[3], strict=True)] == [1, 1, 0]
+    in_page(page, "stage.view.draw(performance.now())")
+    assert {"world", "map"} <= set(in_page(page, "return stage.labels.texts"))
+    assert "not connected" in page.inner_text("#tree .row:has-text('map')")
+    # They keep their place while they move within it.
+    fake.frames([IDENTITY, pose(2.1, 0), IDENTITY, pose(1.1, 1)])
+    in_page(page, "while (frames.poses[7] < 2.05) await new Promise(requestAnimationFrame);")
+    assert in_page(page, "return frames.position(2)") == places[2]
+
+
+def test_frames_fade_as_in_rviz(page):
+    fading = in_page(
+        page,
+        """
+        const { AgeClock } = await import(new URL('js/age_clock.js', location.href));
+        let now = 100;
+        const ages = new AgeClock(() => now);
+        ages.rename(['moving', 'static']);
+        const known = Uint8Array.of(1, 1);
+        ages.take(Float64Array.of(7, 0), known);
+        const seen = [];
+        const look = (seconds) => {
+            now += seconds;
+            ages.tick();
+            const { grey, alpha } = ages.fading(0);
+            seen.push([grey, alpha, ages.isAlive(0), ages.fading(1).alpha, ages.isAlive(1)]);
+        };
+        for (const seconds of [4, 3.5, 5, 3]) look(seconds);
+        ages.take(Float64Array.of(8, 0), known);
+        look(0);
+        ages.setPaused(true);
+        look(50);
+        ages.setPaused(false);
+        look(7.5);
+        return seen;
+        """,
+    )
+    assert fading == [
+        [0, 1, True, 1, True],
+        [0.5, 1, True, 1, True],
+        [1, 0.5, True, 1, True],
+        [1, 0, False, 1, True],
+        [0, 1, True, 1, True],
+        [0, 1, True, 1, True],
+        [0.5, 1, True, 1, True],
+    ]
+
+
+def test_old_frames_are_grey_and_then_gone(page, fake):
+    fake.frames(POSES, stamps=[0, 5, 5, 0])
+    in_page(page, "while (!frames.stamps[1]) await new Promise(requestAnimationFrame);")
+    later = """
+        const { AgeClock } = await import(new URL('js/age_clock.js', location.href));
+        const [{ stamps, known, names }, start] = [frames, performance.now() / 1000];
+        let now = 0;
+        frames.ages = new AgeClock(() => now);
+        frames.ages.rename(names);
+        frames.ages.take(stamps, known);
+        now = given;
+        stage.change();
+    """
+    in_page(page, later, 10)
+    near(page.evaluate(PIXELS, [along(1, 1), along(3, 1)]), [(179, 179, 179), GREEN])
+    in_page(page, later, 20)
+    near(page.evaluate(PIXELS, [along(1, 1), along(3, 1)]), [GROUND, GREEN])
+
+
+def test_a_trail_stays_where_a_frame_was(page, fake):
+    page.click("#tree .row:has-text('beacon')")
+    page.click("#trail")
+    for step in range(6):
+        fake.frames([*POSES[:3], pose(-1, 3 + 0.5 * step)])
+    in_page(page, "while (frames.poses[22] < 5.4) await new Promise(requestAnimationFrame);")
+    page.keyboard.press("Escape")
+    in_page(page, "stage.drawing.show.axes = stage.drawing.show.arrows = false; stage.change();")
+    on, beside = page.evaluate(PIXELS, [[-1, 4.25, 0], [-1.5, 4.25, 0]])
+    assert max(abs(a - b) for a, b in zip(on, GROUND, strict=True)) > 60
+    assert tuple(beside) == GROUND
+
+
+def test_nothing_is_drawn_while_nothing_changes(page):
+    drawn = in_page(
+        page,
+        """
+        const pause = (n) => new Promise((done) => {
+            const next = () => (n-- ? requestAnimationFrame(next) : done());
+            next();
+        });
+        let count = 0;
+        await new Promise((done) => setTimeout(done, 700));
+        stage.view.afterDraw(() => { count += 1; });
+        await pause(30);
+        const idle = count;
+        stage.change();
+        await pause(3);
+        return [idle, count];
+        """,
+    )
+    assert drawn == [0, 1]
+
+
+def test_at_most_fifty_names_and_always_the_selected_one(fake, open_view):
+    names = {f"link{k}": f"link{k - 1}" if k else "" for k in range(1000)}
+    fake.names(names)
+    fake.frames([pose(0.4 * (k % 32), 0.4 * (k // 32)) for k in range(1000)])
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('link5')")
+    page.fill("#search", "link777")
+    page.click("#tree .row:has-text('link777')")
+    in_page(page, "stage.view.draw(performance.now())")
+    texts = in_page(page, "return stage.labels.texts")
+    assert texts[0] == "link777"
+    assert 5 < len(texts) <= 50
+    page.click("#looks summary")
+    page.uncheck("#show-names")
+    in_page(page, "stage.view.draw(performance.now())")
+    assert in_page(page, "return stage.labels.texts[0]") == "link777"
+
+
+def test_without_webgl_the_tree_and_the_numbers_work(fake, open_view):
+    fake.names(CHAIN)
+    fake.frames(POSES)
+    page = open_view(fake.url, "HTMLCanvasElement.prototype.getContext = () => null;")
+    page.click("#tree .row:has-text('arm')")
+    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
+    assert "cannot draw in 3D" in page.inner_text("#notice")

@@ -1,0 +1,283 @@
+"""What stands beside the picture of the view: tree, relation, time, displays."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from tests.view.fake_view import IDENTITY, pose
+from tests.view.test_page import in_page
+
+PARENTS = {"world": "", "turtle1": "world", "turtle2": "world", "carrot1": "turtle1"}
+POSES = [IDENTITY, pose(5, 5), pose(2, 1), pose(6, 6)]
+
+
+def row(name: str, parent: str, **fields):
+    known = {"publisher": f"/{name}_broadcaster", "static": False, "samples": 600}
+    numbers = {"rate": 62.4, "age": 0.012, "delay": 0.0014}
+    return {"name": name, "parent": parent, **known, **numbers, **fields}
+
+
+ROWS = [
+    row("turtle1", "world"),
+    row("turtle2", "world", age=2.5),
+    row("carrot1", "turtle1", static=True, rate=None, age=None, delay=None),
+]
+RELATION = {
+    "type": "relation",
+    "target": "world",
+    "source": "turtle2",
+    "translation": [2.0, 1.0, 0.0],
+    "rotation": [0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5)],
+    "rpy": [0.0, 0.0, math.pi / 2],
+    "matrix": [[0, -1, 0, 2], [1, 0, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]],
+    "sentence": "turtle2 is 2.00 m ahead and 1.00 m to the left of world, and looks 90° left.",
+    "path": ["turtle2", "world"],
+}
+
+
+@pytest.fixture
+def told(fake):
+    """The tutorial's frames."""
+    fake.names(PARENTS)
+    fake.frames(POSES, stamps=[0, 5, 5, 5])
+    fake.tell({"type": "tree", "now": 5.0, "rows": ROWS})
+    return fake
+
+
+@pytest.fixture
+def page(told, open_view):
+    page = open_view(told.url)
+    page.wait_for_selector("#tree .row:has-text('Hz')")
+    return page
+
+
+def shown(page) -> list[str]:
+    """Names in the tree from above to below."""
+    return page.evaluate("""() => [...document.querySelectorAll('#tree .row')]
+        .sort((a, b) => parseFloat(a.style.top) - parseFloat(b.style.top))
+        .map((row) => row.querySelector('.name').textContent)""")
+
+
+def reading(page, name: str) -> str:
+    return page.inner_text(f"#tree .row:has(.name:text-is('{name}')) small")
+
+
+def test_the_tree_tells_rate_age_publisher_and_what_is_static(page):
+    assert shown(page) == ["world", "turtle1", "carrot1", "turtle2"]
+    assert reading(page, "world") == "root"
+    assert reading(page, "turtle1") == "62 Hz · 12 ms old · /turtle1_broadcaster"
+    assert reading(page, "turtle2") == "62 Hz · 2.5 s old · /turtle2_broadcaster"
+    assert reading(page, "carrot1") == "static · /carrot1_broadcaster"
+    kinds = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('.row')]
+        .map((row) => [row.querySelector('.name').textContent, row.dataset.kind]))""")
+    expected = {"world": "root", "turtle1": "live", "turtle2": "stale", "carrot1": "static"}
+    assert kinds == expected
+
+
+def test_search_finds_names_and_publishers(page):
+    page.fill("#search", "TURTLE")
+    assert shown(page) == ["turtle1", "turtle2"]
+    assert page.inner_text("mark >> nth=0") == "turtle"
+    page.fill("#search", "carrot1_broad")
+    assert shown(page) == ["carrot1"]
+    assert reading(page, "carrot1").startswith("below turtle1")
+    page.fill("#search", "nothing")
+    assert shown(page) == []
+    page.fill("#search", "")
+    assert len(shown(page)) == 4
+
+
+def test_branches_are_folded(page):
+    page.click("[aria-label='Fold turtle1']")
+    assert shown(page) == ["world", "turtle1", "turtle2"]
+    page.click("[aria-label='Unfold turtle1']")
+    assert len(shown(page)) == 4
+
+
+def test_the_tree_is_used_with_keys_alone(page, fake):
+    page.focus("#tree")
+    for key in ("Home", "ArrowDown", "ArrowLeft", "ArrowDown", "Enter"):
+        page.keyboard.press(key)
+    assert shown(page) == ["world", "turtle1", "turtle2"]
+    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "turtle2")
+
+
+def test_frames_are_hidden_by_a_regular_expression_or_one_by_one(page):
+    hidden = "return [...frames.hidden]"
+    page.fill("#hide", "^turtle[12]$")
+    assert in_page(page, hidden) == [0, 1, 1, 0]
+    page.hover("#tree .row:has(.name:text-is('turtle1'))")
+    page.click("[aria-label='Hide turtle1']")
+    assert in_page(page, hidden) == [0, 0, 1, 0]
+    page.fill("#hide", "[")
+    assert page.get_attribute("#hide", "aria-invalid") == "true"
+    assert "Invalid regular expression" in page.inner_text("#hide-problem")
+    assert in_page(page, hidden) == [0, 0, 1, 0]  # as before
+    page.fill("#hide", "")
+    assert in_page(page, hidden) == [0, 0, 0, 0]
+
+
+def test_thousands_of_frames_are_few_elements(fake, open_view):
+    names = {"map": "", **{f"frame{k}": "map" for k in range(4000)}}
+    fake.names(names)
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('frame0')")
+    assert shown(page)[:3] == ["map", "frame0", "frame1"]
+    assert len(shown(page)) < 40
+    page.focus("#tree")
+    page.keyboard.press("End")
+    page.wait_for_selector("#tree .row:has-text('frame3999')")
+    assert len(shown(page)) < 40
+    assert "4001" in page.inner_text("#frame-count")
+
+
+def test_the_relation_in_words_and_numbers(page, fake):
+    page.click("#tree .row:has(.name:text-is('turtle2'))")
+    fake.tell(RELATION)
+    page.wait_for_selector(f"#sentence:text('{RELATION['sentence']}')")
+    page.click("#numbers summary")
+    numbers = page.inner_text("#number-list")
+    for text in ("2.000, 1.000, 0.000 m", "0.000, 0.000, 0.707, 0.707", "1.571 rad", "90.0"):
+        assert text in numbers
+    cells = page.locator("#matrix td").all_inner_texts()
+    assert [float(cell) for cell in cells] == [
+        number for row in RELATION["matrix"] for number in row
+    ]
+    facts = page.inner_text("#facts").split("\n")
+    assert dict(zip(facts[::2], facts[1::2], strict=True)) == {
+        "parent": "world",
+        "published by": "/turtle2_broadcaster",
+        "rate": "62 Hz",
+        "age": "2.5 s old",
+        "delay": "1.4 ms",
+        "samples": "600",
+    }
+
+
+def test_why_a_relation_is_not_known(page, fake):
+    page.click("#tree .row:has(.name:text-is('turtle2'))")
+    page.select_option("#relation-target", "carrot1")
+    fake.wait_for(lambda c: c["type"] == "relation" and c["target"] == "carrot1")
+    failure = {"error": "They are not connected.", "hint": "Publish map → odom."}
+    fake.tell({"type": "relation", "target": "carrot1", "source": "turtle2", **failure})
+    page.wait_for_selector("#sentence[data-error]:text('They are not connected.')")
+    assert page.inner_text("#hint") == "Publish map → odom."
+    assert page.is_hidden("#numbers")
+    page.click("#swap")
+    fake.wait_for(lambda c: (c.get("target"), c.get("source")) == ("turtle2", "carrot1"))
+
+
+def test_numbers_that_are_not_finite_are_told(page, fake):
+    page.click("#tree .row:has(.name:text-is('turtle2'))")
+    nothing = {"translation": [None, 1.0, 0.0], "rpy": [None] * 3, "matrix": [[None] * 4] * 4}
+    fake.tell({**RELATION, **nothing, "rotation": [None] * 4})
+    page.wait_for_selector("#sentence:not([data-empty])")
+    page.click("#numbers summary")
+    assert "not finite, 1.000, 0.000 m" in page.inner_text("#number-list")
+
+
+def test_the_fixed_frame_is_chosen_or_automatic(page, fake):
+    assert page.inner_text("#fixed option:checked") == "automatic (world)"
+    page.select_option("#fixed", "turtle1")
+    fake.wait_for(lambda c: c == {"type": "fixed", "frame": "turtle1"})
+    page.click("#tree .row:has(.name:text-is('carrot1'))")
+    page.click("#use-fixed")
+    fake.wait_for(lambda c: c == {"type": "fixed", "frame": "carrot1"})
+    page.select_option("#fixed", "")
+    fake.wait_for(lambda c: c == {"type": "fixed", "frame": ""})
+
+
+LIVE = {"now": 20.0, "oldest": 10.0, "newest": 20.0, "live": True, "playing": True, "speed": 1.0}
+
+
+def test_live_time_is_paused_scrubbed_and_goes_on(page, fake):
+    fake.tell({"type": "time", **LIVE, "simulated": False})
+    page.wait_for_selector("#now[data-live]")
+    assert page.is_hidden("#speed")
+    page.click("#pause")
+    fake.wait_for(lambda c: c == {"type": "pause"})
+    fake.tell({"type": "time", **LIVE, "live": False, "playing": False, "now": 16.5})
+    page.wait_for_selector("#clock:text('3.5 s ago')")
+    assert page.get_attribute("#pause", "aria-label") == "Go on"
+    page.focus("#scrub")
+    page.keyboard.press("Home")
+    fake.wait_for(lambda c: c == {"type": "seek", "stamp": 10})
+    page.click("#now")
+    fake.wait_for(lambda c: c == {"type": "play"})
+
+
+def test_nothing_grows_older_while_the_time_stands_still(page, fake):
+    fake.tell({"type": "time", **LIVE, "live": False, "playing": False})
+    page.wait_for_selector("#clock:text('paused')")
+    ages = in_page(
+        page,
+        """
+        const before = frames.ages.tick();
+        await new Promise((done) => setTimeout(done, 60));
+        return [before, frames.ages.tick()];
+        """,
+    )
+    assert ages[0] == ages[1]
+
+
+def test_a_bag_is_played_at_any_speed(fake, open_view):
+    fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})
+    fake.tell({"type": "time", **LIVE, "live": False, "playing": False, "now": 12.0})
+    page = open_view(fake.url)
+    page.wait_for_selector("#clock:text('2.00 of 10.00 s')")
+    assert page.inner_text("#source") == "walk.mcap"
+    assert page.get_attribute("#pause", "aria-label") == "Play"
+    page.keyboard.press("Space")
+    fake.wait_for(lambda c: c == {"type": "play"})
+    page.select_option("#speed", "2")
+    fake.wait_for(lambda c: c == {"type": "speed", "factor": 2})
+
+
+def test_names_with_markup_are_texts(fake, open_view):
+    name = "<img src=x onerror=alert(1)>&amp;"
+    fake.names({name: "", "<b>bold</b>": name})
+    fake.frames([IDENTITY, pose(1, 0)])
+    fake.tell({"type": "error", "text": "<i>refused</i>"})
+    page = open_view(fake.url)
+    page.wait_for_selector("#tree .row:has-text('bold')")
+    assert shown(page) == [name, "<b>bold</b>"]
+    assert page.inner_text("#notice") == "<i>refused</i>"
+    assert page.locator("#tree img, #tree b, #notice i").count() == 0
+
+
+def test_choosing_a_frame_moves_nothing(page, fake):
+    boxes = """() => ['#viewport', '#frames', '#relation', '#displays', '#time'].map((part) => {
+        const { left, top, width, height } = document.querySelector(part).getBoundingClientRect();
+        return [left, top, width, height];
+    })"""
+    before = page.evaluate(boxes)
+    page.click("#tree .row:has(.name:text-is('turtle2'))")
+    fake.tell(RELATION)
+    page.wait_for_selector(f"#sentence:text('{RELATION['sentence']}')")
+    page.wait_for_selector("#facts dt")
+    assert page.evaluate(boxes) == before
+
+
+def test_topics_are_offered_and_others_are_named(page, fake):
+    topics = [
+        {"name": "/scan10", "type": "sensor_msgs/msg/LaserScan", "kind": "laser_scan"},
+        {"name": "/scan2", "type": "sensor_msgs/msg/LaserScan", "kind": "laser_scan"},
+        {"name": "/rosout", "type": "rcl_interfaces/msg/Log", "kind": None},
+    ]
+    fake.tell({"type": "topics", "topics": topics})
+    page.wait_for_selector("#add-display:enabled")
+    offered = page.locator("#topic option").all_inner_texts()
+    assert offered == ["/scan2 (laser scan)", "/scan10 (laser scan)"]
+    assert page.inner_text("#other-topics") == "Without a picture: /rosout"
+
+
+def test_a_display_that_the_page_cannot_draw_says_so(page, fake):
+    fake.tell({"type": "topics", "topics": [{"name": "/x", "type": "y", "kind": "no_such_kind"}]})
+    page.wait_for_selector("#add-display:enabled")
+    page.click("#add-display")
+    page.wait_for_selector(".display[data-level=error]")
+    assert "no_such_kind" in page.inner_text(".display .status")
+    page.click("[aria-label='Remove /x']")
+    fake.wait_for(lambda c: c["type"] == "remove")
+    assert page.locator(".display").count() == 0
