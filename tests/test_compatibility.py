@@ -366,6 +366,7 @@ an integer for a floating-point parameter is refused
   turtlewire_ros/test_pip_install.py test_packages_are_built_after_those_that_they_need
   turtlewire_ros/test_colcon_ament.py test_pip_installs_such_packages
 `ament_add_gtest` and linters are tests of `colcon test`
+  turtlewire_ros/test_pytest_plugin.py test_tests_of_absent_linters_are_skipped
   turtlewire_ros/test_cmake.py test_what_compiles_nothing_is_let_pass
 xacro (PyPI, 2.1)
   robots/test_urdf_tutorial.py test_every_model_is_displayed

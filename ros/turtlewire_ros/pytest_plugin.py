@@ -1,20 +1,23 @@
 """What pytest loads at each start, because it finds this distribution's entry point.
 
 It knows options and markers of launch tests, and imports their packages only when a test file
-speaks of them: other people's tests neither wait for `launch` nor see its fixtures.
+speaks of them: other people's tests neither wait for `launch` nor see its fixtures. Test files of
+ROS 2's linters, which `ros2 pkg create` puts into each package there, are skipped.
 """
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
-from typing import TYPE_CHECKING
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NoReturn
+
+import pytest
 
 from turtlewire_ros import pytest_hookspecs
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import pytest
 
 __all__ = ["pytest_addhooks", "pytest_addoption", "pytest_configure", "pytest_pycollect_makemodule"]
 
@@ -22,6 +25,14 @@ _MARKERS = (
     "launch_test: marks a generate_test_description function as a launch test",
     "rostest: marks a generate_test_description function as a launch test of ROS nodes",
     "launch(fixture, shutdown=False): marks a test of what a launch fixture starts",
+    *(
+        f"{name}: marks a test of a linter of ROS 2"
+        for name in ("linter", "copyright", "flake8", "mypy", "pep257", "xmllint")
+    ),
+)
+_LINTER = re.compile(
+    rb"^\s*(?:from|import)\s+(ament_(?:copyright|flake8|mypy|pep257|pycodestyle|xmllint))\b",
+    re.MULTILINE,
 )
 
 #: Plugins, and what files that need them contain.
@@ -30,6 +41,14 @@ _PLUGINS = {
     "launch_testing_ros.pytest.hooks": b"generate_test_description",
     "launch_testing.pytest.hooks": b"generate_test_description",
 }
+
+
+class _AbsentLinter(pytest.Module):
+    """A test file that cannot be imported, since its linter is not here."""
+
+    def collect(self) -> NoReturn:
+        """Skip the file."""
+        pytest.skip("a linter of ROS 2, which is not here", allow_module_level=True)
 
 
 def pytest_addhooks(pluginmanager: pytest.PytestPluginManager) -> None:
@@ -59,6 +78,10 @@ def pytest_pycollect_makemodule(
 ) -> pytest.Collector | None:
     """Register the plugins that the file needs."""
     source = module_path.read_bytes()
+    linter = _LINTER.search(source)
+    if linter is not None and find_spec(linter[1].decode()) is None:
+        absent: pytest.Collector = _AbsentLinter.from_parent(parent, path=module_path)
+        return absent
     for name, sign in _PLUGINS.items():
         if sign in source and not parent.config.pluginmanager.has_plugin(name):
             plugin = import_module(name)
