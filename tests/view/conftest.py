@@ -34,7 +34,7 @@ class Page:
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
 
-    def send(self, kind, **fields):
+    def send(self, kind, /, **fields):
         self._socket.send(json.dumps({"type": kind, **fields}))
 
     def send_raw(self, message):
@@ -95,9 +95,12 @@ class Robot:
     def send(self, parent, child, place, stamp_s, *, static=False):
         """Publish a transform when the view is there to hear it."""
         publisher = self._tf_static if static else self._tf
-        heard = self._context.graph.wait_for(publisher.is_heard, LIMIT_S * 10**9)
-        assert heard, self._context.graph.endpoints()
+        assert self.wait_for(publisher.is_heard), self._context.graph.endpoints()
         publisher.publish(msg.serialize(transform_message(parent, child, place, stamp_s)))
+
+    def wait_for(self, predicate):
+        """Whether it becomes true, looked at after each change of the graph."""
+        return self._context.graph.wait_for(predicate, LIMIT_S * 10**9)
 
     def publisher(self, topic, type_name, qos):
         identity = TypeId(type_name, msg.type_hash(type_name))

@@ -217,6 +217,7 @@ class Session:
         feed = self._viewer.new_feed(name, kind, topic, _options(command))
         self._feeds[name] = feed
         self._share_budget()
+        self._viewer.work()  # latched messages may have come already
 
     def _remove(self, command: dict[str, Any]) -> None:
         feed = self._feeds.pop(_text(command, "id"), None)

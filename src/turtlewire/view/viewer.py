@@ -151,11 +151,15 @@ class Viewer:
         while not self._closing.is_set():
             self._work.wait()
             self._work.clear()
-            with self._lock:
-                sessions = list(self._sessions)
-            for session in sessions:
-                for feed in session.feeds:
-                    feed.work(session.base)
+            self._work_for_all()
+
+    def _work_for_all(self) -> None:
+        """In a method of its own: the waiting thread must not hold on to pages that have gone."""
+        with self._lock:
+            sessions = list(self._sessions)
+        for session in sessions:
+            for feed in session.feeds:
+                feed.work(session.base)
 
 
 def _sink(feed: DisplayFeed, topic: str) -> Any:

@@ -1,0 +1,59 @@
+"""Pages, displays and topics that come and go leave nothing behind."""
+
+from __future__ import annotations
+
+import gc
+import threading
+
+from turtlewire import msg
+from turtlewire.view import session
+from turtlewire.view.display_feed import DisplayFeed
+from turtlewire.wire.qos import QoS
+
+ROUNDS = 20
+PATH = "nav_msgs/msg/Path"
+
+
+def living(kind):
+    gc.collect()
+    return sum(isinstance(each, kind) for each in gc.get_objects())
+
+
+def path_bytes():
+    message = msg.get_message(PATH)()
+    message.header.frame_id = "map"
+    pose = msg.get_message("geometry_msgs/msg/PoseStamped")()
+    message.poses = [pose] * 50
+    return msg.serialize(message)
+
+
+def test_pages_displays_and_topics_that_come_and_go(robot, viewer, open_view_page):
+    robot.send("map", "base", (1, 0, 0), 1_800_000_000)
+    watcher = open_view_page(viewer)
+    watcher.wait_for("frames")
+    sessions, threads = living(session.Session), threading.active_count()
+    cdr = path_bytes()
+    for number in range(ROUNDS):
+        topic = f"/path_{number}"
+        publisher = robot.publisher(topic, PATH, QoS())
+        page = open_view_page(viewer)
+        page.wait_for("topics", lambda p, name=topic: name in (t["name"] for t in p["topics"]))
+        page.send("add", id="a", kind="path", topic=topic, options={})
+        assert robot.wait_for(publisher.is_heard)
+        publisher.publish(cdr)
+        page.wait_for("display", lambda p: p["id"] == "a")
+        if number % 2:
+            page.send("remove", id="a")
+        page.close()
+        assert robot.wait_for(lambda end=publisher: not end.subscription_count())
+        publisher.close()
+    # The server may still be about to forget the last page.
+    left = threading.Event()
+    for _ in range(600):
+        if living(DisplayFeed) == 0 and living(session.Session) == sessions:
+            break
+        left.wait(0.1)
+    assert living(DisplayFeed) == 0
+    assert living(session.Session) == sessions
+    assert threading.active_count() <= threads
+    watcher.wait_for("topics", lambda p: not any("path_" in t["name"] for t in p["topics"]))
