@@ -21,6 +21,9 @@ module           what it holds
 `display_feed`   a display of a page: waits for transforms, makes packets
 `displays`       what to draw for each type of message
 `meshes`         meshes of packages: addresses to URLs, URLs to files
+`page_requests`  publish with a tool, save a view
+`rviz_file`      views as ``.rviz`` files
+`rviz_options`   options of RViz's displays and of the page's
 `tools`          what Publish Point, 2D Pose Estimate and 2D Goal Pose publish
 `packets`        a JSON header and arrays as bytes
 ===============  ===============================================================================

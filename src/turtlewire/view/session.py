@@ -12,6 +12,8 @@ from turtlewire.printable import printable
 from turtlewire.view.display_feed import Base, DisplayFeed
 from turtlewire.view.frames import FrameScene
 from turtlewire.view.packets import encode_packet
+from turtlewire.view.page_requests import RequestError, message_of_tool, text_of_view
+from turtlewire.view.rviz_file import RvizFileError, read_rviz
 from turtlewire.view.tree import TreeTable, path_between, relation
 
 if TYPE_CHECKING:
@@ -36,6 +38,10 @@ class Host(Protocol):
 
     def hello(self) -> bytes:
         """The first packet of a page."""
+        ...
+
+    def first_view(self) -> list[bytes]:
+        """What the page shows first, if a file says so."""
         ...
 
     def topics(self) -> list[dict[str, Any]]:
@@ -71,7 +77,7 @@ class Session:
         self._base = Base(self._timeline.buffer, "", (0.0, 0.0, 0.0))
         self._said: dict[str, Any] = {}
         self._due: dict[str, float] = {}
-        self._answers: list[bytes] = [viewer.hello()]
+        self._answers: list[bytes] = [viewer.hello(), *viewer.first_view()]
         self._commands = {
             "fixed": self._set_fixed,
             "relation": self._set_relation,
@@ -83,6 +89,9 @@ class Session:
             "play": self._play,
             "seek": self._seek,
             "speed": self._set_speed,
+            "publish": self._publish,
+            "save": self._save,
+            "load": self._load,
         }
 
     @property
@@ -256,6 +265,31 @@ class Session:
 
     def _set_speed(self, command: dict[str, Any]) -> None:
         self._timeline.set_speed(_number(command, "factor", least=1e-9))
+
+    def _publish(self, command: dict[str, Any]) -> None:
+        frame = self._base.fixed
+        try:
+            sent = message_of_tool(command, frame, self._base.origin, self._source.now_ns())
+        except RequestError as error:
+            raise CommandError(f"Nothing was published: {error}.") from error
+        self._source.publish(*sent)
+        self._answers.append(encode_packet({"type": "published", "topic": sent.topic}))
+
+    def _save(self, command: dict[str, Any]) -> None:
+        types = {topic.name: topic.type_name for topic in self._source.topics()}
+        try:
+            text = text_of_view(command, types)
+        except RequestError as error:
+            raise CommandError(f"The view was not saved: {error}.") from error
+        self._answers.append(encode_packet({"type": "saved", "text": text}))
+
+    def _load(self, command: dict[str, Any]) -> None:
+        text = command.get("text")
+        try:
+            view = read_rviz(text if isinstance(text, str) else "")
+        except RvizFileError as error:
+            raise CommandError(f"This is no view: {error}.") from error
+        self._answers.append(encode_packet(view.header()))
 
     def _hold_displays(self, *, held: bool) -> None:
         for feed in self._feeds.values():

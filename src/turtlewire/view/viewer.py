@@ -15,6 +15,7 @@ from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
+    from turtlewire.view.rviz_file import SavedView
     from turtlewire.view.source import Source
 
 __all__ = ["Viewer"]
@@ -38,6 +39,7 @@ class Viewer:
         source: Where frames and messages come from; closed with the view.
         fixed_frame: What pages look from first; empty takes the root of the largest tree.
         port: Preferred TCP port; None takes turtlesim's rule (`TURTLEWIRE_PORT`, 7070).
+        saved: What pages show first, of a ``.rviz`` file.
         lan: Whether to serve all devices of the network (see :mod:`turtlewire.web.lan`).
 
     Attributes:
@@ -48,7 +50,13 @@ class Viewer:
     """
 
     def __init__(
-        self, source: Source, fixed_frame: str = "", *, port: int | None = None, lan: bool = False
+        self,
+        source: Source,
+        fixed_frame: str = "",
+        *,
+        port: int | None = None,
+        lan: bool = False,
+        saved: SavedView | None = None,
     ) -> None:
         self.source = source
         self.fixed_frame = fixed_frame
@@ -57,6 +65,7 @@ class Viewer:
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
+        self._saved = saved
         self._server = Server(
             _PAGE,
             self._connect,
@@ -91,6 +100,12 @@ class Viewer:
             {"type": "hello", "source": {"kind": self.source.kind, "name": self.source.name}}
         )
 
+    def first_view(self) -> list[bytes]:
+        """What a page shows first, if a file says so."""
+        if self._saved is None:
+            return []
+        return [encode_packet({**self._saved.header(), "first": True})]
+
     def topics(self) -> list[dict[str, Any]]:
         """What there is, each with the kind of display that shows it, or None."""
         return [
@@ -107,7 +122,10 @@ class Viewer:
         """
         types_there = {each.name: each.type_name for each in self.source.topics()}
         of_kind = {each: shows for each, shows in display_types().items() if shows.kind == kind}
-        type_name = types_there.get(topic) or next(iter(of_kind), "")
+        asked = options.get("message_type")  # a file knows it before the topic is there
+        if not isinstance(asked, str) or asked not in of_kind:
+            asked = next(iter(of_kind), "")
+        type_name = types_there.get(topic) or asked
         if type_name not in of_kind:
             raise CommandError(f"No display {kind!r} shows {topic} of type {type_name or '?'}.")
         display_type = of_kind[type_name]

@@ -28,8 +28,10 @@ export class Displays {
   }
 
   /** Add a display; `id` of one that a loaded view names. */
-  async add({ kind, topic, options = {}, id = crypto.randomUUID?.() ?? `${kind}-${Date.now()}` }) {
-    const entry = { id, kind, topic, options, schema: [], visible: true, level: "ok", text: "" };
+  async add(wanted) {
+    const { kind, topic, options = {}, visible = true } = wanted;
+    const id = wanted.id ?? crypto.randomUUID?.() ?? `${kind}-${Date.now()}`;
+    const entry = { id, kind, topic, options, schema: [], visible, level: "ok", text: "" };
     this.#entries.set(id, entry);
     this.#onChange();
     try {
@@ -44,6 +46,7 @@ export class Displays {
       this.#onChange();
       return;
     }
+    if (!visible) this.setVisible(id, false);
     this.#announce(entry);
     this.#onChange();
   }

@@ -11,8 +11,10 @@ import { listenForLooks } from "./looks.js";
 import { RelationPanel } from "./relation_panel.js";
 import { Stage } from "./stage.js";
 import { TimeBar } from "./time_bar.js";
+import { Tools } from "./tools.js";
 import { TreeView } from "./tree_view.js";
 import { View } from "./scene.js";
+import { applySwitches, listenForFiles, takeSaved } from "./view_file.js";
 
 const NOTICE_MS = 6000;
 /** Where keys are for the control itself: all of them, or the space bar. */
@@ -21,6 +23,7 @@ const PRESSED = "button, summary, input";
 
 let looks = null;
 let chosenFixed = "";
+let hasView = false;
 let noticeTimer = null;
 const frames = new Frames();
 const send = (command) => connection.send(command);
@@ -37,6 +40,7 @@ const tree = new TreeView(frames, {
 const displays = new Displays(stage?.view ?? null, frames, send, () => displaysPanel.show());
 const displaysPanel = new DisplaysPanel(displays);
 const time = new TimeBar(send);
+const tools = stage && new Tools(stage, frames, send, (text) => notice(text, "ok", false));
 const budget = new Budget(stage?.view.isSoftware ?? true, send);
 
 const TAKERS = {
@@ -52,6 +56,8 @@ const TAKERS = {
   status: takeStatus,
   time: takeTime,
   view: takeView,
+  saved: takeSaved,
+  published: ({ topic }) => notice(`Published on ${topic}`, "ok"),
   error: ({ text }) => notice(text, "error"),
 };
 const connection = new Connection({
@@ -127,6 +133,10 @@ function takeStatus(packet) {
 }
 
 async function takeView(packet) {
+  if (packet.first && hasView) return; // a new connection; the user may have changed much
+  hasView = true;
+  if (packet.text) notice(packet.text, "warn");
+  applySwitches(packet.show);
   chosenFixed = packet.fixed ?? "";
   byId("fixed").value = chosenFixed;
   for (const { id } of displays.list) displays.remove(id);
@@ -201,11 +211,13 @@ addEventListener("keydown", (event) => {
     Escape: () => select(""),
     "/": () => byId("search").focus(),
   };
-  const act = acts[event.key] ?? looks?.keys[event.key];
+  const act = acts[event.key] ?? looks?.keys[event.key] ?? tools?.keys[event.key];
   if (!act) return;
   event.preventDefault();
   act();
 });
+listenForFiles(() => ({ fixed: chosenFixed || frames.fixed, displays: displays.list }), send,
+  (text) => notice(text, "error"));
 if (stage) {
   stage.view.afterDraw((now) => {
     if (!displays.list.some(({ visible }) => visible)) return;

@@ -85,6 +85,7 @@ export function makeRibbons(points, colors, { pairs = false, width = 0, least = 
   });
   const mesh = new Mesh(geometry, material);
   mesh.frustumCulled = false;
+  mesh.raycast = () => {}; // the geometry holds no places
   mesh.visible = count > 0;
   mesh.onBeforeRender = (renderer, scene, camera) => {
     renderer.getDrawingBufferSize(material.uniforms.pixels.value);

@@ -1,0 +1,173 @@
+"""A real browser whose page looks down at the displays of a test."""
+
+from __future__ import annotations
+
+import pytest
+from tests.conftest import BROWSER_FLAGS, CHROMIUM
+from tests.view.still_source import StillSource
+
+from turtlewire import msg
+from turtlewire.view import Viewer
+
+LIMIT_MS = 60_000
+FLAGS = [flag for flag in BROWSER_FLAGS if flag != "--disable-gpu"]
+FLAGS += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
+#: Looks down on the square of 8 m around the origin, without frames, names and grid.
+LOOK_DOWN = """async () => {
+    const { stage } = await import("./js/main.js");
+    const { Vector3 } = await import("three");
+    stage.cameras.choose("top");
+    stage.cameras.isTouched = true;
+    stage.cameras.look(new Vector3(0, 0, 0), 4);
+    stage.drawing.object.visible = stage.labels.object.visible = false;
+    stage.view.grid.object.visible = false;
+    stage.view.requestDraw();
+}"""
+#: Colours [r, g, b] of the picture at places [x, y, z] in metres.
+PIXELS = """async (places) => {
+    const { stage } = await import("./js/main.js");
+    const { Vector3 } = await import("three");
+    const bitmap = await createImageBitmap(await stage.view.picture());
+    const ink = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+    ink.drawImage(bitmap, 0, 0);
+    const ratio = bitmap.width / stage.view.viewport.width;
+    return places.map((place) => {
+        const { x, y } = stage.view.project(new Vector3(...place));
+        return [...ink.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data]
+            .slice(0, 3);
+    });
+}"""
+#: Whether the colours at places are as expected, each within a tolerance.
+ARE = f"""async ([expected, tolerance]) => {{
+    const colors = await ({PIXELS})(expected.map(([place]) => place));
+    window.seen = colors;
+    return colors.every((color, k) =>
+        color.every((value, c) => Math.abs(value - expected[k][1][c]) <= tolerance));
+}}"""
+#: Whether places are more red than anything else.
+ARE_RED = f"""async (places) => {{
+    window.seen = await ({PIXELS})(places);
+    return window.seen.every(([r, g, b]) => r > 110 && g < 0.7 * r && b < 0.7 * r);
+}}"""
+ADD = """async ([kind, topic, options]) => {
+    const { displays } = await import("./js/main.js");
+    await displays.add({ kind, topic, options });
+}"""
+SET_OPTION = """async ([name, value]) => {
+    const { displays } = await import("./js/main.js");
+    displays.setOption(displays.list[0].id, name, value);
+}"""
+REMOVE_ALL = """async () => {
+    const { displays } = await import("./js/main.js");
+    for (const { id } of displays.list) displays.remove(id);
+}"""
+GROUND = (247, 249, 253)
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+
+
+@pytest.fixture(scope="module")
+def browser_3d():
+    if CHROMIUM is None:
+        pytest.skip("no chromium in PATH (Debian: apt install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+class Scene:
+    """A page that looks down at what the displays of one test draw.
+
+    Attributes:
+        topic: What :meth:`show` offers and shows.
+    """
+
+    def __init__(self, page, source, number):
+        self.page = page
+        self.source = source
+        self.topic = f"/shown{number}"
+
+    def show(self, kind, message, **options):
+        """Offer a message and add a display of it."""
+        self.source.offer(self.topic, message)
+        self.page.evaluate(ADD, [kind, self.topic, options])
+
+    def send(self, message, suffix=""):
+        self.source.offer(self.topic + suffix, message)
+
+    def set_option(self, name, value):
+        self.page.evaluate(SET_OPTION, [name, value])
+
+    def expect(self, *expected, tolerance=12):
+        """Wait until the places have the colours: pairs of (x, y, z) and (r, g, b)."""
+        try:
+            self.page.wait_for_function(ARE, arg=[expected, tolerance], timeout=LIMIT_MS)
+        except Exception as error:
+            seen = self.page.evaluate("window.seen")
+            raise AssertionError(f"expected {expected}, seen {seen}: {self.status()}") from error
+
+    def expect_red(self, *places):
+        """Wait until the places are reddish: light makes bodies darker or paler."""
+        try:
+            self.page.wait_for_function(ARE_RED, arg=places, timeout=LIMIT_MS)
+        except Exception as error:
+            seen = self.page.evaluate("window.seen")
+            raise AssertionError(f"no red at {places}, but {seen}: {self.status()}") from error
+
+    def expect_ground(self, *places):
+        self.expect(*[(place, GROUND) for place in places])
+
+    def expect_status(self, text):
+        self.page.wait_for_function(
+            "(text) => document.querySelector('#display-list').textContent.includes(text)",
+            arg=text,
+            timeout=LIMIT_MS,
+        )
+
+    def status(self):
+        return self.page.inner_text("#display-list")
+
+
+@pytest.fixture(scope="module")
+def shown_page(browser_3d):
+    """One page for all tests: its displays are removed after each."""
+    source = StillSource()
+    viewer = Viewer(source, "map", port=0)
+    context = browser_3d.new_context(viewport={"width": 900, "height": 700}, color_scheme="light")
+    page = context.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+    page.goto(viewer.url)
+    page.wait_for_function("document.querySelector('#connection').dataset.state === 'live'")
+    page.evaluate(LOOK_DOWN)
+    yield page, source, errors
+    context.close()
+    viewer.close()
+
+
+@pytest.fixture
+def scene(shown_page):
+    page, source, errors = shown_page
+    yield Scene(page, source, len(source.topics()))
+    page.evaluate(REMOVE_ALL)
+    seen, errors[:] = errors[:], []
+    assert seen == []
+
+
+get = msg.get_message
+
+
+def stamped(type_name, frame="map", **values):
+    message = get(type_name)(**values)
+    message.header.frame_id = frame
+    return message
+
+
+def pose(x=0.0, y=0.0, z=0.0):
+    result = get("geometry_msgs/msg/Pose")()
+    result.position.x, result.position.y, result.position.z = float(x), float(y), float(z)
+    result.orientation.w = 1.0
+    return result

@@ -1,0 +1,203 @@
+"""Views as .rviz files: RViz's own files are read, and what is written is read again."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtlewire.view.displays import display_types
+from turtlewire.view.page_requests import RequestError, message_of_tool, text_of_view
+from turtlewire.view.rviz_file import (
+    RvizFileError,
+    SavedDisplay,
+    SavedView,
+    read_rviz,
+    write_rviz,
+)
+from turtlewire.view.rviz_options import CLASSES, class_for
+
+FILE = """
+Panels:
+  - Class: rviz_common/Displays
+Visualization Manager:
+  Class: ""
+  Displays:
+    - {Alpha: 0.5, Class: rviz_default_plugins/Grid, Enabled: false, Name: Grid}
+    - Class: rviz_default_plugins/TF
+      Enabled: true
+      Frame Timeout: 15
+      Show Arrows: false
+      Show Axes: true
+      Show Names: true
+    - Alpha: 0.7
+      Class: rviz_default_plugins/RobotModel
+      Collision Enabled: true
+      Description Source: Topic
+      Description Topic: {Depth: 5, Durability Policy: Volatile, Value: /robot_description}
+      Enabled: true
+      TF Prefix: ""
+      Visual Enabled: true
+    - Class: rviz_common/Group
+      Enabled: true
+      Displays:
+        - Class: rviz_default_plugins/LaserScan
+          Color: 10; 20; 255
+          Color Transformer: FlatColor
+          Enabled: false
+          Size (Pixels): 4
+          Size (m): 0.05
+          Style: Points
+          Topic: {Value: /scan}
+        - Class: rviz_default_plugins/Odometry
+          Covariance: {Value: false}
+          Keep: 7
+          Shape: {Value: Axes, Color: 1; 2; 3}
+          Topic: {Value: /odom}
+    - {Class: rviz/Path, Color: 25; 255; 0, Topic: /plan, Line Width: .nan}
+    - {Class: rviz_default_plugins/MarkerArray, Topic: {Value: /walls}}
+    - {Class: rviz_default_plugins/Camera}
+  Global Options: {Background Color: 48; 48; 48, Fixed Frame: odom, Frame Rate: 30}
+"""
+
+
+def test_a_file_of_rviz_is_read():
+    view = read_rviz(FILE)
+    assert view.fixed == "odom"
+    assert view.show == {"grid": False, "names": True, "axes": True, "arrows": False}
+    assert view.unread == "Not shown here, for the page has no such display: Camera"
+    robot, scan, odometry, path, walls = view.displays
+    assert robot == SavedDisplay(
+        "robot_model",
+        "/robot_description",
+        {"visual": True, "collision": True, "alpha": 0.7, "tf_prefix": ""},
+    )
+    assert scan == SavedDisplay(
+        "laser_scan",
+        "/scan",
+        {"size": 4, "size_metres": 0, "style": "squares", "color": "flat", "flat_color": "#0a14ff"},
+        visible=False,
+    )
+    assert odometry.options == {
+        "keep": 7, "shape": "axes", "color": "#010203", "show_covariance": False
+    }  # fmt: skip
+    assert (path.topic, path.options) == ("/plan", {"color": "#19ff00"})
+    assert walls.options == {"message_type": "visualization_msgs/msg/MarkerArray"}
+    assert view.header()["displays"][1]["visible"] is False
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("", "holds no properties"),
+        ("- a", "holds no properties"),
+        ("a: [", "the file is no YAML"),
+        ("a: 1", "has no 'Visualization Manager'"),
+        ("!!python/object/apply:os.system [echo]", "the file is no YAML"),
+        ("\x00", "the file is no YAML"),
+        ("x" * 2_000_000, "too many for a .rviz file"),
+        ("[" * 100_000, "the file is no YAML"),
+    ],
+)
+def test_texts_that_are_no_view(text, why):
+    with pytest.raises(RvizFileError, match=why):
+        read_rviz(text)
+
+
+def test_groups_in_groups_by_references_end():
+    groups = "\n".join(
+        f"x{k}: &x{k} {{Class: rviz_common/Group, Displays: [*x{k - 1}, *x{k - 1}, *x{k - 1}]}}"
+        for k in range(1, 30)
+    )
+    text = (
+        f"x0: &x0 {{Class: rviz_default_plugins/Path}}\n{groups}\n"
+        "Visualization Manager: {Displays: [*x29]}"
+    )
+    assert len(read_rviz(text).displays) <= 100
+
+
+NONSENSE = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.text(max_size=5) | st.integers(),
+    lambda each: (
+        st.lists(each, max_size=3) | st.dictionaries(st.text(max_size=5), each, max_size=3)
+    ),
+    max_leaves=8,
+)
+NAMES = ["Class", "Topic", "Enabled", "Shape", "Color", "Alpha", "Displays", "Covariance", "Style"]
+
+
+@given(
+    st.lists(
+        st.builds(
+            lambda name, rest: {**rest, "Class": f"rviz_default_plugins/{name}"},
+            st.sampled_from([*CLASSES, "TF", "Grid", "Group"]),
+            st.dictionaries(st.sampled_from(NAMES), NONSENSE),
+        ),
+        max_size=4,
+    )
+)
+def test_any_values_give_a_view(displays):
+    text = yaml.safe_dump({"Visualization Manager": {"Displays": displays}})
+    view = read_rviz(text)
+    json.dumps(view.header(), allow_nan=False)
+
+
+@pytest.mark.parametrize("type_name", display_types())
+def test_each_display_has_one_of_rviz(type_name):
+    kind = display_types()[type_name].kind
+    name = class_for(kind, type_name)
+    assert CLASSES[name][0] == kind
+
+
+NUMBERS = st.floats(0.125, 1).map(lambda value: round(value, 3))
+
+
+@given(
+    st.sampled_from(["a", "odom"]),
+    st.lists(st.sampled_from([*CLASSES]), max_size=4),
+    NUMBERS,
+    st.booleans(),
+)
+def test_what_is_written_is_read_again(fixed, names, number, flag):
+    displays = tuple(
+        SavedDisplay(
+            CLASSES[name][0],
+            f"/{k}",
+            {"alpha": number, "color": "#0a0b0c", "keep": 3, "collision": flag},
+            visible=flag,
+        )
+        for k, name in enumerate(names)
+    )
+    show = {"names": flag, "axes": True, "arrows": False, "grid": flag}
+    again = read_rviz(write_rviz(SavedView(fixed, displays, show), {}))
+    assert (again.fixed, again.show, again.unread) == (fixed, show, "")
+    for before, after in zip(displays, again.displays, strict=True):
+        assert (after.kind, after.topic, after.visible) == (before.kind, before.topic, flag)
+        assert {name: after.options[name] for name in after.options if name in before.options} == {
+            name: value for name, value in before.options.items() if name in after.options
+        }
+
+
+@given(NONSENSE, NONSENSE, NONSENSE)
+def test_requests_that_make_no_sense_are_refused_or_answered(first, second, third):
+    command = {"displays": first, "show": second, "fixed": third, "position": first, "yaw": second,
+               "tool": "goal", "topic": third}  # fmt: skip
+    for ask in (
+        lambda: text_of_view(command, {}),
+        lambda: message_of_tool(command, "map", (0.0, 0.0, 0.0), 0),
+    ):
+        with contextlib.suppress(RequestError):
+            ask()
+
+
+@given(st.dictionaries(st.sampled_from(["alpha", "color", "keep", "size", "shape"]), NONSENSE))
+def test_any_options_are_saved(options):
+    display = {"kind": "odometry", "topic": "/odom", "options": options}
+    text = text_of_view({"displays": [display], "show": {}, "fixed": "map"}, {})
+    assert read_rviz(text).displays[0].kind == "odometry"
+    with pytest.raises(RequestError, match="must have the texts"):
+        text_of_view({"displays": [{"kind": 1}], "show": {}, "fixed": ""}, {})
