@@ -7,8 +7,14 @@ import { makeArrows, makeBody } from "./displays/parts/solids.js";
 import { byId, make } from "./dom.js";
 
 const TOOLS = [
-  { name: "measure", label: "Measure", key: "m", help: "Press two places: how far apart are they?" },
-  { name: "point", label: "Point", key: "c", help: "Press a place: it goes to /clicked_point" },
+  {
+    name: "measure", label: "Measure", key: "m",
+    help: "Press two places: how far apart are they?",
+  },
+  {
+    name: "point", label: "Point", key: "c",
+    help: "Press a place: it goes to /clicked_point",
+  },
   {
     name: "pose_estimate", label: "Pose", key: "p", drags: true,
     help: "Press where the robot is and drag to where it looks: it goes to /initialpose",
@@ -147,7 +153,8 @@ export class Tools {
     camera.updateMatrixWorld();
     ray.setFromCamera(at, camera);
     ray.params.Points.threshold = 4 / this.#stage.cameras.pixelsPerMetre;
-    const hit = onGround ? null : ray.intersectObject(displays).find(({ object }) => isSeen(object));
+    const hits = onGround ? [] : ray.intersectObject(displays);
+    const hit = hits.find(({ object }) => isSeen(object));
     return hit?.point ?? ray.ray.intersectPlane(this.#ground(), new Vector3());
   }
 
