@@ -13,6 +13,7 @@ from __future__ import annotations
 import atexit
 import os
 import signal
+import sys
 import threading
 import time
 import weakref
@@ -74,7 +75,7 @@ class _Watcher:
         self._previous: dict[int, Any] = {}
         self._interrupted_at = self._terminated_at = -REPEATED_INTERRUPT_S
         self._read_fd, self._write_fd = os.pipe()
-        if os.name == "posix":
+        if sys.platform != "win32":
             os.set_blocking(self._write_fd, False)
         self._previous_wakeup_fd = signal.set_wakeup_fd(self._write_fd, warn_on_full_buffer=False)
         self._thread = threading.Thread(target=self._run, name="rclpy-signals", daemon=True)
@@ -209,15 +210,21 @@ def _before_fork() -> None:
     One to the child must not come through the pipe that it has in common with its parent.
     """
     global _mask_before_fork  # noqa: PLW0603 - as above
+    if sys.platform == "win32":
+        return
     _mask_before_fork = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
 
 
 def _after_fork_in_parent() -> None:
+    if sys.platform == "win32":
+        return
     signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
 
 
 def _after_fork_in_child() -> None:
     global _watcher, _options
+    if sys.platform == "win32":
+        return
     watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
     if watcher is not None:
         watcher.forget()

@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import subprocess
+import sys
 import threading
 from typing import TYPE_CHECKING
 
@@ -45,13 +46,15 @@ def run(command: list[str]) -> int:
 def _run_in_family(command: list[str], environment: dict[str, str]) -> int:
     if threading.current_thread() is not threading.main_thread():
         return _run(command, environment)  # only the main thread gets signals
-    if hasattr(signal, "sigwaitinfo"):
+    if sys.platform == "linux":
         return _run_and_pass_on_signals(command, environment)
     with _passed_on_by_handlers() as children:
         return _run(command, environment, children)
 
 
 def _run_and_pass_on_signals(command: list[str], environment: dict[str, str]) -> int:
+    if sys.platform != "linux":
+        raise OSError("only Linux tells who sent a signal")
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGCHLD, *_PASSED_ON})
     try:
         process = subprocess.Popen(  # noqa: S603

@@ -14,7 +14,12 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from turtlewire.keyboard import Keyboard, foreground_terminal, signals_for_this_thread
+from turtlewire.keyboard import (
+    ENDING_SIGNALS,
+    Keyboard,
+    foreground_terminal,
+    signals_for_this_thread,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -151,13 +156,11 @@ def main(args: list[str] | None = None) -> int:
     Returns:
         The exit status: 1 when there is no terminal to read.
     """
-    if sys.platform == "win32":
-        return _complain("teleop_twist_keyboard cannot read a Windows console yet.")
     try:
         keyboard = Keyboard(foreground_terminal())
     except OSError:
         return _complain(_NO_TERMINAL)
-    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+    ending = (signal.SIGINT, signal.SIGTERM, *ENDING_SIGNALS)
     with signals_for_this_thread(*ending):
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         rclpy.get_default_context().on_shutdown(keyboard.stop)

@@ -15,7 +15,12 @@ from rclpy.executors import ExternalShutdownException
 from turtlesim.action import RotateAbsolute
 from turtlesim.cpp_node import CppNode
 from turtlesim.turtle_endpoints import QUEUE_DEPTH
-from turtlewire.keyboard import Keyboard, foreground_terminal, signals_for_this_thread
+from turtlewire.keyboard import (
+    ENDING_SIGNALS,
+    Keyboard,
+    foreground_terminal,
+    signals_for_this_thread,
+)
 
 if TYPE_CHECKING:
     from rclpy.task import Future
@@ -101,23 +106,16 @@ def main(args: list[str] | None = None) -> int:
     Returns:
         The exit status: 1 when there is no terminal to read.
     """
-    if sys.platform == "win32":
-        _complain(
-            "turtle_teleop_key cannot read a Windows console yet: "
-            "the arrow keys work in turtlesim's page."
-        )
-        return 1
     try:
         keyboard = Keyboard(foreground_terminal())
     except OSError:
         _complain(NO_TERMINAL, NO_TERMINAL_HINT)
         return 1
     # rclpy handles the other signals; these would leave the terminal without echo.
-    ending = (signal.SIGHUP, signal.SIGQUIT)
-    with signals_for_this_thread(*ending):
+    with signals_for_this_thread(*ENDING_SIGNALS):
         rclpy.init(args=args)
         rclpy.get_default_context().on_shutdown(keyboard.stop)
-        for signum in ending:
+        for signum in ENDING_SIGNALS:
             signal.signal(signum, lambda *_: keyboard.stop())
         node = TeleopTurtle()
         spinner = threading.Thread(target=_spin, args=(node,), name="teleop-spin")

@@ -25,6 +25,8 @@ _KILL_ROUNDS = 3
 
 def guard(family: str) -> None:
     """Wait for the end of stdin, then stop every process of the family."""
+    if sys.platform != "linux":
+        return
     while os.read(0, 1):
         pass
     _signal_and_wait(_members(family), signal.SIGTERM)
@@ -57,6 +59,8 @@ def _families(process: str) -> list[str]:
 
 def _signal_and_wait(processes: list[int], number: signal.Signals) -> None:
     """Send a signal to processes, and wait until they have ended or the grace is over."""
+    if sys.platform != "linux":
+        return
     poller = select.poll()
     waiting = set()
     for process in processes:
@@ -80,13 +84,15 @@ def _signal_and_wait(processes: list[int], number: signal.Signals) -> None:
 
 
 def _send(handle: int, number: signal.Signals) -> None:
+    if sys.platform != "linux":
+        return
     try:
         signal.pidfd_send_signal(handle, number)
     except (ProcessLookupError, PermissionError):  # it has ended, or become another user's
         return
 
 
-if __name__ == "__main__":
+if __name__ == "__main__" and sys.platform == "linux":
     for ignored in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(ignored, signal.SIG_IGN)
     guard(sys.argv[1])

@@ -1,25 +1,28 @@
 """ROS 2's transform system for Python, without a ROS installation.
 
-============  ==================================================================
-module        what it holds
-============  ==================================================================
-`bag`         rosbag2 folders, MCAP and sqlite3, read and written
-`cli`         the ``turtlewire`` command and its verbs
-`errors`      every error that turtlewire raises on purpose
-`foxglove`    the server of Foxglove's protocol: topics for Foxglove and Lichtblick
-`keyboard`    keys of a terminal, as teleop and ``ros2 bag`` read them
-`msg`         interface definitions, message classes, CDR and type hashes
-`platforms`   what this platform can do
-`printable`   text from other processes, made safe for a terminal
-`suggestion`  the nearest names to one that does not exist
-`testing`     a domain, a filled buffer and waiting, for users' tests
-`tf`          the transform buffer, the listener that fills it, and its pictures
-`trajectory`  poses over time: sampled, in files, compared
-`urdf`        robots: a parser of URDF and forward kinematics
-`view`        the 3D page: frames of the wire or of a bag, robots, sensor data
-`web`         a small HTTP and WebSocket server for this machine's browsers
-`wire`        the middleware: bytes, QoS, names and the graph
-============  ==================================================================
+===================  =====================================================================
+module               what it holds
+===================  =====================================================================
+`bag`                rosbag2 folders, MCAP and sqlite3, read and written
+`cli`                the ``turtlewire`` command and its verbs
+`console_keyboard`   keys of the console of Windows
+`demo`               ``python -m turtlewire.demo``: one turtle follows another
+`errors`             every error that turtlewire raises on purpose
+`foxglove`           the server of Foxglove's protocol: topics for Foxglove and Lichtblick
+`keyboard`           keys, as teleop and ``ros2 bag`` read them
+`msg`                interface definitions, message classes, CDR and type hashes
+`platforms`          what this platform can do
+`printable`          text from other processes, made safe for a terminal
+`suggestion`         the nearest names to one that does not exist
+`terminal_keyboard`  keys of a terminal
+`testing`            a domain, a filled buffer and waiting, for users' tests
+`tf`                 the transform buffer, the listener that fills it, and its pictures
+`trajectory`         poses over time: sampled, in files, compared
+`urdf`               robots: a parser of URDF and forward kinematics
+`view`               the 3D page: frames of the wire or of a bag, robots, sensor data
+`web`                a small HTTP and WebSocket server for this machine's browsers
+`wire`               the middleware: bytes, QoS, names and the graph
+===================  =====================================================================
 """
 
 from __future__ import annotations

@@ -1,139 +1,25 @@
-"""Keys of a terminal, one by one as they are typed."""
+"""Keys, one by one as they are typed: of a terminal, or of the console of Windows.
+
+Both kinds give the bytes that a terminal sends.
+"""
 
 from __future__ import annotations
 
-import contextlib
-import copy
-import errno
-import os
-import select
-import signal
-from typing import TYPE_CHECKING, Any
+import sys
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import TracebackType
+if sys.platform == "win32":
+    from turtlewire.console_keyboard import (
+        ENDING_SIGNALS,
+        Keyboard,
+        foreground_terminal,
+        signals_for_this_thread,
+    )
+else:
+    from turtlewire.terminal_keyboard import (
+        ENDING_SIGNALS,
+        Keyboard,
+        foreground_terminal,
+        signals_for_this_thread,
+    )
 
-    from typing_extensions import Self
-
-__all__ = ["Keyboard", "foreground_terminal", "signals_for_this_thread"]
-
-
-class Keyboard:
-    """The terminal, in a mode that gives each byte as it is typed within a ``with`` block.
-
-    It is put back into its own mode at the end of the block, and while Ctrl-Z stops the process.
-    For the main thread, except for :meth:`read` and :meth:`stop`.
-
-    Args:
-        fd: The terminal's file descriptor.
-
-    Raises:
-        OSError: It is no terminal.
-    """
-
-    def __init__(self, fd: int) -> None:
-        import termios
-
-        self._fd = fd
-        try:
-            self._cooked = termios.tcgetattr(self._fd)
-        except termios.error as error:
-            raise OSError(*error.args) from error
-        self._wake_read, self._wake_write = os.pipe()
-
-    def __enter__(self) -> Self:
-        self._take()
-        self._handlers = {
-            number: signal.signal(number, handler)
-            for number, handler in (
-                (signal.SIGTSTP, self._suspend),
-                (signal.SIGCONT, lambda *_: self._take()),
-            )
-        }
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        for number, handler in self._handlers.items():
-            signal.signal(number, handler)
-        self._give_back()
-
-    def _take(self) -> None:
-        import termios
-
-        raw = copy.deepcopy(self._cooked)
-        raw[3] &= ~(termios.ICANON | termios.ECHO)
-        raw[6][termios.VMIN], raw[6][termios.VTIME] = 1, 0
-        self._set(raw)
-
-    def _give_back(self) -> None:
-        self._set(self._cooked)
-
-    def _set(self, mode: list[Any]) -> None:
-        import termios
-
-        try:
-            termios.tcsetattr(self._fd, termios.TCSANOW, mode)
-        except termios.error as error:
-            # In the background the attempt stops the process (SIGTTOU), and SIGCONT interrupts it.
-            # Other errors mean that the terminal is gone.
-            if error.args[0] == errno.EINTR:
-                self._set(mode)
-
-    def _suspend(self, *_: object) -> None:
-        self._give_back()
-        signal.raise_signal(signal.SIGSTOP)
-        # The kernel may hand SIGCONT to another thread. This one would then wait for a key again
-        # before the signal's handler can run here.
-        self._take()
-
-    def read(self) -> bytes:
-        """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
-        ready, _, _ = select.select([self._fd, self._wake_read], [], [])
-        if self._wake_read in ready:
-            return b""
-        try:
-            return os.read(self._fd, 1)
-        except OSError:  # what a terminal that was closed says
-            return b""
-
-    def stop(self) -> None:
-        """End the present and all later reads. Safe from any thread."""
-        os.write(self._wake_write, b"\0")
-
-
-@contextlib.contextmanager
-def signals_for_this_thread(*numbers: int) -> Iterator[None]:
-    """Threads that start within the block never get these signals, SIGTSTP and SIGCONT.
-
-    For the main thread of a program that waits for keys there. The kernel hands a signal to any
-    thread that takes it. The handler runs in the main thread, which goes on waiting if it was
-    another one.
-    """
-    kept = {*numbers, signal.SIGTSTP, signal.SIGCONT}
-    former = signal.pthread_sigmask(signal.SIG_BLOCK, kept)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, former)
-
-
-def foreground_terminal() -> int:
-    """Standard input; of a launched process, which has a pipe there, the terminal of the launch.
-
-    Raises:
-        OSError: There is no terminal, or this process is in its background.
-    """
-    stdin = 0
-    if os.isatty(stdin):
-        return stdin
-    terminal = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
-    if os.tcgetpgrp(terminal) != os.getpgrp():
-        os.close(terminal)
-        raise OSError("in the background: a read would stop this process")
-    return terminal
+__all__ = ["ENDING_SIGNALS", "Keyboard", "foreground_terminal", "signals_for_this_thread"]

@@ -191,7 +191,7 @@ def _launch(description: LaunchDescription, args: argparse.Namespace) -> int:
 @contextlib.contextmanager
 def _terminal_restored() -> Iterator[None]:
     """Restore the mode of the terminal, for a node that changed it and was killed."""
-    if not _at_terminal():
+    if sys.platform == "win32" or not _at_terminal():
         yield
         return
     import termios

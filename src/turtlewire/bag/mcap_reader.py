@@ -9,6 +9,7 @@ from __future__ import annotations
 import mmap
 import os
 import struct
+import sys
 import zlib
 from typing import TYPE_CHECKING
 
@@ -87,7 +88,7 @@ class McapFile:
 
     def forget(self, chunk: ChunkIndex) -> None:
         """Give the memory of a chunk's pages back; they are read again when they are needed."""
-        if hasattr(mmap, "MADV_DONTNEED"):
+        if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
             start = chunk.offset // mmap.PAGESIZE * mmap.PAGESIZE
             self._map.madvise(mmap.MADV_DONTNEED, start, chunk.offset + chunk.length - start)
 

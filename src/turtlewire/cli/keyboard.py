@@ -97,7 +97,7 @@ def open_keyboard(*, wanted: bool) -> Iterator[Keyboard]:
     Args:
         wanted: False gives a keyboard without keys.
     """
-    if not wanted or not _in_foreground():
+    if sys.platform == "win32" or not wanted or not _in_foreground():
         yield Keyboard()
         return
     import termios
@@ -131,6 +131,8 @@ def _in_foreground() -> bool:
 
 
 def _give_each_key(fd: int) -> None:
+    if sys.platform == "win32":
+        return
     import termios
 
     raw = termios.tcgetattr(fd)

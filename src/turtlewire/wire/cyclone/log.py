@@ -93,7 +93,8 @@ class CycloneLog:
         self._thread: threading.Thread | None = None
         self._ending = False
         self._file = None
-        if sys.platform not in _STDERR:
+        self._read_end = self._write_end = -1
+        if sys.platform == "win32" or sys.platform not in _STDERR:
             return
         libc = ctypes.CDLL(None)
         try:
@@ -142,6 +143,8 @@ class CycloneLog:
             self._thread.start()
 
     def _run(self) -> None:
+        if sys.platform == "win32":
+            return
         limiter, unfinished = LineLimiter(), b""
         readable = select.poll()
         readable.register(self._read_end, select.POLLIN)

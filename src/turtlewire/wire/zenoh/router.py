@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import signal
+import sys
+import time
+from contextlib import suppress
 from typing import TextIO
 
 import zenoh
@@ -16,6 +19,9 @@ from .router_log import explained_log
 
 __all__ = ["route"]
 
+_ENDING = {signal.SIGINT, signal.SIGTERM}
+_DAY_S = 86_400.0
+
 
 def route() -> None:
     """Route until SIGINT or SIGTERM comes; on the main thread.
@@ -23,14 +29,14 @@ def route() -> None:
     Raises:
         WireError: The configuration is wrong, or its address is taken.
     """
-    ending = {signal.SIGINT, signal.SIGTERM}
-    # Zenoh's threads inherit it, so that none of them takes the signal.
-    signal.pthread_sigmask(signal.SIG_BLOCK, ending)
+    if sys.platform != "win32":
+        # Zenoh's threads inherit it, so that none of them takes the signal.
+        signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     with explained_log() as output:
-        _route_until(ending, output)
+        _route(output)
 
 
-def _route_until(ending: set[signal.Signals], output: TextIO) -> None:
+def _route(output: TextIO) -> None:
     configuration = router_configuration()
     try:
         session = zenoh.open(configuration)
@@ -43,5 +49,14 @@ def _route_until(ending: set[signal.Signals], output: TextIO) -> None:
     output.write(f"Started Zenoh router with id {session.zid()}\n")
     output.flush()
     warn_of_faults(configuration)
-    signal.sigwait(ending)
+    _wait_for_end()
     session.close()  # type: ignore[no-untyped-call]
+
+
+def _wait_for_end() -> None:
+    if sys.platform == "win32":
+        with suppress(KeyboardInterrupt):
+            while True:
+                time.sleep(_DAY_S)  # which Ctrl-C ends there, unlike a wait for an event
+    else:
+        signal.sigwait(_ENDING)

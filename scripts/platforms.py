@@ -1,0 +1,115 @@
+"""Finds what Windows and macOS do not have, where a user of theirs would meet it.
+
+mypy, run for each platform, finds functions that are missing there. This finds what it does not
+know: modules that cannot be imported, and files and programs that are only named in strings.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDERS = ("src", "ros", "ros2_ws/src/learning_tf2_py/learning_tf2_py", "examples")
+#: Modules that Python has on POSIX only.
+POSIX_MODULES = {
+    *("curses", "fcntl", "grp", "posix", "pty", "pwd", "readline", "resource", "spwd"),
+    *("syslog", "termios", "tty"),
+}
+#: Folders and programs that not every system has.
+POSIX_PATHS = ("/bin/", "/dev/", "/etc/", "/proc/", "/sys/", "/tmp/", "/usr/", "/var/")
+SHELLS = {"bash", "fish", "sh", "zsh"}
+#: Files in which such a string is right, and the reason.
+REASONS = {
+    "src/turtlewire/cli/network.py": "does without where the file is missing",
+    "src/turtlewire/wire/cyclone/ports.py": "does without where the file is missing",
+    "src/turtlewire/wire/libddsc.py": "looks for folders, and finds none",
+    "ros/turtlewire_ros/cmake/processes.py": "redirected output needs a shell, as under make",
+    "ros/turtlewire_ros/plan_install.py": "writes the setup files of each shell",
+    "ros/turtlewire_ros/process_guardian.py": "is started on Linux only",
+    "ros/turtlewire_ros/wheel.py": "pip replaces the first line of a script",
+}
+
+
+def main() -> int:
+    """Print what was found; the exit status."""
+    found = sorted(
+        f"{path.relative_to(ROOT)}:{line}: {text}"
+        for folder in FOLDERS
+        for path in (ROOT / folder).rglob("*.py")
+        for line, text in faults(path)
+    )
+    if found:
+        print("\n".join(found))
+        print("Guard it by `if sys.platform …`, or give the reason in scripts/platforms.py.")
+    return bool(found)
+
+
+def faults(path: Path) -> Iterator[tuple[int, str]]:
+    """Lines of a file, and what in them other platforms lack."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    yield from _imports(tree.body)
+    if path.relative_to(ROOT).as_posix() not in REASONS:
+        yield from _strings(tree)
+
+
+def _imports(body: list[ast.stmt]) -> Iterator[tuple[int, str]]:
+    """Imports that run with the module; those in functions are guarded as mypy demands it."""
+    for statement in body:
+        if isinstance(statement, ast.Assert) and _asks_for_platform(statement.test):
+            return
+        names: list[str] = []
+        if isinstance(statement, ast.Import):
+            names = [alias.name for alias in statement.names]
+        elif isinstance(statement, ast.ImportFrom):
+            names = [statement.module or ""]
+        yield from (
+            (statement.lineno, f"there is no module {name} on Windows")
+            for name in names
+            if name.split(".")[0] in POSIX_MODULES
+        )
+
+
+def _strings(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Files and shells that are named outside of docstrings and guarded blocks."""
+    guarded = _guarded(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            continue
+        if id(node) not in guarded and (node.value.startswith(POSIX_PATHS) or node.value in SHELLS):
+            yield node.lineno, f"{node.value!r} is not there on every system"
+
+
+def _guarded(tree: ast.Module) -> set[int]:
+    """The nodes below an ``if`` that asks for the platform, in a function that does, docstrings."""
+    found: set[int] = set()
+    for node in ast.walk(tree):
+        asks = isinstance(node, ast.If | ast.IfExp) and _asks_for_platform(node.test)
+        function = isinstance(node, ast.FunctionDef) and any(
+            isinstance(inner, ast.If) and _asks_for_platform(inner.test) for inner in node.body
+        )
+        docstring = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        if asks or function or docstring:
+            found.update(id(inner) for inner in ast.walk(node))
+    if any(isinstance(one, ast.Assert) and _asks_for_platform(one.test) for one in tree.body):
+        found.update(id(inner) for inner in ast.walk(tree))
+    return found
+
+
+def _asks_for_platform(test: ast.expr) -> bool:
+    return any(
+        isinstance(node, ast.Attribute)
+        and node.attr in {"platform", "name"}
+        and isinstance(node.value, ast.Name)
+        and node.value.id in ("sys", "os")
+        for node in ast.walk(test)
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
