@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import os
 import sys
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from turtlewire.view import LiveSource, Viewer
+from turtlewire.view.rviz_file import RvizFileError, load_rviz
 from turtlewire.web.desktop import open_browser, wanted_lan
 from turtlewire.web.lan import invite
 
@@ -28,11 +28,16 @@ def main(args: list[str] | None = None) -> None:
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node("rviz2")
         log = node.get_logger()
-        config = options.display_config
-        if config and not os.path.isfile(config):
-            log.warning(f"There is no file {config}")
+        saved = None
+        if options.display_config:
+            try:
+                saved = load_rviz(options.display_config)
+            except RvizFileError as error:
+                log.warning(str(error))
+        if saved is not None and saved.unread:
+            log.warning(saved.unread)
         lan = options.lan or wanted_lan()
-        viewer = Viewer(LiveSource(node.context.wire), options.fixed_frame, lan=lan)
+        viewer = Viewer(LiveSource(node.context.wire), options.fixed_frame, lan=lan, saved=saved)
         try:
             log.info(f"The view is at {viewer.url}")
             if lan:

@@ -44,9 +44,28 @@ def test_a_bag_is_shown_without_the_network(view, tmp_path):
     assert program.wait() == 0
 
 
+def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
+    file = tmp_path / "robot.rviz"
+    file.write_text(
+        "Visualization Manager:\n"
+        "  Displays: [{Class: rviz_default_plugins/Path, Topic: {Value: /plan}}]\n"
+        "  Global Options: {Fixed Frame: odom}\n"
+    )
+    program = view("-d", file, "--port", "0")
+    with connect(f"ws{address_of(program)}live", max_size=None) as page:
+        packets = [decode_packet(page.recv()) for _ in range(2)]
+    (shown,) = packets[1]["displays"]
+    assert (packets[1]["type"], packets[1]["fixed"], packets[1]["first"]) == ("view", "odom", True)
+    assert (shown["kind"], shown["topic"]) == ("path", "/plan")
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
 @pytest.mark.parametrize(
     ("words", "answer"),
     [
+        (["-d", "none.rviz"], "none.rviz cannot be read: No such file or directory"),
+        (["-d", __file__], "test_view.py is no view of RViz: "),
         (["--port", "99999"], "'99999' is not a port number, from 0 (any) to 65535"),
         (["--fixed-fram", "map"], "Did you mean: --fixed-frame"),
         (["no_such_bag"], "turtlewire view: "),

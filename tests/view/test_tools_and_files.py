@@ -8,6 +8,7 @@ import math
 import pytest
 import yaml
 from tests.view.looking_down import (  # noqa: F401 - fixtures
+    GROUND,
     LIMIT_MS,
     REMOVE_ALL,
     browser_3d,
@@ -134,6 +135,12 @@ def test_a_view_is_saved_and_loaded(scene, tmp_path):
     scene.page.set_input_files("#view-file", file)
     scene.expect(((0, 0, 0), (255, 0, 0)))
     assert scene.page.input_value("#fixed") == "map"
+    file.write_text(file.read_text().replace("Fixed Frame: map", "Fixed Frame: tip"))
+    scene.page.set_input_files("#view-file", file)
+    scene.expect(((0, 0, 0), GROUND), ((-1, -1, 0), (255, 0, 0)))
+    file.write_text(file.read_text().replace("Fixed Frame: tip", "Fixed Frame: map"))
+    scene.page.set_input_files("#view-file", file)
+    scene.expect(((0, 0, 0), (255, 0, 0)))
 
 
 def test_a_file_that_is_no_view_is_a_line(scene, tmp_path):

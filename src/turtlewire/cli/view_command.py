@@ -33,6 +33,12 @@ def add_view_command(commands: Any) -> None:
         help="Look from this frame first (default: the root of the largest tree)",
     )
     parser.add_argument(
+        "-d",
+        "--display-config",
+        metavar="FILE",
+        help="Show what this .rviz file says; the page saves and loads such files, too",
+    )
+    parser.add_argument(
         "--port", type=_port, metavar="N", help="Serve the page at this port (default: 7070)"
     )
     parser.add_argument(
@@ -46,6 +52,7 @@ def add_view_command(commands: Any) -> None:
 def _view(args: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C or SIGTERM."""
     from turtlewire.errors import WireError
+    from turtlewire.view.rviz_file import RvizFileError, load_rviz
     from turtlewire.view.viewer import Viewer
     from turtlewire.web.desktop import open_browser, wanted_lan
     from turtlewire.web.lan import invite
@@ -54,13 +61,17 @@ def _view(args: argparse.Namespace) -> int:
     signal.signal(signal.SIGTERM, lambda *_: ended.set())
     lan = args.lan or wanted_lan()
     try:
+        saved = None if args.display_config is None else load_rviz(args.display_config)
         source = _source(args.bag)
+    except RvizFileError as error:
+        print(f"turtlewire view: {error}", file=sys.stderr)
+        return 2
     except WireError as error:
         print(f"turtlewire view: {error} {error.hint}".rstrip(), file=sys.stderr)
         return 2
     with contextlib.ExitStack() as stack:
         stack.callback(source.close)
-        viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan)
+        viewer = Viewer(source, args.fixed_frame, port=args.port, lan=lan, saved=saved)
         stack.pop_all()
         stack.callback(viewer.close)  # closes the source, too
         print(f"The view is at {viewer.url} (Ctrl-C ends it)", flush=True)

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.view.rviz_options import CLASSES, class_for, from_rviz, to_rviz
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Iterator, Mapping
 
-__all__ = ["RvizFileError", "SavedDisplay", "SavedView", "read_rviz", "write_rviz"]
+__all__ = ["RvizFileError", "SavedDisplay", "SavedView", "load_rviz", "read_rviz", "write_rviz"]
 
 _MOST_DISPLAYS = 100
 _DEEPEST_GROUP = 8
@@ -81,6 +82,23 @@ class SavedView:
             "show": self.show,
             "text": self.unread,
         }
+
+
+def load_rviz(path: str | os.PathLike[str]) -> SavedView:
+    """The view in a ``.rviz`` file.
+
+    Raises:
+        RvizFileError: It cannot be read, or is no such file; the text names it.
+    """
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            text = file.read(_LONGEST_FILE + 1)
+    except OSError as error:
+        raise RvizFileError(f"{path} cannot be read: {error.strerror or error}") from error
+    try:
+        return read_rviz(text)
+    except RvizFileError as error:
+        raise RvizFileError(f"{path} is no view of RViz: {error}") from error
 
 
 def read_rviz(text: str) -> SavedView:

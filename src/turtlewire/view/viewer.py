@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,6 +66,8 @@ class Viewer:
         self._changed, self._work = threading.Event(), threading.Event()
         self._closing = threading.Event()
         self._meshes = MeshLibrary()
+        if saved is not None and fixed_frame:
+            saved = replace(saved, fixed=fixed_frame)
         self._saved = saved
         self._server = Server(
             _PAGE,

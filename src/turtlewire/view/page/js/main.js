@@ -137,8 +137,7 @@ async function takeView(packet) {
   hasView = true;
   if (packet.text) notice(packet.text, "warn");
   applySwitches(packet.show);
-  chosenFixed = packet.fixed ?? "";
-  byId("fixed").value = chosenFixed;
+  if (packet.fixed) chooseFixed(packet.fixed);
   for (const { id } of displays.list) displays.remove(id);
   for (const display of packet.displays ?? []) await displays.add(display);
 }
