@@ -3,11 +3,15 @@
 Nobody asked where the program was when it was told to end, also when that was while it still
 imported. The exit status stays that of an interrupted program. The same goes for threads that spin:
 ``ExternalShutdownException`` is how they learn of the signal, not a fault. A command line that
-cannot be read is told in one line.
+cannot be read is told in one line. Where Python drops exceptions, within a destructor or a callback
+of a weak reference (at the end of each import there is one), Ctrl-C is raised again right behind.
 """
 
 from __future__ import annotations
 
+import _thread
+import contextlib
+import signal
 import sys
 import threading
 from typing import TYPE_CHECKING
@@ -15,11 +19,15 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from types import TracebackType
 
-__all__ = ["install", "note_signal"]
+__all__ = ["install", "note_signal", "take_dropped"]
 
 _previous_hook = sys.excepthook
 _previous_thread_hook = threading.excepthook
+_previous_unraisable_hook = sys.unraisablehook
 _signal_came = False
+_dropped = False
+#: Held where exceptions would be dropped.
+_dropping = threading.Lock()
 
 
 def install() -> None:
@@ -38,6 +46,13 @@ def note_signal() -> None:
     """
     global _signal_came  # noqa: PLW0603 - as above
     _signal_came = True
+
+
+def take_dropped() -> bool:
+    """Whether Python has dropped the last ``KeyboardInterrupt``, so that it comes again now."""
+    global _dropped
+    dropped, _dropped = _dropped, False
+    return dropped
 
 
 def _hook(kind: type[BaseException], value: BaseException, traceback: TracebackType | None) -> None:
@@ -68,4 +83,28 @@ def _thread_hook(arguments: threading.ExceptHookArgs) -> None:
         _previous_thread_hook(arguments)
 
 
+def _unraisable_hook(arguments: sys.UnraisableHookArgs) -> None:
+    global _dropped  # noqa: PLW0603 - as above
+    if (
+        not issubclass(arguments.exc_type, KeyboardInterrupt)
+        or threading.current_thread() is not threading.main_thread()
+    ):
+        _previous_unraisable_hook(arguments)
+        return
+    _dropped = True
+    # At the end of the interpreter no thread starts any more, and there is nothing to interrupt.
+    with _dropping, contextlib.suppress(RuntimeError):
+        threading.Thread(target=_interrupt_again, daemon=True).start()
+
+
+def _interrupt_again() -> None:
+    with _dropping:  # the main thread keeps the interpreter until it is out of the hook
+        pass
+    if hasattr(signal, "pthread_kill"):  # it ends a wait of the main thread, too
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+    else:
+        _thread.interrupt_main()
+
+
+sys.unraisablehook = _unraisable_hook
 install()  # at once: most of what a node does in its first moments is importing

@@ -128,6 +128,8 @@ class _Watcher:
             os.write(self._write_fd, bytes([signum | _FROM_HANDLER]))
         if signum == signal.SIGINT:
             is_shut_down = self._write_fd < 0
+            if excepthooks.take_dropped():
+                self._interrupted_at = -REPEATED_INTERRUPT_S
             if _is_fresh(self._interrupted_at) or (is_shut_down and _is_fresh(self._terminated_at)):
                 return
             self._interrupted_at = time.monotonic()
