@@ -264,8 +264,7 @@ def introduce(terminal, ear, poses, commands):
     """Press a key until the turtle moves: the simulator, the teleop and the ear know each other."""
     while not (commands and any(pose.linear_velocity for pose in poses)):
         os.write(terminal.master, b"\x1b[A")
-        pressed = time.monotonic()
-        ear.spin_until(lambda: time.monotonic() > pressed + 0.5)
+        ear.spin_until(lambda until=time.monotonic() + 0.5: time.monotonic() > until)
     ear.spin_until(lambda: poses[-1].linear_velocity == 0)
     commands.clear()
 

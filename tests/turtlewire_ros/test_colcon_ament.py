@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -76,11 +77,10 @@ print(Sphere(radius=2.0), AddSphere.Request().sphere.radius, Roll.Result().where
 from more_interfaces.msg import Pair; print(Pair().spheres[1] == Sphere())'
 ros2 interface show my_interfaces/msg/Sphere
 ros2 pkg prefix more_interfaces
-ros2 topic echo --once /sphere my_interfaces/msg/Sphere > heard.txt &
-ros2 topic pub --once -w 1 /sphere my_interfaces/msg/Sphere \\
-    '{center: {x: 1.0}, radius: 5}' > said.txt
-wait
-cat heard.txt
+ros2 topic pub -w 1 /sphere my_interfaces/msg/Sphere '{center: {x: 1.0}, radius: 5}' > said.txt &
+ros2 topic echo --once /sphere my_interfaces/msg/Sphere
+kill $!
+wait 2>/dev/null
 colcon build --packages-select more_interfaces > build.log 2>&1 || { cat build.log; exit 1; }
 tail -1 build.log | cut -d[ -f1
 """
@@ -100,16 +100,32 @@ def workspace(tmp_path):
 
 
 def run_in(workspace: Path, script: str) -> subprocess.CompletedProcess[str]:
-    """Run a script; ``{prefix}`` in it is the prefix of the distribution."""
+    """Run a script; ``{prefix}`` in it is the prefix of the distribution.
+
+    When it hangs, each of its Pythons shows its stacks.
+    """
     environment = {
         "HOME": str(workspace / "home"),
         "PATH": "/usr/bin:/bin",
         "ROS_DOMAIN_ID": os.environ["ROS_DOMAIN_ID"],
+        "PYTHONFAULTHANDLER": "1",
     }
     command = ["bash", "-c", script.replace("{prefix}", str(PREFIX))]
-    return subprocess.run(
-        command, cwd=workspace, env=environment, capture_output=True, text=True, check=False
-    )
+    with subprocess.Popen(
+        command,
+        cwd=workspace,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        try:
+            output, errors = process.communicate(timeout=400)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGABRT)
+            pytest.fail("\n".join(["it hangs", *process.communicate(timeout=60)]))
+    return subprocess.CompletedProcess(command, process.returncode, output, errors)
 
 
 def test_built_sourced_used(workspace):

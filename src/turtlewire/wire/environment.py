@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from enum import Enum
 from importlib.util import find_spec
 from typing import NamedTuple
@@ -29,6 +30,7 @@ __all__ = [
 #: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), Zenoh, and ``local``, which
 #: stays inside the process.
 MIDDLEWARES = ("rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local")
+_CYCLONE = "turtlewire.wire.cyclone.library"
 
 #: Above it, the ports of a domain would not fit.
 MAX_DOMAIN_ID = 232
@@ -116,7 +118,8 @@ def compares_qos() -> bool:
 def is_installed(middleware: str) -> bool:
     """Whether the library that a middleware stands on is there."""
     if middleware == "rmw_cyclonedds_cpp":
-        return find_libddsc().library is not None
+        # What is loaded stays: it needs no file, of which a process may have no more left.
+        return _CYCLONE in sys.modules or find_libddsc().library is not None
     return middleware != "rmw_zenoh_cpp" or find_spec("zenoh") is not None
 
 
