@@ -264,7 +264,8 @@ def introduce(terminal, ear, poses, commands):
     """Press a key until the turtle moves: the simulator, the teleop and the ear know each other."""
     while not (commands and any(pose.linear_velocity for pose in poses)):
         os.write(terminal.master, b"\x1b[A")
-        ear.spin_until(lambda until=time.monotonic() + 0.5: time.monotonic() > until)
+        more = len(poses) + 100
+        ear.spin_until(lambda more=more: len(poses) > more)
     ear.spin_until(lambda: poses[-1].linear_velocity == 0)
     commands.clear()
 
