@@ -1,8 +1,8 @@
 """The page of the 3D view with 1,000 frames that all move: time of one picture in the browser.
 
-Headless Chromium without a graphics card, about 1280 x 720 pixels. Each picture takes new poses, writes
-axes, arrows and names, and is drawn until its first pixel can be read. What the browser then does
-to show it (its compositor) is told beside it, with nothing but the empty picture.
+Headless Chromium without a graphics card, about 1280 x 720 pixels. Each picture takes new poses,
+writes axes, arrows and names, and is drawn until its first pixel can be read. The rival is the
+empty picture, which the browser clears and shows all the same.
 """
 
 from __future__ import annotations

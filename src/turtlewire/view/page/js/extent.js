@@ -32,7 +32,8 @@ export function sizeFor(frames, radius) {
   }
   lengths.sort((a, b) => a - b);
   const usual = 0.4 * (lengths[lengths.length >> 1] ?? radius);
-  return nice(Math.min(0.16 * radius, Math.max(0.04 * radius, usual)));
+  const room = (1.5 * radius) / Math.sqrt(lengths.length + 1); // a crowd needs small ones
+  return nice(Math.min(0.16 * radius, room, Math.max(0.03 * radius, usual)));
 }
 
 /** Side of the grid's squares [m] for a scene of that radius. */
