@@ -5,6 +5,8 @@ Those that come with us, those of prefixes, those of generated packages, and non
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
 from turtlewire import msg
@@ -35,6 +37,19 @@ def test_definitions_of_a_prefix_are_found(prefix):
     assert repr(msg.get_message("prefix_interfaces/msg/Thing")()) == (
         "prefix_interfaces.msg.Thing(place=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0))"
     )
+
+
+def test_packages_that_pip_installed_need_no_sourcing(prefix, monkeypatch):
+    """An environment's index names them; what else lies in ``share`` is not looked at."""
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "")
+    monkeypatch.setattr(sys, "prefix", str(prefix))
+    assert "prefix_interfaces" not in interface_names()
+    index = prefix / "share/ament_index/resource_index/rosidl_interfaces"
+    index.mkdir(parents=True)
+    (index / "prefix_interfaces").write_text("msg/Thing.msg\nmsg/Thing.idl")
+    assert interface_names()["prefix_interfaces"]["msg"] == ["Thing"]
+    path = prefix / "share/prefix_interfaces/msg/Thing.msg"
+    assert interface_path("prefix_interfaces/msg/Thing") == str(path)
 
 
 def test_our_definitions_win_over_those_of_a_prefix(tmp_path, monkeypatch):

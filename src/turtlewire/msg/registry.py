@@ -1,13 +1,15 @@
 """Finds interface definitions by name and keeps the parsed ones.
 
 A definition is looked for in the packages registered by generated modules, in the definitions that
-come with turtlewire, below ``share/<package>`` of every prefix in ``AMENT_PREFIX_PATH``, and last
-by importing the package, which lets a generated one register itself.
+come with turtlewire, below ``share/<package>`` of every prefix in ``AMENT_PREFIX_PATH`` and of the
+environment that turtlewire is installed in, and last by importing the package, which lets a
+generated one register itself.
 """
 
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
@@ -41,6 +43,9 @@ KINDS = ("msg", "srv", "action")
 _BUNDLED = os.path.join(os.path.dirname(__file__), "interfaces")
 
 Definition = MessageDefinition | ServiceDefinition | ActionDefinition
+
+#: Folder of a prefix with a file for each package that has interfaces.
+_INDEX = os.path.join("share", "ament_index", "resource_index", "rosidl_interfaces")
 
 _registered: dict[str, str] = {}
 _loaded: dict[str, Definition] = {}
@@ -113,7 +118,7 @@ def interface_names() -> dict[str, dict[str, list[str]]]:
 
     ``{package: {"msg": [...], "srv": [...], "action": [...]}}``, sorted.
     """
-    directories: dict[str, str] = {}
+    directories = _installed()
     for parent in reversed(_parents()):
         if os.path.isdir(parent):
             directories.update(
@@ -174,12 +179,30 @@ def _parents() -> list[str]:
     return [_BUNDLED, *(os.path.join(prefix, "share") for prefix in prefixes if prefix)]
 
 
+def _installed() -> dict[str, str]:
+    """The packages with interfaces that pip put into the environment of turtlewire, by name.
+
+    Such an environment needs no sourcing.
+    """
+    folders, folder = [sys.prefix], os.path.dirname(os.path.abspath(__file__))
+    while folder != os.path.dirname(folder):
+        folder = os.path.dirname(folder)
+        folders.append(folder)
+    for prefix in folders:
+        index = os.path.join(prefix, _INDEX)
+        if os.path.isdir(index):
+            return {name: os.path.join(prefix, "share", name) for name in os.listdir(index)}
+    return {}
+
+
 def _directories(package: str) -> Iterator[str]:
     if package in _registered:
         yield _registered[package]
         return
     for parent in _parents():
         yield os.path.join(parent, package)
+    if package in (installed := _installed()):
+        yield installed[package]
     if _import_registers(package):
         yield _registered[package]
 
