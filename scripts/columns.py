@@ -32,7 +32,7 @@ def too_long(path: str, line: str) -> bool:
         return False
     is_table = path.endswith(".md") and line.startswith("|")
     is_output = path.endswith(".md") and OUTPUT.match(line)
-    is_requirement = path.endswith(".toml") and "; python_version" in line
+    is_requirement = path.endswith(".toml") and re.search(r"; (python|impl)\w+ ", line)
     return not (is_table or is_output or is_requirement or "://" in line)
 
 

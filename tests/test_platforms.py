@@ -14,6 +14,7 @@ import pytest
 
 from turtlewire import demo
 from turtlewire.console_keyboard import Keyboard
+from turtlewire.wire.wheels import Platform, advice
 
 ROOT = Path(__file__).parents[1]
 
@@ -114,3 +115,104 @@ def test_the_demo_runs_without_bash(tmp_path):
     assert done.returncode == 0, said
     assert "Successfully spawned turtle2" in said
     assert said.count("process has finished cleanly") == 4
+
+
+# The table of the README's section on pip
+
+#: Beginnings of the wheels that PyPI has, and their platforms (2026-11).
+WHEELS = {
+    "cyclonedds": (
+        ["cp310", "cp311", "cp312", "cp313"],
+        ["linux x86_64", "darwin x86_64", "darwin arm64", "win32 AMD64"],
+    ),
+    "eclipse-zenoh": (
+        ["abi3"],
+        [
+            *("linux x86_64", "linux aarch64", "linux armv7l", "linux i686"),
+            *("darwin x86_64", "darwin arm64", "win32 AMD64"),
+        ],
+    ),
+    "numpy": (
+        ["cp310", "cp311", "cp312", "cp313", "cp314", "pypy"],
+        [
+            *("linux x86_64", "linux aarch64", "darwin x86_64", "darwin arm64"),
+            *("win32 AMD64", "win32 ARM64"),
+        ],
+    ),
+}
+MACHINES = {
+    "Linux x86-64": [("linux", "x86_64")],
+    "Linux arm64 (Raspberry Pi, Jetson)": [("linux", "aarch64")],
+    "Linux armv7, i686 (32 bit)": [("linux", "armv7l"), ("linux", "i686")],
+    "Linux armv6 (Raspberry Pi Zero)": [("linux", "armv6l")],
+    "macOS, Apple silicon and Intel": [("darwin", "arm64"), ("darwin", "x86_64")],
+    "Windows x64": [("win32", "AMD64")],
+    "Windows arm64": [("win32", "ARM64")],
+    "PyPy": [("linux", "x86_64"), ("darwin", "arm64"), ("win32", "AMD64")],
+}
+VERSIONS = {"Python 3.10\N{EN DASH}3.13": ["3.10", "3.11", "3.12", "3.13"], "Python 3.14": ["3.14"]}
+
+
+def table() -> list[tuple[str, str, str, str, str]]:
+    """The cells: what they say, system, machine, version and interpreter."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    head, _, *rows = (
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in text[text.index("| system | Python") :].split("\n\n")[0].splitlines()
+    )
+    return [
+        (cell, system, machine, version, "pypy" if row[0] == "PyPy" else "cpython")
+        for row in rows
+        for column, cell in zip(head[1:], row[1:], strict=True)
+        for system, machine in MACHINES[row[0]]
+        for version in VERSIONS[column]
+    ]
+
+
+def installed(system: str, machine: str, version: str, interpreter: str) -> set[str]:
+    """What pip installs there, by the markers of pyproject.toml."""
+    requirements = pytest.importorskip("packaging.requirements")
+    tomllib = pytest.importorskip("tomllib")  # Python 3.11
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    there = {
+        "sys_platform": system,
+        "platform_machine": machine,
+        "python_version": version,
+        "implementation_name": interpreter,
+    }
+    wanted = map(requirements.Requirement, project["dependencies"])
+    return {one.name for one in wanted if one.marker is None or one.marker.evaluate(there)}
+
+
+@pytest.mark.parametrize(("cell", "system", "machine", "version", "interpreter"), table())
+def test_the_table_says_what_pip_installs(cell, system, machine, version, interpreter):
+    names = installed(system, machine, version, interpreter)
+    network = "DDS" if "cyclonedds" in names else "Zenoh" if "eclipse-zenoh" in names else ""
+    without = "" if "numpy" in names else ", without NumPy"
+    assert cell == (network or "buffer only") + without
+    assert ("xxhash" in names) == (network == "Zenoh")
+    pythons = {"pypy"} if interpreter == "pypy" else {f"cp{version.replace('.', '')}", "abi3"}
+    for name in names & set(WHEELS):
+        tags, places = WHEELS[name]
+        assert pythons & set(tags), name
+        assert f"{system} {machine}" in places, name
+
+
+@pytest.mark.parametrize(("cell", "system", "machine", "version", "interpreter"), table())
+def test_the_advice_fits_the_table(cell, system, machine, version, interpreter):
+    major, minor = map(int, version.split("."))
+    here = Platform(system, machine, (major, minor), interpreter == "cpython")
+    assert here.has_cyclone == (cell == "DDS")
+    assert here.has_zenoh == (not cell.startswith("buffer only"))
+    said = advice(here)
+    assert ("pip install cyclonedds" in said) == here.has_cyclone
+    assert ("turtlewire[zenoh]" in said) == here.has_zenoh
+
+
+def test_nothing_is_advised_that_has_no_wheel():
+    musl = Platform("linux", "x86_64", (3, 12), False)
+    assert not musl.has_cyclone
+    assert not musl.has_zenoh
+    assert advice(musl).startswith("Install libddsc 0.10")
+    arm = Platform("win32", "ARM64", (3, 12), True)
+    assert advice(arm).startswith("There is no wheel of Cyclone DDS or Zenoh for it")

@@ -12,11 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import BagError
 
-if TYPE_CHECKING or sys.version_info < (3, 14):
-    from backports import zstd
-else:
-    from compression import zstd
-
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from typing import BinaryIO
@@ -83,7 +78,7 @@ def compress(compression: str, data: bytes, level: int = _ZSTD_LEVEL) -> bytes:
     if not compression:
         return data
     if compression == "zstd":
-        packed: bytes = zstd.compress(data, level)
+        packed: bytes = _zstd().compress(data, level)
         return packed
     if compression == "lz4":
         return bytes(_lz4_frame().compress(data))
@@ -97,6 +92,7 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
         BagError: The file is damaged, ends too early, or grows more than a thousandfold beyond
             64 MiB.
     """
+    zstd = _zstd()
     decompressor = zstd.ZstdDecompressor()
     limit = max(_ALWAYS_BYTES, _MOST_RATIO * os.path.getsize(path))
     with open(path, "rb") as file:
@@ -124,11 +120,11 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
 
 def write_zstd_file(source: str, target: str) -> None:
     """Compress a whole file as rosbag2's compression mode FILE does (level 1)."""
-    with open(source, "rb") as file, zstd.open(target, "wb", level=_ZSTD_LEVEL) as out:
+    with open(source, "rb") as file, _zstd().open(target, "wb", level=_ZSTD_LEVEL) as out:
         _copy(file, out)
 
 
-def _copy(source: BinaryIO, target: zstd.ZstdFile) -> None:
+def _copy(source: BinaryIO, target: BinaryIO) -> None:
     while block := source.read(_FILE_BLOCK):
         target.write(block)
 
@@ -142,6 +138,7 @@ def _decompressor(compression: str) -> Callable[[bytes | memoryview, int, bool],
 
 
 def _decompress_zstd(data: bytes | memoryview, size: int, cut: bool) -> bytes:
+    zstd = _zstd()
     decompressor = zstd.ZstdDecompressor()
     try:
         # One byte more than announced shows a chunk that holds more than it says.
@@ -160,6 +157,20 @@ def _decompress_lz4(data: bytes | memoryview, size: int, _cut: bool) -> bytes:
     except (RuntimeError, EOFError) as error:
         raise BagError(f"damaged lz4 data: {error}") from None
     return out
+
+
+def _zstd() -> Any:
+    try:
+        if sys.version_info >= (3, 14):
+            from compression import zstd
+        else:
+            from backports import zstd
+    except ModuleNotFoundError:
+        raise BagError("the package 'backports.zstd' is missing, which zstd needs").with_hint(
+            "Install it with `pip install backports.zstd`, which compiles it where there is no "
+            "wheel; Python 3.14 needs no package."
+        ) from None
+    return zstd
 
 
 def _lz4_frame() -> Any:

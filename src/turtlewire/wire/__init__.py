@@ -20,6 +20,7 @@ module            what it holds
 `report`          warnings on stderr, each printed once
 `reader_thread`   the thread that calls callbacks
 `queue_wait_set`  wait sets over queues of Python
+`wheels`          for which platforms PyPI has wheels of the libraries
 `cyclone`         Cyclone DDS
 `zenoh`           Zenoh, as rmw_zenoh_cpp speaks it
 `local`           the in-process middleware

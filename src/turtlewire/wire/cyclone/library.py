@@ -10,7 +10,6 @@ A function is declared in one of two ways:
 from __future__ import annotations
 
 import ctypes
-import platform
 import sys
 from ctypes import (
     POINTER,
@@ -31,6 +30,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import WireError
 from turtlewire.wire.libddsc import Abi, Libddsc, find_libddsc
 from turtlewire.wire.report import warn_once
+from turtlewire.wire.wheels import advice, this_platform
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -53,23 +53,12 @@ def _find() -> tuple[Libddsc, Abi]:
         for sentence in refused:
             warn_once(sentence, f"{sentence}: {library} is taken")
         return library, library.abi
+    here = this_platform()
+    version = ".".join(map(str, here.version))
     error = WireError(
-        f"Cyclone DDS is not available for Python {sys.version_info[0]}.{sys.version_info[1]} on "
-        f"{sys.platform} {platform.machine()}"
+        f"Cyclone DDS is not available for Python {version} on {here.system} {here.machine}"
     )
-    raise error.with_hint(". ".join([*refused, _remedy()]))
-
-
-def _remedy() -> str:
-    """What to install; never what would have to be compiled."""
-    if sys.version_info < (3, 14) and (sys.platform != "linux" or platform.machine() == "x86_64"):
-        install = "pip install cyclonedds==11.0.1"
-    else:
-        install = "Install a libddsc 0.10 (Debian, Ubuntu, Raspberry Pi OS: libddsc0debian)"
-    return (
-        f"{install}; or take Zenoh: pip install 'turtlewire[zenoh]' and "
-        "RMW_IMPLEMENTATION=rmw_zenoh_cpp; or RMW_IMPLEMENTATION=local inside one process."
-    )
+    raise error.with_hint(". ".join([*refused, advice(here)]))
 
 
 def _load() -> tuple[ctypes.CDLL, ctypes.PyDLL]:

@@ -6,6 +6,7 @@ import re
 from importlib import import_module
 
 from turtlewire.errors import WireError
+from turtlewire.wire.wheels import advice, this_platform
 
 __all__ = ["reason_of", "require_zenoh"]
 
@@ -21,7 +22,7 @@ def require_zenoh() -> None:
         import_module("xxhash")
     except ImportError as error:
         failed = WireError(f"Zenoh is not available: {error}")
-        raise failed.with_hint("Install it: pip install 'turtlewire[zenoh]'") from error
+        raise failed.with_hint(advice(this_platform())) from error
 
 
 def reason_of(error: Exception) -> str:
