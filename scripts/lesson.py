@@ -25,6 +25,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "site" / "lesson"
+WHEEL_CACHE = ROOT / "build" / "lesson-wheels"
 NPM_CACHE = ROOT / "build" / "npm"
 TURTLESIM_PAGE = ROOT / "ros" / "turtlesim" / "page"
 #: Ours, and how each is built without a compiler.
@@ -130,8 +131,30 @@ def _fetched(package: dict[str, Any]) -> Path:
 
 
 def _build_wheels(folder: Path) -> None:
-    """Build our wheels as they are for a platform without a compiler."""
-    _made(folder)
+    """Copy our wheels, built as for a platform without a compiler; the last ones are kept."""
+    kept = WHEEL_CACHE / _fingerprint()
+    if not kept.exists():
+        shutil.rmtree(WHEEL_CACHE, ignore_errors=True)
+        with tempfile.TemporaryDirectory(dir=_made(WHEEL_CACHE)) as fresh:
+            _build_wheels_into(Path(fresh))
+            shutil.copytree(fresh, kept)
+    shutil.copytree(kept, folder)
+
+
+def _fingerprint() -> str:
+    """Hash of all that goes into our wheels."""
+    digest = hashlib.sha256((ROOT / "pyproject.toml").read_bytes())
+    for room in ("src", "ros", "ros2_ws/src"):
+        for path in sorted((ROOT / room).rglob("*")):
+            parts = path.relative_to(ROOT).parts
+            is_product = "__pycache__" in parts or any(part.endswith(".egg-info") for part in parts)
+            if path.is_file() and not is_product and path.suffix not in {".so", ".pyd"}:
+                digest.update(str(path.relative_to(ROOT)).encode())
+                digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _build_wheels_into(folder: Path) -> None:
     for project, options in WHEELS:
         command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", str(folder)]
         done = subprocess.run(

@@ -67,6 +67,15 @@ def test_the_page_sees_turtles_frames_and_messages(open_session):
     assert 7.0 < texts["echo"]["seconds"] <= 8.0
 
 
+def test_a_topic_is_echoed_as_soon_as_a_node_publishes_it(open_session):
+    # Its name stays in the page when another lesson is opened, where only turtlesim subscribes it.
+    session = open_session("static")
+    wishes = json.dumps({"topic": "/turtle1/cmd_vel"})
+    assert texts_of(session, 1.0, wishes)["echo"]["topic"] == ""
+    drive = json.dumps({"topic": "/turtle1/cmd_vel", "drive": [["turtle1", 2.0, 0.0]]})
+    assert texts_of(session, 2.0, drive)["echo"]["topic"].startswith("linear:\n  x: 2.0")
+
+
 def test_commands_drive_turtle1(open_session):
     session = open_session("listener")
     scene = json.loads(session.step(1, "{}")[0])

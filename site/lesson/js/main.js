@@ -14,6 +14,7 @@ const ENDLESS = {
   text: "The code was stopped: it did not come to an end.",
   hint: "A callback must return, and main() must reach rclpy.spin: use a timer instead of a loop.",
 };
+const NARROW = matchMedia("(max-width: 760px)"); // as in style.css
 const byId = (id) => document.getElementById(id);
 
 const status = (state, text) => {
@@ -39,7 +40,10 @@ class Page {
   constructor(lessons, runtime) {
     this.#lessons = lessons;
     this.#runtime = runtime;
-    byId("run").onclick = () => this.run();
+    byId("run").onclick = () => {
+      if (NARROW.matches) byId("field").scrollIntoView({ behavior: "smooth", block: "center" });
+      return this.run();
+    };
     byId("reset").onclick = () => this.#startOver();
     listenForDriving(byId("pad"), ({ linear, angular }) => {
       this.#commands.push([DRIVEN, linear, angular]);

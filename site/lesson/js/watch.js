@@ -8,23 +8,34 @@ const byId = (id) => document.getElementById(id);
 export class Watch {
   #frames = new FramesPanel((chosen) => (this.#chosen = chosen ?? {}));
   #chosen = {};
+  #first = {};
+  #lesson = {};
   #lines = [];
   #topics = "";
   #firstTopic = "";
+  #offered = [];
+  #hidden = null;
+  #onFaults;
 
   /** `examine()` asks for the doctor's report; `onFaults()` after a fault was switched. */
   constructor(examine, onFaults) {
+    this.#onFaults = onFaults;
     byId("examine").onclick = () => {
       byId("doctor").textContent = "Listening for two seconds …";
       examine();
     };
-    byId("faults").addEventListener("change", onFaults);
+    byId("faults").addEventListener("change", ({ target }) => this.#choose(target));
+    byId("surprise").onclick = () => this.#surprise();
     byId("log").addEventListener("keydown", (event) => event.stopPropagation());
   }
 
   /** Another lesson: which topic to echo first, and which faults there are. */
-  open({ topic, faults }) {
+  open({ topic, faults, target, source }) {
+    this.#lesson = { target, source };
     this.#firstTopic = topic || "/turtle1/pose";
+    this.#offered = faults;
+    this.#hidden = null;
+    byId("guess").textContent = "";
     byId("faults-card").hidden = !faults.length;
     byId("faults").replaceChildren(...faults.map(({ name, label }) => {
       const [row, box] = [document.createElement("label"), document.createElement("input")];
@@ -37,7 +48,30 @@ export class Watch {
 
   /** Names of the faults that are switched on. */
   get faults() {
-    return [...byId("faults").querySelectorAll(":checked")].map(({ value }) => value);
+    return this.#hidden ? [this.#hidden.name] : this.#checked().map(({ value }) => value);
+  }
+
+  #checked() {
+    return [...byId("faults").querySelectorAll(":checked")];
+  }
+
+  /** Switch a fault on that the student has to find; the boxes are for the answer then. */
+  #surprise() {
+    for (const box of this.#checked()) box.checked = false;
+    this.#hidden = this.#offered[Math.floor(Math.random() * this.#offered.length)];
+    byId("guess").textContent = "One of these faults is on. Find it, and tick it.";
+    this.#onFaults();
+  }
+
+  #choose(box) {
+    if (!this.#hidden) this.#onFaults();
+    else if (box.value === this.#hidden.name) {
+      byId("guess").textContent = `Found. ${this.#hidden.label}. It is still on: untick it.`;
+      this.#hidden = null;
+    } else {
+      box.checked = false;
+      byId("guess").textContent = "It is not that one. What do tree, doctor and log say?";
+    }
   }
 
   /** What Python shall look at in the next step. */
@@ -47,13 +81,25 @@ export class Watch {
 
   clear() {
     this.#lines = [];
+    this.#first = { ...this.#lesson };
     for (const id of ["log", "topic-echo", "tf-echo", "doctor"]) byId(id).textContent = "";
   }
 
   show(message) {
-    if (message.type === "tf") this.#frames.show(message);
+    if (message.type === "tf") this.#showFrames(message);
     else if (message.type === "echo") this.#echo(message);
     else if (message.type === "doctor") byId("doctor").textContent = message.text;
+  }
+
+  /** The lesson's two frames are chosen as soon as they are there; then the choice is free. */
+  #showFrames(message) {
+    this.#frames.show(message);
+    for (const [id, frame] of Object.entries(this.#first)) {
+      if (![...byId(id).options].some(({ value }) => value === frame)) continue;
+      byId(id).value = frame;
+      delete this.#first[id];
+      this.#frames.watch();
+    }
   }
 
   log({ text }) {

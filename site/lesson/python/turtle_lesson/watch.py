@@ -54,16 +54,18 @@ class TopicEcho:
         return "" if self._newest is None else f"{message_to_yaml(self._newest)}---"
 
     def _change(self, topic: str) -> None:
-        types = dict(self._node.get_topic_names_and_types()).get(topic)
+        publishers = self._node.get_publishers_info_by_topic(topic) if topic else []
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
         self._newest = None
-        self._topic = topic if types else ""  # asked for again until somebody publishes it
-        if types:
-            publishers = self._node.get_publishers_info_by_topic(topic)
+        self._topic = topic if publishers else ""  # asked for again until a node publishes it
+        if publishers:
             self._subscription = self._node.create_subscription(
-                get_message(types[0]), topic, self._take, publishers[0].qos_profile
+                get_message(publishers[0].topic_type),
+                topic,
+                self._take,
+                publishers[0].qos_profile,
             )
 
     def _take(self, message: Any) -> None:

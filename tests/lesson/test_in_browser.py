@@ -1,0 +1,209 @@
+"""The lesson in Chromium: Python in the tab, without a network once it is loaded."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from turtle_lesson.lesson import load_lesson
+
+from .conftest import wait_until_loaded
+from .wrong_answers import WRONG_ANSWERS
+
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
+LESSONS = Path(__file__).parents[2] / "site" / "lesson" / "lessons"
+ORDER = json.loads((LESSONS / "order.json").read_text(encoding="utf-8"))
+LISTENER = "turtle_tf2_listener.py"
+
+
+def hand_in(page, lesson, files):
+    """Open a lesson with these files in the editors, as if they had been typed, and run it."""
+    page.evaluate(
+        """([lesson, files]) => {
+            const kept = JSON.parse(localStorage.getItem("turtlewire-lesson") ?? "{}");
+            kept.files = { ...kept.files, [lesson]: files };
+            localStorage.setItem("turtlewire-lesson", JSON.stringify(kept));
+            location.hash = "";
+        }""",
+        [lesson, files],
+    )
+    page.evaluate("(lesson) => { location.hash = lesson; }", lesson)
+    page.wait_for_function(
+        "(files) => [...document.querySelectorAll('#tabs button')]"
+        ".every((tab) => tab.textContent in files)",
+        arg=files,
+    )
+
+
+def check(page):
+    """Press `Check my solution`; each result as (passed, texts)."""
+    page.click("#check")
+    page.wait_for_function("document.getElementById('check').disabled")
+    page.wait_for_function("!document.getElementById('check').disabled")
+    return page.eval_on_selector_all(
+        "#results li", "(items) => items.map((item) => [item.dataset.passed, item.textContent])"
+    )
+
+
+def listener_with(old, new):
+    files = load_lesson(LESSONS / "listener").sources("starter")
+    assert old in files[LISTENER]
+    return {**files, LISTENER: files[LISTENER].replace(old, new)}
+
+
+def wait_for_words(page, pattern):
+    """Wait until the sentence about turtle1 and turtle2 matches."""
+    page.wait_for_function(
+        "(pattern) => new RegExp(pattern).test("
+        "document.getElementById('relation-words').textContent)",
+        arg=pattern,
+    )
+
+
+def test_it_runs_offline_and_grades_all_lessons(open_page, host):
+    page = open_page("listener")
+    assert page.evaluate("crossOriginIsolated")
+    page.context.set_offline(True)
+    host.close()
+    page.reload()
+    wait_until_loaded(page)
+    for name in ORDER:
+        lesson = load_lesson(LESSONS / name)
+        hand_in(page, name, lesson.sources("solution"))
+        results = check(page)
+        assert len(results) >= 3
+        assert all(passed == "yes" for passed, _ in results), results
+        assert page.is_visible("#verdict")
+        for wrong in [wrong for wrong in WRONG_ANSWERS if wrong.lesson == name]:
+            hand_in(page, name, wrong.files(lesson))
+            passed, text = check(page)[-1]
+            assert passed == "no", wrong
+            assert re.search(wrong.hint, text), (wrong, text)
+    solved = page.eval_on_selector_all("#lessons a[data-solved]", "(links) => links.length")
+    assert solved == len(ORDER)
+
+
+def test_turtle2_follows_and_the_arrow_keys_drive(open_page):
+    page = open_page("listener")
+    wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
+    page.locator("#clock").click()
+    page.keyboard.press("ArrowUp")
+    wait_for_words(page, r"^turtle1 is 1\.\d+ m ahead")
+    tree = page.text_content("#tree")
+    assert "turtle1" in tree
+    assert "Hz" in tree
+    page.locator("summary", has_text="tf2_echo").click()
+    page.wait_for_function(
+        "document.getElementById('tf-echo').textContent.includes('- Translation: [')"
+    )
+    page.locator("summary", has_text="ros2 topic echo").click()
+    page.select_option("#topic", "/turtle1/pose")
+    page.wait_for_function(
+        "document.getElementById('topic-echo').textContent.includes('linear_velocity')"
+    )
+
+
+def test_keys_in_the_editor_are_for_the_editor(open_page):
+    page = open_page("listener")
+    page.click("#editors .cm-content")
+    page.keyboard.press("Control+Home")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.type("# typed ")
+    assert page.text_content("#editors .cm-line:nth-child(2)").startswith("# typed import math")
+    page.reload()
+    wait_until_loaded(page)
+    assert "# typed import math" in page.text_content("#editors .cm-content")
+    page.click("#reset")
+    page.wait_for_function(
+        "!document.querySelector('#editors .cm-content').textContent.includes('typed')"
+    )
+
+
+def test_a_mistake_is_marked_at_its_line(open_page):
+    page = open_page("listener")
+    hand_in(page, "listener", listener_with("msg = Twist()", "msg = Twits()"))
+    page.wait_for_selector("#mistake:not([hidden])")
+    text = page.text_content("#mistake")
+    assert text.startswith(f"{LISTENER}, line 54: NameError: name 'Twits' is not defined")
+    assert "Import the name" in text
+    marked = page.locator("#editors .cm-lintRange-error:visible")
+    assert marked.text_content() == "msg = Twits()"
+    assert page.text_content("#status") == "stopped"
+
+
+@pytest.mark.parametrize("where", ["callback", "start", "check"])
+def test_an_endless_loop_is_stopped_and_the_tab_lives_on(open_page, where):
+    page = open_page("listener")
+    if where == "start":
+        files = listener_with("node = TurtleTF2Listener()", "while True: pass")
+    else:
+        files = listener_with("msg = Twist()", "\n        while True: pass")
+    if where == "check":
+        page.evaluate("window.before = true")
+    hand_in(page, "listener", files)
+    page.wait_for_selector("#mistake:not([hidden])")
+    assert "did not come to an end" in page.text_content("#mistake")
+    if where == "check":
+        passed, text = check(page)[-1]
+        assert passed == "no"
+        assert "did not come to an end" in text
+    page.click("#reset")
+    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    wait_for_words(page, r"^turtle1 is 0\.\d+ m ahead")
+
+
+def test_code_that_swallows_the_interrupt_is_stopped_by_another_worker(open_page):
+    page = open_page("listener")
+    loop = (
+        "\n        while True:\n            try:\n                while True: pass\n"
+        "            except BaseException: pass"
+    )
+    hand_in(page, "listener", listener_with("msg = Twist()", loop))
+    page.wait_for_selector("#mistake:not([hidden])")
+    page.click("#reset")
+    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+
+
+def test_faults_show_in_the_tree_and_the_doctor_names_them(open_page):
+    page = open_page("faults")
+    page.wait_for_function("document.getElementById('tree').textContent.includes('turtle2')")
+    page.check("#faults input[value=two_publishers]")
+    page.locator("summary", has_text="turtlewire doctor").click()
+    page.wait_for_function("document.getElementById('status').textContent === 'running'")
+    page.click("#examine")
+    page.wait_for_function(
+        "document.getElementById('doctor').textContent.includes('second_broadcaster')"
+    )
+    page.uncheck("#faults input[value=two_publishers]")
+    page.check("#faults input[value=delay]")
+    page.wait_for_selector("#tree li[data-kind=stale]")
+
+
+def test_a_hidden_fault_is_guessed(open_page):
+    page = open_page("faults")
+    page.evaluate("Math.random = () => 0.99")  # the last of the list
+    page.click("#surprise")
+    page.click("#faults input[value=delay]")
+    assert "not that one" in page.text_content("#guess")
+    page.check("#faults input[value=two_publishers]")
+    assert "Two publishers" in page.text_content("#guess")
+    page.click("#surprise")  # another one
+    assert page.locator("#faults input:checked").count() == 0
+
+
+def test_the_weight_is_said_and_small_enough(built):
+    manifest = json.loads((built / "manifest.json").read_text(encoding="utf-8"))
+    assert manifest["compressed"] <= 15_000_000
+    named = {file["path"] for file in manifest["files"]}
+    there = {path.relative_to(built).as_posix() for path in built.rglob("*") if path.is_file()}
+    assert there - named == {"manifest.json", "sw.js"}
+
+
+def test_it_says_what_to_do_when_it_is_opened_as_a_file(browser, built):
+    page = browser.new_page()
+    page.goto((built / "index.html").as_uri())
+    assert "python3 -m http.server" in page.text_content("#loading-text")
+    page.close()
